@@ -142,8 +142,8 @@ def exists(name: str) -> bool:
     known = max(at for at in range(1, len(parts) + 1) if ".".join(parts[:at]) in modules())
     try:
         thing: object = importlib.import_module(".".join(parts[:known]))
-    except MissingExtraError:  # the module is there, and the library that it imports is not installed
-        return known == len(parts)
+    except MissingExtraError:  # the module exists, and the library that it imports is not installed
+        return True
     for part in parts[known:]:
         if not hasattr(thing, part):
             return False

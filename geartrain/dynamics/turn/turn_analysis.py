@@ -253,12 +253,12 @@ class _Answer:
 
     def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
         asked = ", ".join(self.run.train.asked)
-        if shared := self.run.train.shared:
-            text = f"how {', '.join(shared)} share their load is not determined: redundant pairs; `share` declares it"
-            return TorqueVerdict("indeterminate", f"{text}; the least torques that balance are given", shared)
         if locked:
             text = f"no torque on {asked} balances over {locked:.4%} of the run: the train locks there"
             return TorqueVerdict("self-locking", text)
+        if shared := self.run.train.shared:
+            text = f"how {', '.join(shared)} share their load is not determined: redundant pairs; `share` declares it"
+            return TorqueVerdict("indeterminate", f"{text}; the least torques that balance are given", shared)
         if ambiguous:
             text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
             return TorqueVerdict("ambiguous", f"{text}; the one that loses least is given")

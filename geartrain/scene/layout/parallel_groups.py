@@ -21,7 +21,8 @@ import numpy as np
 from geartrain.numerics.graphs import DisjointSets
 from geartrain.numerics.vectors import Vector, dot, plus
 from geartrain.scene.layout.declared_geometry import AxisLine, Parallels, PinSlotTie, Point, upwards
-from geartrain.scene.layout.plan_search import plan_axes, plan_problem
+from geartrain.scene.layout.plan_problem import plan_problem
+from geartrain.scene.layout.plan_search import plan_axes
 from geartrain.scene.layout.swept_overlap import SweptDistances, WheelBlock, find_plan_overlap, swept_distances
 from geartrain.scene.layout.wheel_modules import CrossingSide, SizedGeometry
 from geartrain.scene.layout.wheel_reach import bare_reach

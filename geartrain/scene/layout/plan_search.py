@@ -12,162 +12,21 @@ algorithm) give those bounds. The cost of a place is how much wheels of parallel
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
-from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.numerics.graphs import DisjointSets
-from geartrain.numerics.vectors import Vector
-from geartrain.scene.layout.declared_geometry import DeclaredGeometry, Parallels, Point
-from geartrain.scene.layout.wheel_modules import CrossingSide, SizedGeometry
+from geartrain.scene.layout.declared_geometry import Point
+from geartrain.scene.layout.plan_problem import PlanDisc, PlanProblem
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
 # Distances that nothing declares, over radii of the wheels: near enough to look held together, far enough to be seen
-_ENCLOSED = 0.12  # of a slot's axis from that of a pin whose circle encloses it
-_TIED = 1.6  # of other pins and slots
-_CARRIED = 1.2  # of an axis from that of its carrier
-
-
-@dataclass(frozen=True, slots=True)
-class PlanDisc:
-    """A wheel in plan: out to `outer` (mm), of a ring from `inner` on; wheels of one cluster share a level."""
-
-    wheel: str
-    cluster: int
-    inner: float
-    outer: float
-
-
-@dataclass(frozen=True)
-class PlanProblem:
-    """What is asked of a plan."""
-
-    labels: Sequence[str]
-    """Axes."""
-    bearers: Mapping[str, str]
-    """The link that bears each."""
-    pivots: Mapping[str, str]
-    """Axes of carriers, which are placed before what they carry."""
-    fixed: Mapping[str, Point]
-    """Points that are given."""
-    distances: Mapping[tuple[str, str], float]
-    """Of pairs of axes (mm)."""
-    discs: Mapping[str, Sequence[PlanDisc]]
-    """Wheels of each axis, as far as they stand upright."""
-    mates: frozenset[frozenset[str]]
-    """Pairs of wheels that mesh."""
-    rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
-    """Pairs of axes that must stand in a row, and its direction."""
-    sides: Mapping[str, Point] = field(default_factory=dict)
-    """Directions in which an axis has a wheel across, best on the outside."""
-    places: Mapping[str, int] = field(default_factory=dict)
-    """Axis -> the number of places round its pivot at which its teeth meet both its mates."""
-
-    def radius(self, label: str) -> float:
-        """That an axis needs for its widest wheel (mm)."""
-        return max((disc.outer for disc in self.discs.get(label, ())), default=0.0)
-
-
-def plan_problem(
-    geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
-) -> PlanProblem:
-    """The problem of some parallels of which `fixed` have their points; `standing`, points of axes placed before."""
-    declared, labels = geometry.declared, list(parallels.index)
-    discs: dict[str, list[PlanDisc]] = {label: [] for label in labels}
-    for wheel, axis in declared.axis.items():
-        if axis in discs:
-            size = geometry.sizes[wheel]
-            discs[axis].append(PlanDisc(wheel, geometry.modules.cluster[wheel], size.inner, size.outer))
-    pivots = {line.label: line.pivots[0] for line in parallels.lines if line.pivots}
-    forced = {pair: far for pair, far in geometry.modules.distances.items() if parallels.index.keys() >= set(pair)}
-    radius = {label: max((disc.outer for disc in discs[label]), default=1.0) for label in labels}
-    chosen = _chosen_distances(declared, forced, pivots, radius)
-    crossing = [each for each in geometry.crossing if each.side.axis in parallels.index]
-    return PlanProblem(
-        labels,
-        {line.label: line.bearers[0] for line in parallels.lines},
-        pivots,
-        fixed,
-        {**forced, **chosen},
-        discs,
-        frozenset(frozenset(contact.wheels) for contact in declared.contacts),
-        dict(_rows(declared, parallels, crossing)),
-        dict(_sides(declared, parallels, [each for each in crossing if each.side.mate_axis not in standing])),
-        dict(_assembly_places(declared, parallels)),
-    )
-
-
-def _chosen_distances(
-    declared: DeclaredGeometry,
-    forced: Mapping[tuple[str, str], float],
-    pivots: Mapping[str, str],
-    radius: Mapping[str, float],
-) -> dict[tuple[str, str], float]:
-    """Distances for pins without dimensions, and for carried axes that no distance ties to their carrier's."""
-    found: dict[tuple[str, str], float] = {}
-    joined: DisjointSets[str] = DisjointSets()
-    for pair in forced:
-        joined.join(*pair)
-    for tie in declared.ties:
-        pair = tie.axis_pair
-        if tie.offset is None and radius.keys() >= set(pair) and pair not in forced and pair not in found:
-            if tie.encloses:
-                found[pair] = _ENCLOSED * min(radius[end] for end in pair)
-            elif joined.are_apart(*pair):
-                found[pair] = _TIED * radius[tie.axes[0]]
-            joined.join(*pair)
-    for label, pivot in pivots.items():
-        if pivot in radius and joined.are_apart(label, pivot):
-            pair = min(label, pivot), max(label, pivot)
-            found[pair] = _CARRIED * (radius[label] + min(radius[pivot], radius[label]))
-            joined.join(label, pivot)
-    return found
-
-
-def _rows(
-    declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
-) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Axes that one axis across meets stand in a row along it; a worm only passes its wheel's axis."""
-    met: dict[str, list[str]] = {}
-    for each in crossing:
-        if each.contact.kind != "screw":
-            met.setdefault(each.side.mate_axis, []).append(each.side.axis)
-    for across, ends in met.items():
-        u, v = parallels.flat(declared.lines[across].direction)
-        length = hypot(u, v)
-        for first, second in pairwise(dict.fromkeys(ends)):
-            yield (first, second), (u / length, v / length)
-
-
-def _sides(
-    declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
-) -> Iterator[tuple[str, Point]]:
-    for each in crossing:
-        u, v = parallels.flat(declared.lines[each.side.mate_axis].direction)
-        sense = 1.0 if each.mate_seat.far > 0 else -1.0
-        yield each.side.axis, (sense * u, sense * v)
-
-
-def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Planets between a sun and a ring: teeth meet in as many places as both have teeth together."""
-    counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
-    for contact in declared.contacts:
-        for side in contact.sides:
-            pivots = declared.lines[side.axis].pivots
-            if side.axis in parallels.index and pivots and pivots[0] == side.mate_axis and contact.parallel:
-                mate = contact.kind, declared.count(side.mate)
-                counts.setdefault((side.axis, side.wheel), []).append(mate)
-    for (axis, _), mates in counts.items():
-        last = dict(mates)  # the last of each kind
-        if len(last) == 2:
-            yield axis, last["side"] + last["ring"]
 
 
 # ------------------------------------------------------------------------------------------------------- plan clearance

@@ -23,7 +23,7 @@ from geartrain.report.soundness import find_soundness
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 from geartrain.scene.layout.declared_geometry import Parallels, Point, read_geometry
-from geartrain.scene.layout.plan_search import PlanProblem, plan_problem
+from geartrain.scene.layout.plan_problem import PlanProblem, plan_problem
 from geartrain.scene.layout.wheel_modules import size_geometry
 from geartrain.train.declaration_files import shipped
 from geartrain.train.trade_words import told_words

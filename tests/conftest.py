@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 from collections import Counter
@@ -18,6 +19,9 @@ from geartrain import GearTrain, GearTrainError, load
 # none of the above loads numpy; matrices here are small, and threads waiting for each other cost four times their work
 for _library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+# pytest keeps a few hundred thousand objects: to look through them at every 700 new ones takes a sixth of the time
+gc.set_threshold(100_000, 50, 100)
 
 PASSED = "geartrain/passed"  # key of pytest's cache
 FEW = 300  # random samples without --slow

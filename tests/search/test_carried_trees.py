@@ -33,8 +33,8 @@ def test_trains_are_those_that_grow_in_the_frame(seeds: range, rings: bool, subt
 
 @pytest.mark.parametrize("rings", [False, True])
 def test_most_random_questions_have_answers(rings: bool) -> None:
-    answered = [any(grown(seed, rings)) for seed in range(50)]
-    assert sum(answered) > 25
+    answered = [any(grown(seed, rings)) for seed in range(30)]
+    assert sum(answered) > 15
 
 
 @pytest.mark.parametrize("rings", [False, True])

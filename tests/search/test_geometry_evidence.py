@@ -291,7 +291,7 @@ def _orders_against_all_permutations(seed: int) -> None:
 # pruning
 
 
-@pytest.mark.parametrize("seeds", [range(35), pytest.param(range(35, 70), marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", [range(20), pytest.param(range(20, 70), marks=pytest.mark.slow)])
 def test_pairs_kept_apart_lose_no_possible_candidate(seeds: range) -> None:
     """Random questions with random places: what is possible is the same with the pairs and without."""
     refused = possible = 0
@@ -316,8 +316,8 @@ def test_pairs_kept_apart_lose_no_possible_candidate(seeds: range) -> None:
         assert {*able} == {one.arbor for one in fewer if candidate_likelihood(one.arbor, geometry)}, seed
         refused += len(every) - len(able)
         possible += len(able)
-    assert refused > 20
-    assert possible > 20
+    assert refused > 10
+    assert possible > 10
 
 
 # from evidence

@@ -7,14 +7,14 @@ from fractions import Fraction
 import pytest
 from concrete_trees import concrete, random_problem, with_rings
 from joined_trees import explanations_with_couplings, group, parted
-from sampling import all_but
+from sampling import first_few
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.search.reconstruct import candidate_train, evidence_question, find_reconstructions, read_evidence
 from geartrain.search.reconstruct.link_roles import join_arbors
 
 
-@pytest.mark.parametrize("start", all_but({0, 80, 220}, range(0, 300, 20)))
+@pytest.mark.parametrize("start", first_few(5, [*range(20, 300, 20), 0]))
 def test_small_questions_with_couplings_have_the_answers_of_plain_growth(start: int) -> None:
     answered = 0
     for seed in range(start, start + 20):

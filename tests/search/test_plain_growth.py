@@ -9,7 +9,7 @@ from fractions import Fraction
 
 import pytest
 from concrete_trees import Found, concrete, explanations, meshes, random_problem, with_rings
-from sampling import all_but
+from sampling import first_few
 
 from geartrain.search.reconstruct import ReconstructionProblem, find_reconstructions
 
@@ -27,13 +27,13 @@ def grown_alike(problem: ReconstructionProblem, seed: int) -> tuple[Found, ...]:
     return right
 
 
-@pytest.mark.parametrize("start", all_but({0, 80, 220}, range(0, 400, 20)))
+@pytest.mark.parametrize("start", first_few(5, [*range(20, 400, 20), 0]))
 def test_small_questions_have_the_answers_of_plain_growth(start: int) -> None:
     for seed in range(start, start + 20):
         grown_alike(random_problem(seed, idlers=True), seed)
 
 
-@pytest.mark.parametrize("start", all_but({1100, 1140, 1200}, range(1000, 1300, 20)))
+@pytest.mark.parametrize("start", first_few(4, range(1000, 1300, 20)))
 def test_small_questions_with_rings_have_the_answers_of_plain_growth(start: int) -> None:
     turning = 0
     for seed in range(start, start + 20):
@@ -64,7 +64,7 @@ def exact_problem(seed: int) -> ReconstructionProblem:
     return replace(problem, dials=dials, arbors=tuple(arbors))
 
 
-@pytest.mark.parametrize("first", range(2000, 2200, 20))
+@pytest.mark.parametrize("first", first_few(4, range(2000, 2200, 20)))
 def test_exact_questions_have_the_answers_of_plain_growth(first: int) -> None:
     right = [grown_alike(exact_problem(seed), seed) for seed in range(first, first + 20)]
     assert sum(any(each.mechanisms for each in found) for found in right) > 5

@@ -192,9 +192,18 @@ def step_to_separation(
     Examples
     --------
     >>> import geartrain
-    >>> train = geartrain.load("moon-triangular-inertia")
-    >>> step_to_separation(train.mechanics, turns=0.01, steps=2000).pair
-    'd2~e'
+    >>> train = geartrain.load('''
+    ... links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {q: 36}, inertia: 1 kg mm2}}
+    ... revolutes: {A: [frame, a], B: [frame, b]}
+    ... gears: [p ~ q]
+    ... tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+    ... friction: 0.1
+    ... loads: {b: -1 N mm}
+    ... inputs: {a: 1 rpm}
+    ... ''')
+    >>> found = step_to_separation(train.mechanics, turns=0.05, steps=500)
+    >>> found.pair, round(found.rate, 3)
+    ('p~q', 4.47)
     """
     from geartrain.simulation.contacts.inertial_contacts import loads_with_drive
     from geartrain.simulation.contacts.separation_rate import find_separation

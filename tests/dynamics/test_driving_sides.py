@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 import shipped
 from commands import call
-from hypothesis import settings
 from joint_rates import Row, Skeleton, Space, inputs_of, move, rigid, sides
 from random_trains import RandomTrain, driven_train
+from sampling import few_or_many
 from test_energy import lossy
 
 from geartrain import GearTrain, load
@@ -27,7 +27,7 @@ from geartrain.dynamics.torques.torque_analysis import find_idle_pairs
 TOOTHED = ["pennestri-2002-teeth", "moon-triangular", "freeth-2021-teeth", "planetary-24-18-60-involute"]
 TOOTHED += ["bevel-differential-involute", "lantern-mill", "sorge-pairs", "longcase-clock-cycloidal"]
 
-SAMPLE = 60 if settings().derandomize else 100  # random trains; `--slow` takes more
+SAMPLE = few_or_many(60, 100)  # random trains; `--slow` takes more
 
 # ------------------------------------------------------------------------------------------------ behind a carrier
 

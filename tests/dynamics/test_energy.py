@@ -15,11 +15,11 @@ from typing import Any
 
 import pytest
 import shipped as catalogue
-from hypothesis import settings
 from models import torque_figures
 from random_trains import driven_train
 from reference_solver import echelon, pair_name, rigid_rows, solve_naively, turning_graph, wheel_table
 from reference_solver import find_carrier as carrier_of
+from sampling import few_or_many
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import Torques, find_power_flow
@@ -27,7 +27,7 @@ from geartrain.teeth import TransmissionFunction
 
 Data = dict[str, Any]
 
-SAMPLE = 170 if settings().derandomize else 400  # random trains a law; `--slow` takes more
+SAMPLE = few_or_many(170, 400)  # random trains a law; `--slow` takes more
 
 
 def speeds_along(train: GearTrain, found: Torques) -> dict[str, Fraction]:

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from reference_solver import rank_of, solve_naively, willis_rows
+from sampling import few_or_many
 from strategies import (
     Data,
     asked_trains,
@@ -25,7 +26,7 @@ from strategies import (
 from geartrain import Answer, GearTrain
 
 # trains from seeds (test_random_trains.py) hold most of these laws too; `--slow` draws new examples, and twice as many
-some = settings(max_examples=30 if settings().derandomize else 60)
+some = settings(max_examples=few_or_many(30, 60))
 
 
 def solved(data: Data) -> Answer:

@@ -11,13 +11,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference_solver import echelon
+from sampling import few_or_many
 from scipy.optimize import linprog
 
 from geartrain.numerics import decimal
 from geartrain.numerics.elimination import PRIME, TooDenseError, add_into, eliminate, feasible, rank_modulo, residues
 from geartrain.numerics.exact import as_float, coprime, log10, percent_of_text, percent_text, watts_text
 
-SAMPLE = 30 if settings().derandomize else 60  # systems of each law; `--slow` draws new ones, and twice as many
+SAMPLE = few_or_many(30, 60)  # systems of each law; `--slow` draws new ones, and twice as many
 coefficients = st.fractions(min_value=-5, max_value=5, max_denominator=4)
 
 

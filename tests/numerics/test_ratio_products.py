@@ -12,13 +12,14 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 from studies.train_families import drift
 
 from geartrain import GearTrain
 from geartrain.numerics.factored_ratios import FactoredRatios, product_of_powers
 
 factors = st.integers(1, 10**12).flatmap(lambda n: st.sampled_from([n, -n])) | st.sampled_from([-36, 24, 997])
-SAMPLE = 20 if settings().derandomize else 60  # trees of a thousand numbers; `--slow` draws new ones, and more
+SAMPLE = few_or_many(20, 60)  # trees of a thousand numbers; `--slow` draws new ones, and more
 ROUGH = [1009 * 1013, 1013 * 1019, 1009 * 1019, 1009**2]
 
 

@@ -17,6 +17,7 @@ from hypothesis import given, settings
 from models import pair, planetary
 from reference_solver import _dense as solve_rows
 from reference_solver import solve_naively, turning_graph, willis_rows
+from sampling import few_or_many
 from strategies import asked_trains, driven_trains, rerooted
 
 from geartrain import GearTrain, load
@@ -25,7 +26,7 @@ from geartrain.scene.bodies import find_bodies
 from geartrain.scene.context import SceneContext
 from geartrain.scene.pose import scene_pose
 
-SAMPLE = 20 if settings().derandomize else 40  # `--slow` draws new trains, and twice as many
+SAMPLE = few_or_many(20, 40)  # `--slow` draws new trains, and twice as many
 SHIPPED = [
     ("freeth-2021", None),
     ("freeth-2021-teeth", None),

@@ -15,7 +15,7 @@ from geartrain.search import TargetRatio, approximants, read_counts, read_ratio
 from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.stern_brocot import nearest_first, neighbours, runs
 
-SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 ROOT = Fraction(math.isqrt(2 * 10**400), 10**200)  # the square root of two, to 200 decimals

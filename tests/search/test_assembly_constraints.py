@@ -25,7 +25,7 @@ from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import read_constraint_options
 from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
 
-SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 
 Data = dict[str, Any]
 

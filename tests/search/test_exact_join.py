@@ -25,7 +25,7 @@ from geartrain.search.join.product_lists import Item, ItemRecipe, forecast
 from geartrain.search.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
 from geartrain.search.train.search_passes import AssignmentOrder, BestAssignments, PassWork, do_task, merged
 
-SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 Terms = tuple[tuple[int, tuple[int, ...]], ...]
 
 

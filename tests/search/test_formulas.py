@@ -28,7 +28,7 @@ from geartrain.kinematics.formulas.output_formulas import Formulas, find_formula
 from geartrain.kinematics.formulas.rational_functions import Formula, MonomialGroup, make_formula
 from geartrain.train import Train, declare
 
-SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 
 ANY = (1,)
 """Allowed counts where only the formula is asked for."""

@@ -23,7 +23,7 @@ from geartrain.search.ratio import search_segments as stages_work
 from geartrain.search.ratio.product_windows import cuts, errors
 from geartrain.search.ratio.stage_problem import best_pairing, suited
 
-SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 Set = tuple[int, ...]
 MONTH = Fraction("13.368267")
 ORDERS = ["error", "total", "largest", "distinct", "hunting", "centres"]

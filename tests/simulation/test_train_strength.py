@@ -11,6 +11,7 @@ import pytest
 from commands import ended
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
@@ -62,7 +63,7 @@ def one() -> PairStrength:
     return geartrain.load(PAIR).strength().pairs["p~w"]
 
 
-@settings(max_examples=6)
+@settings(max_examples=few_or_many(6, 25))
 @given(st.floats(0.01, 50), st.floats(0.2, 10))
 def test_scaling(one: PairStrength, more: float, wider: float) -> None:
     train = PAIR.replace("60 N m", f"{60 * more:.12f} N m").replace("20 mm", f"{20 * wider:.12f} mm")

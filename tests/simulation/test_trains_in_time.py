@@ -208,6 +208,7 @@ def test_figures_say_how_far_a_mean_is_known_and_what_depends_on_the_step() -> N
         assert not each.settled or each.kind == "extreme" or not each.unit or each.interval <= 0.05 * abs(each.fine)
 
 
+@pytest.mark.slow
 def test_figures_of_a_part_of_a_turn_have_no_interval() -> None:
     few = load("moon-triangular-inertia").dynamics(rate="0.3 turn/s", turns=0.1, steps=4000, fast=False)
     assert all(each.interval is None for each in few.figures)

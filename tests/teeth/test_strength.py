@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 
 import geartrain
 from geartrain.errors import RangeError
@@ -107,7 +108,7 @@ def test_the_forces_of_all_couples_balance_the_torque(position: float) -> None:
     assert len(load.couples(X)) == count
 
 
-@settings(max_examples=20)
+@settings(max_examples=few_or_many(20, 60))
 @given(st.floats(0.5, 8), st.floats(0.1, 30))
 def test_pressure_goes_with_the_root_of_force_and_the_inverse_of_size(scale: float, more: float) -> None:
     law = Involute(form="involute").law(20, 40)

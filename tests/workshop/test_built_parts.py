@@ -265,6 +265,7 @@ def test_the_carrier_of_a_wolfrom_set_stands_between_its_planets_and_the_disc_of
     assert discs[0] < heights["arm carrier plate"] < discs[1]
 
 
+@pytest.mark.slow
 def test_an_axis_that_no_plate_can_bear_gets_a_bridge() -> None:
     """The way of 'o1' to the plates is through the rim of 'p1': its arbor runs in a bridge beyond all wheels."""
     work = workpiece("freeth-2006")

@@ -100,7 +100,9 @@ def polygon(side: list[tuple[float, float]], z: int) -> Any:
     return shapely.Polygon(np.column_stack([points.real, points.imag]))
 
 
-@pytest.mark.parametrize(("z1", "z2", "thin"), [(20, 33, 0.02), (17, 17, 0.05), (24, 18, 0.01)])
+@pytest.mark.parametrize(
+    ("z1", "z2", "thin"), [(20, 33, 0.02), (17, 17, 0.05), pytest.param(24, 18, 0.01, marks=pytest.mark.slow)]
+)
 def test_the_play_of_polygons_is_that_of_the_contact_of_their_outlines(z1: int, z2: int, thin: float) -> None:
     """Two ways to one number: areas of overlap by bisection, and the contact of flanks, found edge by edge."""
     sides = [involute(z, thin, z / 2 + 0.9) for z in (z1, z2)]

@@ -223,7 +223,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
     if origin in (Union, UnionType):
         return _one_of([_PLAIN[NoneType] if part is NoneType else shape_of(part, to, keys) for part in parts])
     if hasattr(kind, "_fields") and not keys:  # a named tuple
-        return _object({name: shape_of(_own_kind(kind, name), to) for name in kind._fields}, kind._fields, kind)
+        return _fields({name: shape_of(_own_kind(kind, name), to) for name in kind._fields}, kind._fields, kind)
     if not isinstance(origin, type) or not hasattr(origin, "__iter__"):
         return _of_one(kind, to, keys)
     if not hasattr(origin, "__len__") or origin.__module__ == "numpy":
@@ -259,7 +259,7 @@ def _typed_dict(kind: Any) -> Schema:
     kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
     needed = {Required: True, NotRequired: False}
     required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
-    return _object({name: shape_of(each) for name, each in kinds.items()}, required, kind)
+    return _fields({name: shape_of(each) for name, each in kinds.items()}, required, kind)
 
 
 def _one_of(shapes: list[Schema]) -> Schema:
@@ -303,9 +303,13 @@ def _parts(kind: Any) -> list[Any]:
     return list(get_args(kind)) if get_origin(kind) in (Union, UnionType) else [kind]
 
 
-def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
+def _fields(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
+    """An object whose keys are the fields of a class."""
     meanings = field_docs(kind)
-    properties = {name: _described(shape, meanings.get(name, "")) for name, shape in properties.items()}
+    return _object({name: _described(each, meanings.get(name, "")) for name, each in properties.items()}, required, kind)
+
+
+def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
     return {
         "type": "object",
         "description": _summary(kind),

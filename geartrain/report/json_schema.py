@@ -306,7 +306,8 @@ def _parts(kind: Any) -> list[Any]:
 def _fields(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
     """An object whose keys are the fields of a class."""
     meanings = field_docs(kind)
-    return _object({name: _described(each, meanings.get(name, "")) for name, each in properties.items()}, required, kind)
+    described = {name: _described(each, meanings.get(name, "")) for name, each in properties.items()}
+    return _object(described, required, kind)
 
 
 def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:

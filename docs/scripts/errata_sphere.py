@@ -9,8 +9,7 @@ from math import asin, atan, atan2, cos, degrees, radians, sin
 import numpy as np
 from sources.sphere import NOTE, gears
 
-from geartrain.spherical import Configuration, from_polyhedron, ratio_windows, size_gears
-from geartrain.spherical.gear_sphere import GearSphere
+from geartrain.spherical import Configuration, GearSphere, from_polyhedron, ratio_windows, size_gears
 
 PRINTED_BETA = 41.8103148828  # deg
 IDLERS = {"5": 60, "3": 36, "e": 24}

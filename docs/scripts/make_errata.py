@@ -12,10 +12,9 @@ from errata_sorge import sorge
 from errata_sphere import sphere
 
 import geartrain
-from geartrain import GearTrain
-from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.graph import adjacency_labels
-from geartrain.train.periods import period_table
+from geartrain import Answer, GearTrain
+from geartrain.kinematics import adjacency_labels
+from geartrain.train import period_table
 
 PAGE = Path(__file__).resolve().parents[1] / "errata.md"
 YEAR, SYNODIC, SIDEREAL = Fraction("365.242199"), Fraction("29.53059"), Fraction("27.3229")  # Table 5, in days

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import geartrain
-from geartrain.kinematics.answer import Answer
+from geartrain import Answer
 from geartrain.report.document import exact
 
 ROOT = Path(__file__).resolve().parents[2]

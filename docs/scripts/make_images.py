@@ -17,13 +17,10 @@ from stills import can_draw, gif, stills
 import geartrain
 from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
 from geartrain.dynamics import MotionRun, find_power_flow
-from geartrain.report.document import Document
+from geartrain.report import Document, collect_report, describe_train
 from geartrain.report.text import to_terminal
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
 from geartrain.scene import build_scene
-from geartrain.spherical import from_polyhedron
-from geartrain.spherical.gear_sphere import GearSphere
+from geartrain.spherical import GearSphere, from_polyhedron
 
 IMAGES = Path(__file__).resolve().parents[1] / "images"
 SECTIONS = ("Fundamental circuits", "Mobility", "Against the targets")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from geartrain import shipped
-from geartrain.train.declaration_style import with_long_forms, with_short_forms
+from geartrain.train import with_long_forms, with_short_forms
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/lines.md"

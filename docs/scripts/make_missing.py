@@ -12,7 +12,7 @@ from make_errata import changed, number, rows
 from geartrain import GearTrain, load
 from geartrain.search import Assignment, TrainFindings, search_train
 from geartrain.search.train.train_findings import PartFindings
-from geartrain.train.periods import period_table
+from geartrain.train import period_table
 
 PAGE = Path(__file__).resolve().parents[1] / "missing-parts.md"
 NAME = "pennestri-2002-missing"

@@ -22,7 +22,7 @@ from geartrain.viewer import page
 if TYPE_CHECKING:
     from conftest import OpenPage, Shown
 
-    from geartrain.kinematics.answer import Answer
+    from geartrain import Answer
 
 # two arbors side by side, with two pairs between them: the one closes what the other opens
 LOOP = """

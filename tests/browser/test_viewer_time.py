@@ -11,7 +11,7 @@ import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
 
-from geartrain.train.periods import date_of, julian_day, period_table, read_date
+from geartrain.train import date_of, julian_day, period_table, read_date
 
 YEAR = period_table()["year_tropical_J2000"].value
 LUNAR = read_date("-204-05-12")  # the full Moon of month 1, half a month after the Saros pointer's start

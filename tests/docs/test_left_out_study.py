@@ -26,10 +26,11 @@ from studies.left_out_study import (
 from studies.measurement import gathered
 from studies.page import read
 
+from geartrain import shipped
 from geartrain.search.reconstruct import Additions, ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
 from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence, lost_wheels
-from geartrain.train.declaration_files import read_declaration, shipped
+from geartrain.train.declaration_files import read_declaration
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 

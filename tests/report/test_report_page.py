@@ -17,7 +17,10 @@ from markdown_it import MarkdownIt
 
 from geartrain import load
 from geartrain.report import (
+    Document,
     Picture,
+    Section,
+    Table,
     collect_report,
     describe_comparison,
     describe_shared_page,
@@ -25,7 +28,7 @@ from geartrain.report import (
     to_html,
     to_markdown,
 )
-from geartrain.report.document import Branch, Document, Section, Table
+from geartrain.report.document import Branch
 from geartrain.report.html_page import inline, is_web
 
 SVG = (

@@ -20,10 +20,10 @@ import fmpy
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
-from geartrain import load
+from geartrain import load, shipped
 from geartrain.errors import GearTrainError
 from geartrain.simulation import CoSimulationCase, fmu_file
-from geartrain.train.declaration_files import read_declaration, shipped, write_declaration
+from geartrain.train.declaration_files import read_declaration, write_declaration
 
 TRAIN, STEP = "moon-triangular-inertia", 2.5e-4
 

@@ -15,9 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError
-from geartrain.teeth import Involute
+from geartrain.teeth import BlankSizes, Involute, WheelOutline
 from geartrain.teeth.conjugate import ConjugatePair, WheelPair
-from geartrain.teeth.outlines import BlankSizes, Contour, WheelOutline, outline
+from geartrain.teeth.outlines import Contour, outline
 
 shapely = pytest.importorskip("shapely")
 Points = np.ndarray[tuple[int, int], np.dtype[np.float64]]

@@ -12,7 +12,8 @@ import pytest
 from mechanics import contact, power_ratio
 from sorge import APPROACH, RECESS, Pair, drawn, mp
 
-from geartrain.teeth.triangular import Triangular, TriangularSizes, equal_depth, pitch_true
+from geartrain.teeth import Triangular
+from geartrain.teeth.triangular import TriangularSizes, equal_depth, pitch_true
 from geartrain.teeth.triangular.tooth_couple import ToothCouple
 from geartrain.teeth.triangular.triangular_transmission import contact_course
 

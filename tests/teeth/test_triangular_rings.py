@@ -16,7 +16,8 @@ from polygons import Judge, Outline
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.drawing.tooth_contact import tooth_pair_pose
-from geartrain.teeth.triangular import Triangular, TriangularSizes, TriangularTransmission, equal_depth, find_window
+from geartrain.teeth import Triangular
+from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth, find_window
 from geartrain.workshop import ToothSizes
 from geartrain.workshop.sizes.best_sizes import confirm_by_outlines
 

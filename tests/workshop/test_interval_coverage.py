@@ -14,7 +14,8 @@ import scipy.stats
 from numpy.typing import NDArray
 
 from geartrain import GearTrain
-from geartrain.numerics.confidence_intervals import PERCENTILES, IntervalEstimate, deviation_of, percentile_of, wilson
+from geartrain.numerics import IntervalEstimate
+from geartrain.numerics.confidence_intervals import PERCENTILES, deviation_of, percentile_of, wilson
 from geartrain.workshop import TrialPlan, find_trial_plan, run_trials
 from geartrain.workshop.monte_carlo.sobol_indices import saltelli_indices
 

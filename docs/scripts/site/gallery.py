@@ -149,10 +149,7 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
     """As `geartrain draw`, `view` and `report` write them; each picture is drawn once."""
     import geartrain
     from geartrain.drawing import picture, render
-    from geartrain.report.document import Picture
-    from geartrain.report.html_page import to_html
-    from geartrain.report.train_data import collect_report
-    from geartrain.report.train_report import describe_shared_page
+    from geartrain.report import Picture, collect_report, describe_shared_page, to_html
     from geartrain.scene import build_scene
     from geartrain.viewer import page
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.kinematics.graph import adjacency_labels
-from geartrain.train.periods import period_table
+from geartrain.kinematics import adjacency_labels
+from geartrain.train import period_table
 from sources.row import Digits, Exactly, Finding, Holds, Row, Source, Statements, declared, outside
 from sources.ways import Command
 

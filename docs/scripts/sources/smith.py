@@ -14,10 +14,11 @@ from typing import Any, Literal
 import numpy as np
 
 import geartrain
+from geartrain.teeth import BuckinghamFriction, DokosFriction
 from geartrain.teeth.conjugate import closed_form_sides, optimal_sides
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-from geartrain.teeth.friction_law import FOOT_A_MINUTE, BuckinghamFriction, DokosFriction
+from geartrain.teeth.friction_law import FOOT_A_MINUTE
 from sources import smith_profiles as profiles
 from sources.row import Finding
 from sources.smith_profiles import Seen, crawl

@@ -11,8 +11,7 @@ import numpy as np
 
 import geartrain
 from geartrain.numerics.arrays import Floats
-from geartrain.spherical import Configuration, from_polyhedron, ratio_windows, size_gears, survey
-from geartrain.spherical.gear_sphere import GearSphere
+from geartrain.spherical import Configuration, GearSphere, from_polyhedron, ratio_windows, size_gears, survey
 from sources.row import Digits, Exactly, Finding, Row, Source, Statements, outside
 from sources.ways import Command
 

@@ -11,7 +11,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.analysis.gear_train import GearTrain, load
+from geartrain import GearTrain, load
 from geartrain.kinematics.formulas import with_counts
 from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem, find_priors
 from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch, MonomialColumns

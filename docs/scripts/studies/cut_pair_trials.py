@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics import open_executor, run
 from geartrain.numerics.confidence_intervals import wilson
-from geartrain.numerics.work import open_executor, run
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
 from geartrain.workshop.cutting.least_backlash import nominal_backlash

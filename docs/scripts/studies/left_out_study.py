@@ -19,6 +19,7 @@ from pathlib import Path
 from time import monotonic, process_time
 from typing import Any
 
+from geartrain import shipped
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.search.reconstruct import ReconstructionProblem, evidence_question, find_reconstructions
@@ -32,7 +33,7 @@ from geartrain.search.reconstruct.spur_tree import (
     lost_wheels,
     why_not,
 )
-from geartrain.train.declaration_files import read_declaration, shipped
+from geartrain.train.declaration_files import read_declaration
 from studies.followed_train import is_reached
 from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
 from studies.measurement import gathered

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.analysis.gear_train import GearTrain, load
+from geartrain import GearTrain, load
 from geartrain.dynamics import Motion, RunningStatistics
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.triangular import clearance_window, triangular_transmission

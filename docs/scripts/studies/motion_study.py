@@ -14,7 +14,7 @@ from statistics import median
 
 import numpy as np
 
-from geartrain.analysis.gear_train import GearTrain
+from geartrain import GearTrain
 from studies.measurement import Step, taken
 from studies.motion_methods import Effort, MotionCase, forget
 from studies.motion_records import GrowthRecord, MotionRecord, MotionRecords, TrainRecord

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from geartrain.dynamics import Motion
 from geartrain.dynamics.motion.error_composition import PairErrorSource
 from geartrain.numerics.elimination import LinearForm, eliminate
-from geartrain.teeth.pin_transmission import PinToSlotTransmission
-from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.tooth_couple import ToothCouple
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission

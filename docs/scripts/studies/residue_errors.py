@@ -9,7 +9,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics import Circuit
 from geartrain.kinematics.components import find_components
 from geartrain.kinematics.phasing.azimuths import EPS, PitchPoints, contact_families
 from geartrain.kinematics.phasing.phase_system import PhaseSystem

@@ -11,14 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.analysis.gear_train import GearTrain, load
+from geartrain import GearTrain, load
+from geartrain.kinematics import WillisEquation, WillisSystem
 from geartrain.kinematics.circuits import find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.kinematics.speeds.float_speeds import prepare, solve_floats
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_equation import WillisEquation
-from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.numerics.arrays import Floats
 from studies.measurement import Task, measure
 from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table

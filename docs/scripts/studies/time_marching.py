@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.analysis.gear_train import GearTrain
+from geartrain import GearTrain
 from geartrain.dynamics import Motion
 from geartrain.dynamics.motion.error_composition import PairErrorSource
-from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth import TransmissionFunction
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 Floats = NDArray[np.float64]

@@ -14,7 +14,7 @@ from itertools import combinations_with_replacement
 from math import prod
 from typing import Any, Literal
 
-from geartrain.analysis.gear_train import GearTrain
+from geartrain import GearTrain
 from geartrain.search import TargetRatio, approximants, find_stages, search_train
 from geartrain.search.ratio.gear_pair_search import find_pairs
 from geartrain.search.ratio.product_windows import expand, multisets

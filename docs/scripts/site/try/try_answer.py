@@ -13,19 +13,15 @@ from pathlib import Path
 from typing import Any
 
 import geartrain
-from geartrain.analysis.gear_train import GearTrain
+from geartrain import Answer, GearTrain, shipped
 from geartrain.errors import GearTrainError, Problem
-from geartrain.kinematics.answer import Answer
+from geartrain.report import collect_report, describe_train, to_html
 from geartrain.report.document import exact
-from geartrain.report.html_page import to_html
 from geartrain.report.json_schema import schema
 from geartrain.report.soundness import find_soundness
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
 from geartrain.scene.layout.declared_geometry import Parallels, Point, read_geometry
 from geartrain.scene.layout.plan_problem import PlanProblem, plan_problem
 from geartrain.scene.layout.wheel_modules import size_geometry
-from geartrain.train.declaration_files import shipped
 from geartrain.train.trade_words import told_words
 
 TEXT = "text"

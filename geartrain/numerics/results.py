@@ -8,7 +8,7 @@ is called."""
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from fractions import Fraction
 from functools import cache
@@ -41,7 +41,7 @@ class Tabular:
         """Columns of one length by name: numbers as floats, exact ones as text beside them, None where nothing is."""
 
     def to_frame(self) -> Any:
-        """The table as a pandas DataFrame.
+        """The table as a pandas DataFrame; `attrs["meanings"]` explains the columns that are fields, with units.
 
         Raises
         ------
@@ -52,7 +52,9 @@ class Tabular:
             import pandas
         except ImportError:
             raise MissingExtraError("pandas", "tables", "a table of its kind") from None
-        return pandas.DataFrame(dict(self.columns))
+        frame = pandas.DataFrame(dict(self.columns))
+        frame.attrs["meanings"] = _meanings(type(self), frame.columns)
+        return frame
 
     def to_records(self) -> Any:
         """The table as a numpy record array, `records["link"]` a column; numbers that are not there are NaN."""
@@ -64,11 +66,18 @@ class Tabular:
 
     def _repr_html_(self) -> str:
         columns = self.columns
-        head = "".join(f"<th>{escape(name)}</th>" for name in columns)
+        titles = {name: f' title="{escape(text)}"' for name, text in _meanings(type(self), columns).items()}
+        head = "".join(f"<th{titles.get(name, '')}>{escape(name)}</th>" for name in columns)
         rows = ("".join(f"<td>{_cell(value)}</td>" for value in row) for row in zip(*columns.values(), strict=True))
         body = "".join(f"<tr>{row}</tr>" for row in islice(rows, _SHOWN))
         more = len(next(iter(columns.values()), ())) - _SHOWN
         return f"<table><tr>{head}</tr>{body}</table>" + (f"<p>{more:,} more</p>" if more > 0 else "")
+
+
+def _meanings(kind: type, columns: Iterable[str]) -> dict[str, str]:
+    """Of the columns that are fields of a result, their docstrings."""
+    docs = field_docs(kind)
+    return {name: docs[name] for name in columns if name in docs}
 
 
 def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:

@@ -43,6 +43,12 @@ def test_frames_and_records_hold_the_columns(name: str) -> None:
 
 
 @pytest.mark.needs("pandas")
+def test_columns_that_are_fields_say_what_they_mean() -> None:
+    assert tables()["cycle"].to_frame().attrs["meanings"]["turns"].startswith("Positions of the input")
+    assert '<th title="How many elements must be closed' in tables()["search"]._repr_html_()
+
+
+@pytest.mark.needs("pandas")
 def test_an_answer_is_exact_beside_its_floats() -> None:
     frame = geartrain.load("planetary-24-18-60").solve().to_frame().set_index("link")
     assert frame.exact["carrier"] == "2/7"

@@ -116,7 +116,9 @@ class UniformTemperature(ConjugateToothForm):
         else:
             wanted = depth(PathOfContact(pitch, involute(arcs[0], _INVOLUTE), involute(arcs[1], _INVOLUTE)))
         # near the pitch point a side is a cycloid of rolling radius 1 / (b + gamma) and height X^2 (b + gamma) / 2
-        start = max(2 * wanted / (arcs[0] ** 2 + arcs[1] ** 2) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2)
+        start = max(
+            2 * wanted / (arcs[0] * arcs[0] + arcs[1] * arcs[1]) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2
+        )
         gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))
         return self._sides(pitch, gamma)
 

@@ -139,7 +139,10 @@ def test_an_output_hangs_on_the_pairs_whose_error_moves_it(data: dict[str, Any])
 
 
 def _speeds(data: Mapping[str, Any], rows: list[dict[str, Fraction]], wrong: int | None) -> dict[str, Fraction]:
-    """Speeds with one circuit wrong by 1/7, by elimination; none where that contradicts the rest."""
+    """Speeds with one circuit wrong by 1/7, by elimination; none where that contradicts the rest or leaves a link open.
+
+    Joints that a rigid connection across axes closes have no row here.
+    """
     frame = data.get("frame", "frame")
     links = [link for link in data["links"] if link != frame]
     one, zero = Fraction(1), Fraction(0)
@@ -150,7 +153,7 @@ def _speeds(data: Mapping[str, Any], rows: list[dict[str, Fraction]], wrong: int
     matrix, pivots, consistent = solve_rows(system, links)
     return (
         {}
-        if not consistent
+        if not consistent or len(pivots) < len(links)
         else {frame: zero} | {links[column]: row[-1] for row, column in zip(matrix, pivots, strict=False)}
     )
 

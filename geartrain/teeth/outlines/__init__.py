@@ -17,14 +17,12 @@ from geartrain.numerics.lazy_names import lazy_names
 if TYPE_CHECKING:
     from geartrain.teeth.outlines.contour import Contour
     from geartrain.teeth.outlines.tooth_outline import repeated
-    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline, outline
+    from geartrain.teeth.outlines.wheel_outline import outline
 
-__all__ = ["BlankSizes", "Contour", "WheelOutline", "outline", "repeated"]
+__all__ = ["Contour", "outline", "repeated"]
 
 _PLACES = {
-    "BlankSizes": "wheel_outline",
     "Contour": "contour",
-    "WheelOutline": "wheel_outline",
     "outline": "wheel_outline",
     "repeated": "tooth_outline",
 }

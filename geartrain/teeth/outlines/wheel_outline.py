@@ -162,7 +162,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     --------
     >>> from geartrain.teeth import Involute
     >>> from geartrain.teeth.conjugate import WheelPair
-    >>> from geartrain.teeth.outlines import BlankSizes
+    >>> from geartrain.teeth import BlankSizes
     >>> wheel = outline(Involute(form="involute").pair(WheelPair(24, 36)), 1, BlankSizes(module=2.0))
     >>> wheel.tip_radius, wheel.centre_distance
     (26.0, 60.0)

@@ -185,7 +185,7 @@ def says_of_all(
     for pair, value in found.correlations.items():
         one, other = (np.array([teeth[wheel] for teeth, _, _ in rows], dtype=float) for wheel in pair)
         spread = np.cov(one, other, aweights=weights, ddof=0)
-        assert value == pytest.approx(spread[0, 1] / math.sqrt(spread[0, 0] * spread[1, 1]), abs=1e-6)
+        assert value == pytest.approx(spread[0, 1] / math.sqrt(spread[0, 0] * spread[1, 1]), abs=1e-9)
 
 
 def test_agreement_by_degree_is_a_sum_of_exponentials(case: tuple[dict[str, Any], list[Any]]) -> None:

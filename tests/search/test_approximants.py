@@ -9,13 +9,12 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 
 from geartrain.errors import QuestionError, RangeError
 from geartrain.search import TargetRatio, approximants, read_counts, read_ratio
 from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.stern_brocot import nearest_first, neighbours, runs
-
-SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 ROOT = Fraction(math.isqrt(2 * 10**400), 10**200)  # the square root of two, to 200 decimals
@@ -180,7 +179,7 @@ counts = st.lists(st.integers(1, 60), min_size=1, max_size=12, unique=True).map(
 tolerances = st.none() | st.builds(Fraction, st.integers(0, 300), st.integers(1, 300))
 
 
-@settings(max_examples=150 if SLOW else 70)
+@settings(max_examples=few_or_many(70, 150))
 @given(positive, counts, counts, tolerances, st.none() | st.integers(1, 40))
 def test_pairs_are_those_of_brute_force(
     value: Fraction, wheels: Sequence[int], pinions: Sequence[int], tolerance: Fraction | None, best: int | None

@@ -15,6 +15,7 @@ import pytest
 from fitters import SIMPLE, box, columns, declared, epicyclic, passed, rules_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 from teeth3d import best, in_space
 
 from geartrain import GearTrain, load
@@ -24,8 +25,6 @@ from geartrain.search import ConstraintOptions
 from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import read_constraint_options
 from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
-
-SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 
 Data = dict[str, Any]
 
@@ -308,7 +307,7 @@ SETS: dict[str, tuple[Any, ...]] = {
 
 
 @given(st.sampled_from(sorted(SETS)), st.integers(2, 6), st.data())
-@settings(max_examples=150 if SLOW else 70)
+@settings(max_examples=few_or_many(70, 150))
 def test_equal_planets_can_be_put_in_if_and_only_if_all_loops_close(
     name: str, number: int, data: st.DataObject
 ) -> None:

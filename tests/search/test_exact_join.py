@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 
 import geartrain.search.join.exact_join as joining
 import geartrain.search.join.product_lists as items
@@ -25,7 +26,6 @@ from geartrain.search.join.product_lists import Item, ItemRecipe, forecast
 from geartrain.search.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
 from geartrain.search.train.search_passes import AssignmentOrder, BestAssignments, PassWork, do_task, merged
 
-SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 Terms = tuple[tuple[int, tuple[int, ...]], ...]
 
 
@@ -193,7 +193,7 @@ def answered(question: JoinProblem, tasks: int = 1) -> tuple[int, list[tuple[int
 
 
 @pytest.mark.parametrize("block", [1 << 18, 7])
-@settings(deadline=None, max_examples=35 if SLOW else 25)
+@settings(deadline=None, max_examples=few_or_many(25, 35))
 @given(question=joins(), guess=st.sampled_from([1.0, 1e-3, 1e-9]), tasks=st.integers(1, 4))
 def test_a_join_of_any_functions_and_rules_finds_what_loops_find(
     block: int,
@@ -252,7 +252,7 @@ BESIDE_THE_GAP = IntervalConstraint(
 )
 
 
-@settings(deadline=None, max_examples=150 if SLOW else 70)
+@settings(deadline=None, max_examples=few_or_many(70, 150))
 @given(long_joins(), st.sampled_from([1.0, 1e-6]))
 @example((COUNTS_BY_A_GAP, [BESIDE_THE_GAP]), 1.0)
 def test_joins_are_exact_however_large_the_numbers_and_near_the_ends(

@@ -17,6 +17,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference_solver import solve_naively
+from sampling import few_or_many
 from shipped import every_train
 from strategies import Data, asked_trains, driven_trains, overdriven_trains
 
@@ -27,8 +28,6 @@ from geartrain.kinematics.formulas.laurent import Laurent, Term
 from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas, with_counts
 from geartrain.kinematics.formulas.rational_functions import Formula, MonomialGroup, make_formula
 from geartrain.train import Train, declare
-
-SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 
 ANY = (1,)
 """Allowed counts where only the formula is asked for."""
@@ -401,7 +400,7 @@ def asked_for_all(data: Data, draw: random.Random) -> tuple[Data, dict[str, tupl
     return data, {wheel: tuple(range(least, most + 1)) for wheel in wheels if draw.random() < share}
 
 
-@settings(max_examples=80 if SLOW else 40)
+@settings(max_examples=few_or_many(40, 80))
 @given(st.one_of(asked_trains(), driven_trains(), overdriven_trains()), st.integers(0, 10**6))
 def test_formulas_of_any_train_agree_with_naive_elimination_and_say_when_it_turns(data: Data, seed: int) -> None:
     draw = random.Random(seed)
@@ -439,7 +438,7 @@ def inside(box: Mapping[str, tuple[int, int]]) -> Iterator[dict[str, int]]:
         yield dict(zip(box, counts, strict=True))
 
 
-@settings(max_examples=80 if SLOW else 40)
+@settings(max_examples=few_or_many(40, 80))
 @given(random_formulas(), boxes())
 def test_fast_values_lie_within_their_accuracy(formula: Formula, box: dict[str, tuple[int, int]]) -> None:
     every = list(inside(box))

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from test_exact_join import SLOW, Quotient, joins, solutions
+from sampling import few_or_many
+from test_exact_join import Quotient, joins, solutions
 
 import geartrain.search.join.exact_join as joining
 from geartrain.search.constraints.count_conditions import CountConstraint
@@ -40,7 +41,7 @@ def weight_of(counts: tuple[int, ...], domains: dict[str, tuple[int, ...]], weig
     return prod(own[domains[wheel].index(counts[places[wheel]])] for wheel, own in weights.items())
 
 
-@settings(deadline=None, max_examples=60 if SLOW else 40)
+@settings(deadline=None, max_examples=few_or_many(40, 60))
 @given(case=weighed(5), guess=st.sampled_from([1.0, 1e-6]))
 def test_a_count_with_weights_is_the_weight_of_what_fits(case: tuple[Asked, Any], guess: float) -> None:
     (domains, asked, rules), weights = case
@@ -60,7 +61,7 @@ def test_a_count_with_weights_is_the_weight_of_what_fits(case: tuple[Asked, Any]
 @pytest.mark.parametrize("largest", [5, LONG])
 @pytest.mark.parametrize("block", [1 << 18, 3])
 def test_sums_over_a_recorded_join_are_those_of_loops(largest: int, block: int) -> None:
-    @settings(deadline=None, max_examples=60 if SLOW else 20)
+    @settings(deadline=None, max_examples=few_or_many(20, 60))
     @given(case=weighed(largest), guess=st.sampled_from([1.0, 1e-6]))
     def holds(case: tuple[Asked, Any], guess: float) -> None:
         (domains, asked, rules), some = case
@@ -98,7 +99,7 @@ def _check_covariances(sums: AssignmentSums, domains: dict[str, tuple[int, ...]]
         assert value == pytest.approx(float(np.cov(x, y, bias=True)[0, 1]), abs=1e-9)
 
 
-@settings(deadline=None, max_examples=60 if SLOW else 40)
+@settings(deadline=None, max_examples=few_or_many(40, 60))
 @given(case=joins(), wanted=st.lists(st.fractions(-3, 3, max_denominator=4), min_size=3, max_size=3))
 def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[Fraction]) -> None:
     domains, asked, rules = case

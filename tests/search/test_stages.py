@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import few_or_many
 
 from geartrain.errors import QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
@@ -23,7 +24,6 @@ from geartrain.search.ratio import search_segments as stages_work
 from geartrain.search.ratio.product_windows import cuts, errors
 from geartrain.search.ratio.stage_problem import best_pairing, suited
 
-SLOW = settings().max_examples >= 60  # `--slow` draws new examples (conftest.py), and more
 Set = tuple[int, ...]
 MONTH = Fraction("13.368267")
 ORDERS = ["error", "total", "largest", "distinct", "hunting", "centres"]
@@ -136,7 +136,7 @@ def asked(value: Fraction, stages: int, top: Set, beneath: Set, **more: Any) -> 
 
 
 @given(questions(), st.fractions(0, Fraction(1, 2)), st.sampled_from(ORDERS), st.integers(1, 12))
-@settings(max_examples=150 if SLOW else 70)
+@settings(max_examples=few_or_many(70, 150))
 def test_all_solutions_within_a_tolerance_are_counted_and_the_best_listed(
     question: tuple[Fraction, int, Set, Set, StageConstraints], tolerance: Fraction, by: str, best: int
 ) -> None:
@@ -154,7 +154,7 @@ def test_all_solutions_within_a_tolerance_are_counted_and_the_best_listed(
 
 
 @given(questions(), st.integers(1, 12))
-@settings(max_examples=80 if SLOW else 40)
+@settings(max_examples=few_or_many(40, 80))
 def test_without_a_tolerance_the_best_are_the_best_of_all(
     question: tuple[Fraction, int, Set, Set, StageConstraints], best: int
 ) -> None:
@@ -168,7 +168,7 @@ def test_without_a_tolerance_the_best_are_the_best_of_all(
 
 
 @given(questions(), st.fractions(0, Fraction(1, 2)), st.sampled_from(ORDERS), st.sampled_from([2, 5, 12]))
-@settings(max_examples=50 if SLOW else 25)
+@settings(max_examples=few_or_many(25, 50))
 def test_pieces_and_blocks_of_any_size_give_the_same(
     question: tuple[Fraction, int, Set, Set, StageConstraints], tolerance: Fraction, by: str, block: int
 ) -> None:
@@ -291,7 +291,7 @@ def test_many_solutions_are_listed_as_well_as_few() -> None:
     st.data(),
     st.sampled_from([np.int64, object]),
 )
-@settings(max_examples=100 if SLOW else 50)
+@settings(max_examples=few_or_many(50, 100))
 def test_windows_are_cut_as_fractions_cut_them(
     tops: list[int], beneaths: list[int], data: st.DataObject, dtype: type
 ) -> None:

@@ -26,8 +26,6 @@ from geartrain.scene.layout.plan_problem import PlanDisc, PlanProblem
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
-# Distances that nothing declares, over radii of the wheels: near enough to look held together, far enough to be seen
-
 
 # ------------------------------------------------------------------------------------------------------- plan clearance
 

@@ -88,13 +88,13 @@ class GearSearch(Tabular, Result):
     )
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     title: str
-    """Of the train."""
+    """Title of the train."""
     input: str
-    """The links between which ratios are."""
+    """The link that drives."""
     output: str
-    """The links between which ratios are."""
+    """The link that is driven."""
     closed: int
     """How many elements must be closed for the inputs to determine all speeds."""
     combinations: int
@@ -102,17 +102,17 @@ class GearSearch(Tabular, Result):
     gears: tuple[PossibleGear, ...]
     """Those that determine the output and let it turn, or hold it; forward from the lowest, backward, held."""
     free: tuple[tuple[str, ...], ...] = ()
-    """The other ways to close so many, which leave the train free, and which lock it."""
+    """Number of other combinations of this size that leave the train free."""
     locked: tuple[tuple[str, ...], ...] = ()
-    """The other ways to close so many, which leave the train free, and which lock it."""
+    """Number of other combinations of this size that lock the train."""
     asked: int = 0
     """Gears of the series asked for; 0 where none was."""
     series: int = 0
     """How many series there are with all steps inside the window, shifts as asked; 0 where none was asked for."""
     widest: GearSeries | None = None
-    """Of these, one with the greatest spread, and one whose steps differ least."""
+    """Of these series, one with the greatest spread."""
     evenest: GearSeries | None = None
-    """Of these, one with the greatest spread, and one whose steps differ least."""
+    """Of these series, one whose steps differ least."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -80,13 +80,13 @@ class Shift(Result):
     KEYS = ("before", "after", "released", "applied", "is_double")
 
     before: str
-    """The states."""
+    """State before the shift."""
     after: str
-    """The states."""
+    """State after the shift."""
     released: tuple[str, ...]
-    """Elements that open, and that close."""
+    """Elements that open."""
     applied: tuple[str, ...]
-    """Elements that open, and that close."""
+    """Elements that close."""
 
     @property
     def is_double(self) -> bool:
@@ -101,19 +101,19 @@ class ShiftElement(Result):
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
     name: str
-    """Its name; brake or clutch."""
+    """Its name."""
     kind: ElementKind
-    """Its name; brake or clutch."""
+    """Brake or clutch."""
     states: tuple[str, ...]
     """In which it is closed."""
     torque: Fraction | None
-    """Greatest torque over that of the input, and where."""
+    """Greatest torque over the torque of the input."""
     torque_state: str
-    """Greatest torque over that of the input, and where."""
+    """State in which that torque occurs."""
     slip: Fraction | None
-    """Greatest speed over that of the input while it is open, and where."""
+    """Greatest speed over the speed of the input while it is open."""
     slip_state: str
-    """Greatest speed over that of the input while it is open, and where."""
+    """State in which that speed occurs."""
 
 
 @dataclass(frozen=True)
@@ -128,17 +128,17 @@ class Gearbox(Tabular, Result):
     KEYS = ("name", "title", "input", "output", Key("spread", to=as_float), "states", "elements", "shifts")
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     title: str
-    """Of the train."""
+    """Title of the train."""
     input: str
-    """The links between which it is a gearbox."""
+    """The link that drives."""
     output: str
-    """The links between which it is a gearbox."""
+    """The link that is driven."""
     states: tuple[GearState, ...]
-    """In the order declared."""
+    """States in the order declared."""
     elements: tuple[ShiftElement, ...]
-    """In the order declared."""
+    """Clutches and brakes in the order declared."""
     shifts: tuple[Shift, ...]
     """From each state to the next that runs the same way round."""
 

@@ -33,9 +33,9 @@ class TrainVariants(Tabular, Result):
     KEYS = ("wheels", "outputs", "counts", "speeds", "errors")
 
     wheels: tuple[str, ...]
-    """Columns of `counts`, and of `speeds` and `errors`."""
+    """Columns of `counts`."""
     outputs: tuple[str, ...]
-    """Columns of `counts`, and of `speeds` and `errors`."""
+    """Columns of `speeds` and `errors`."""
     counts: Ints
     """A row an assignment, shape (n, wheels); the last wheel changes fastest."""
     speeds: Floats

@@ -363,11 +363,11 @@ class Sensitivity(Result):
     output: str
     """Name of the output."""
     less: float | None
-    """Change of its speed with one tooth fewer, and with one more [ppm]; None for a train that no longer turns, or
-    an output that stands still."""
+    """Change of the speed of the output with one tooth fewer [ppm]; None for a train that no longer turns, or an
+    output at rest."""
     more: float | None
-    """Change of its speed with one tooth fewer, and with one more [ppm]; None for a train that no longer turns, or
-    an output that stands still."""
+    """Change of the speed of the output with one tooth more [ppm]; None for a train that no longer turns, or an
+    output at rest."""
 
 
 def sensitivity(

@@ -41,9 +41,9 @@ class ProbabilityEstimate(Result):
     KEYS = ("count", "of", Key("share", "value", finite), "interval")
 
     count: int
-    """In so many of so many trials it happened."""
+    """Number of trials in which it happened."""
     of: int
-    """In so many of so many trials it happened."""
+    """Number of trials."""
 
     @property
     def value(self) -> float:
@@ -83,11 +83,11 @@ class IntervalEstimate:
     """
 
     value: float
-    """In the unit of what is estimated; the ends are infinite where there are too few trials to say."""
+    """The estimate, in the unit of what is estimated."""
     low: float
-    """In the unit of what is estimated; the ends are infinite where there are too few trials to say."""
+    """Lower end of the interval; -inf where there are too few trials for one."""
     high: float
-    """In the unit of what is estimated; the ends are infinite where there are too few trials to say."""
+    """Upper end of the interval; inf where there are too few trials for one."""
 
     def to_dict(self) -> list[float | None]:
         """Plain data for JSON: value, low, high; null where there is none."""

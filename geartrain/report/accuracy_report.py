@@ -18,9 +18,9 @@ class AccuracyReport(Result):
     """Methods on a train in every state that was requested."""
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     title: str
-    """Of the train."""
+    """Title of the train."""
     states: tuple[TrainAccuracy, ...]
     """One entry for each state."""
 

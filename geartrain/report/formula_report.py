@@ -24,11 +24,11 @@ class RatioElasticity(Result):
     state: str | None
     """The state."""
     output: str
-    """Whose ratio, and whose count."""
+    """Output of the ratio."""
     input: str
-    """Whose ratio, and whose count."""
+    """Input of the ratio."""
     wheel: str
-    """Whose ratio, and whose count."""
+    """Wheel whose tooth count varies."""
     elasticity: ClosedForm
     """(z/f) df/dz: by how many per cent the ratio grows where the count grows by one per cent."""
 
@@ -43,9 +43,9 @@ class FormulaReport(Result):
     """
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     title: str
-    """Of the train."""
+    """Title of the train."""
     formulas: tuple[OutputFormula, ...]
     """State by state."""
     sensitivities: tuple[RatioElasticity, ...] = ()

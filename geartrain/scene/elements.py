@@ -99,17 +99,17 @@ class SceneBody:
     axis: str
     """Label of its axis."""
     point: Vector
-    """A point of the axis [mm], and the reference direction of its parallels, a unit vector."""
+    """A point of the axis [mm]."""
     direction: Vector
-    """A point of the axis [mm], and the reference direction of its parallels, a unit vector."""
+    """Reference direction of the parallels of its axis, a unit vector."""
     sense: int
     """-1 where the declared axis points against `direction`: its declared speed is about the other way; else 1."""
     speed: str | None
     """Over the lead's, about its declared axis, exact; None where it is not determined."""
     shown: str | None
-    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
+    """Exact speed at the declared inputs, in the train's unit."""
     decimal: str
-    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
+    """Rounded speed at the declared inputs, in the train's unit."""
     start: float
     """Declared starting angle [rad]."""
     role: str
@@ -158,17 +158,17 @@ class SceneWheel:
     centre: Vector
     """Of its pitch circle, on its axis [mm]."""
     direction: Vector
-    """Unit vectors: along the axis, that of its body; and across it, from which `turn` is counted."""
+    """Unit vector along the axis, that of its body."""
     reference: Vector
-    """Unit vectors: along the axis, that of its body; and across it, from which `turn` is counted."""
+    """Unit vector across the axis, from which `turn` is counted."""
     turn: float
     """Angle of its first tooth about `direction` [rad]."""
     radius: float
-    """Of its pitch circle and of its teeth [mm]; of a ring the tip is the smaller."""
+    """Pitch radius [mm]."""
     tip: float
-    """Of its pitch circle and of its teeth [mm]; of a ring the tip is the smaller."""
+    """Tip radius [mm]; of a ring less than the root radius."""
     root: float
-    """Of its pitch circle and of its teeth [mm]; of a ring the tip is the smaller."""
+    """Root radius [mm]."""
     module: float
     """Pitch diameter over tooth count [mm]."""
     thickness: float
@@ -184,9 +184,9 @@ class SceneWheel:
     status: str
     """Surviving, reconstructed, hypothetical, or empty where nothing is said."""
     source: str
-    """As declared."""
+    """Source as declared."""
     note: str
-    """As declared."""
+    """Note as declared."""
     doubt: str
     """Counts that the evidence allows, in words; empty for a sure count."""
     circuits: Sequence[str]
@@ -248,23 +248,23 @@ class SceneCoupling:
     """
 
     id: str
-    """Its name and its kind."""
+    """Its name."""
     kind: str
-    """Its name and its kind."""
+    """Its kind."""
     pin: int
-    """Indices of bodies: that of the pin, that of the slot, and the one that carries both axes."""
+    """Index of the body of the pin."""
     slot: int
-    """Indices of bodies: that of the pin, that of the slot, and the one that carries both axes."""
+    """Index of the body of the slot."""
     carrier: int
-    """Indices of bodies: that of the pin, that of the slot, and the one that carries both axes."""
+    """Index of the body that carries both axes."""
     pin_at: Vector
-    """The pin's centre in the zero pose, and the slot's axis at the pin's height [mm]."""
+    """Centre of the pin in the zero pose [mm]."""
     slot_at: Vector
-    """The pin's centre in the zero pose, and the slot's axis at the pin's height [mm]."""
+    """Axis of the slot at the height of the pin [mm]."""
     pin_radius: float
-    """Of the pin from its axis, and of the two axes from each other [mm]."""
+    """Distance of the pin from its axis [mm]."""
     offset: float
-    """Of the pin from its axis, and of the two axes from each other [mm]."""
+    """Distance of the two axes [mm]."""
     drawn: bool
     """False where dimensions are not declared: sizes are then chosen for the picture."""
     text: str

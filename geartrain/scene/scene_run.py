@@ -96,9 +96,9 @@ class SceneContact(Result):
     at: Vector
     """That place in the zero pose [mm]."""
     apart: float
-    """Shares of time in which no flank touches, and on the coast flank."""
+    """Share of time in which no flank touches."""
     coast: float
-    """Shares of time in which no flank touches, and on the coast flank."""
+    """Share of time on the coast flank."""
     blows: float
     """Impacts a second [1/s]."""
     hardest: float
@@ -108,9 +108,9 @@ class SceneContact(Result):
     states: str
     """One letter each: `d` on the drive flank, `c` on the coast flank, `a` apart; empty where that is not known."""
     blow_times: Floats
-    """Impacts: time since what is shown began [s], closing speed of the driven side [rad/s]. Shape (m,)."""
+    """Times of impacts since the start of what is shown [s]. Shape (m,)."""
     blow_speeds: Floats
-    """Impacts: time since what is shown began [s], closing speed of the driven side [rad/s]. Shape (m,)."""
+    """Closing speeds of the driven side at impacts [rad/s]. Shape (m,)."""
 
     @property
     def packed_changes(self) -> str:
@@ -146,9 +146,9 @@ class SceneRun(Result):
     period: float
     """In which the lead would turn once at that speed [s]."""
     skip: float
-    """Time before what is shown, and of what is shown [s]."""
+    """Time before what is shown [s]."""
     duration: float
-    """Time before what is shown, and of what is shown [s]."""
+    """Time that is shown [s]."""
     step: float
     """From one sample of the simulation to the next [s]."""
     tolerance: float

@@ -131,17 +131,17 @@ class Pointer:
     output: str
     """Its name."""
     body: int
-    """Indices of the body that turns and of the one from which it is seen."""
+    """Index of the body that turns."""
     base: int
-    """Indices of the body that turns and of the one from which it is seen."""
+    """Index of the body from which it is seen."""
     dial: int | None
     """Index of its dial; None for an output without one, which gets a small one of its own in the picture."""
     speed: str | None
     """Over the lead's, exact; None where it is not determined."""
     shown: str | None
-    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
+    """Exact speed at the declared inputs, in the train's unit."""
     decimal: str
-    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
+    """Rounded speed at the declared inputs, in the train's unit."""
     sense: int
     """1 where a positive angle is clockwise for one who reads the dial, -1 where it is counter-clockwise."""
     text: str
@@ -149,9 +149,9 @@ class Pointer:
     pairs: Sequence[str]
     """Names of the pairs and couplings on which the output depends, in order from the input."""
     bodies: Sequence[int]
-    """The same as indices of bodies and of wheels."""
+    """Indices of the bodies of its path."""
     wheels: Sequence[int]
-    """The same as indices of bodies and of wheels."""
+    """Indices of the wheels of its path."""
     note: str = ""
     """As declared."""
     targets: Sequence[PointerTarget] = ()
@@ -176,23 +176,23 @@ class Scene:
     """
 
     name: str
-    """Of the train, as declared."""
+    """Name of the train."""
     title: str
-    """Of the train, as declared."""
+    """Title of the train."""
     note: str
-    """Of the train, as declared."""
+    """Note of the train."""
     state: str | None
     """The state; None where the train has none."""
     unit: str
-    """Unit of speeds, and the declared sense of a positive one."""
+    """Unit of speeds."""
     positive: str
-    """Unit of speeds, and the declared sense of a positive one."""
+    """Declared sense of a positive speed."""
     front: int
     """Side of z from which it is looked at, 1 or -1."""
     lead: int | None
-    """Indices of the body whose turns are given, and of that at which a hand would turn it."""
+    """Index of the body whose turns are given."""
     crank: int | None
-    """Indices of the body whose turns are given, and of that at which a hand would turn it."""
+    """Index of the body at which a hand would turn the train."""
     step: str
     """Turns of the lead in one unit of the input, exact."""
     verdict: Mapping[str, Any]

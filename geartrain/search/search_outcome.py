@@ -85,9 +85,9 @@ class GearStages(CountSizes, Result):
     )
 
     top: tuple[int, ...]
-    """Counts, ascending, as many as there are stages."""
+    """Counts on top, ascending, one for each stage."""
     beneath: tuple[int, ...]
-    """Counts, ascending, as many as there are stages."""
+    """Counts beneath, ascending, one for each stage."""
     ratio: Fraction
     """Product of `top` over product of `beneath`, exact; positive."""
     error: Fraction

@@ -424,9 +424,9 @@ class SurveyRow(Result):
     solid: str
     """Its name."""
     gears: int
-    """Faces, and edges."""
+    """Number of gears, one on each face."""
     meshes: int
-    """Faces, and edges."""
+    """Number of meshes, one on each edge."""
     bipartite: bool
     """Neighbours can turn against each other everywhere: the set moves, with one degree of freedom."""
     gruebler: int

@@ -39,9 +39,9 @@ class SpeedRatio(Result):
     mean: Fraction
     """The ratio of tooth numbers, or the winding number of a pin."""
     least: float
-    """At single angles."""
+    """Least ratio at any angle."""
     greatest: float
-    """At single angles."""
+    """Greatest ratio at any angle."""
 
     @classmethod
     def of(cls, law: TransmissionFunction) -> SpeedRatio:
@@ -198,11 +198,11 @@ class ToothFault(Result):
     X: float
     """Pitch-line displacement at which it begins; NaN for the pair."""
     what: str
-    """In words."""
+    """The fault in words."""
     why: str
-    """In words."""
+    """Its reason in words."""
     fix: str
-    """In words."""
+    """Its remedy in words."""
 
     @property
     def problem(self) -> Problem:
@@ -299,9 +299,9 @@ class PinFigures(Result):
     """Figures of a pin in a slot."""
 
     pin_radius: float
-    """M, or plain."""
+    """Distance of the pin from its axis [m, or plain]."""
     offset: float
-    """M, or plain."""
+    """Distance of the two axes [m, or plain]."""
     speed_ratio: SpeedRatio
     """Of the driven side over the driver."""
     amplitude: float

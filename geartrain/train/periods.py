@@ -42,9 +42,9 @@ class CalendarDate:
     year: int
     """Astronomical: 0 is 1 BC."""
     month: int
-    """From 1."""
+    """From 1 to 12."""
     day: int
-    """From 1."""
+    """From 1 on."""
     part: Fraction
     """Part of the day that has passed, from 0 to less than 1: 1/2 at noon."""
     calendar: Calendar
@@ -185,9 +185,9 @@ class Period:
     what: str
     """What goes round or is counted; plain name of a period that serves as a unit. May be empty."""
     source: str
-    """Where the value is from, and how certain it is."""
+    """Source of the value."""
     confidence: str
-    """Where the value is from, and how certain it is."""
+    """How certain the value is."""
 
 
 @cache

@@ -72,13 +72,13 @@ class RunningStatistics(Result):
     square: float = 0.0
     """Sum of the squared differences of the error from its mean [rad^2]."""
     least: float = inf
-    """Extremes of the error [rad]."""
+    """Least error [rad]."""
     most: float = -inf
-    """Extremes of the error [rad]."""
+    """Greatest error [rad]."""
     slow: float = inf
-    """Extremes of the speed less its mean, over the input's."""
+    """Least speed less its mean, over the speed of the input."""
     fast: float = -inf
-    """Extremes of the speed less its mean, over the input's."""
+    """Greatest speed less its mean, over the speed of the input."""
     error_within: float | None = 0.0
     """No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
     searched to the end, which leaves a thousand millionth of the range, and None where no bound is known."""

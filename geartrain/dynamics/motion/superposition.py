@@ -119,9 +119,9 @@ class ErrorEstimates(Result):
     independent: float
     """Root mean square of the error if nothing relates the phases of the pairs [rad]."""
     nominal: SuperpositionEstimate
-    """Errors added up with each driver at its mean angle, and with the mean lag of all pairs before it counted in."""
+    """Sum of the errors with each driver at its mean angle."""
     lagged: SuperpositionEstimate
-    """Errors added up with each driver at its mean angle, and with the mean lag of all pairs before it counted in."""
+    """Sum of the errors with each driver displaced by the mean lag of all pairs before it."""
 
     @property
     def bound_error(self) -> float:

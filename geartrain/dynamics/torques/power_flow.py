@@ -50,9 +50,9 @@ class PowerStream(Result):
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
     source: PowerNode
-    """The ends."""
+    """Where the power comes from."""
     target: PowerNode
-    """The ends."""
+    """Where the power goes."""
     power: Fraction
     """Above 0 [torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)

@@ -79,15 +79,14 @@ class BearingTorque(NamedTuple):
     """
 
     link: str
-    """The link that turns in the bearing, and the one that bears it."""
+    """The link that turns in the bearing."""
     carrier: str
-    """The link that turns in the bearing, and the one that bears it."""
+    """The link that bears it."""
     torque: Fraction
-    """On the link and on the carrier, each about its own axis [N m, or plain]; 0 where the bearing rests or its
-    speed is open, and on the frame."""
+    """Torque on the link about its own axis [N m, or plain]; 0 where the bearing rests or its speed is not
+    determined."""
     reaction: Fraction
-    """On the link and on the carrier, each about its own axis [N m, or plain]; 0 where the bearing rests or its
-    speed is open, and on the frame."""
+    """Torque on the carrier about its own axis [N m, or plain]; 0 also where the frame bears it."""
     loss: Fraction
     """Power it takes, 0 or more [torque times the train's unit of speed]."""
 
@@ -242,9 +241,9 @@ class DrivenWay(NamedTuple):
     torques: Torques
     """What answers; its `efficiency` is that of this way."""
     source: str
-    """The links at which power enters and leaves."""
+    """The link at which power enters."""
     load: str
-    """The links at which power enters and leaves."""
+    """The link at which power leaves."""
 
 
 @dataclass(frozen=True)

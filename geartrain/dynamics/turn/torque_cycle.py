@@ -86,11 +86,11 @@ class CycleEnergy(Result):
     loads_put_in: float
     """What loads put in."""
     mesh: float
-    """What is lost in gear pairs, in pins and slots, in bearings: 0 or more."""
+    """Energy lost in gear pairs, 0 or more."""
     pin: float
-    """What is lost in gear pairs, in pins and slots, in bearings: 0 or more."""
+    """Energy lost in pins and slots, 0 or more."""
     bearing: float
-    """What is lost in gear pairs, in pins and slots, in bearings: 0 or more."""
+    """Energy lost in bearings, 0 or more."""
 
     @property
     def net_in(self) -> float:
@@ -217,9 +217,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     mean: float | None = None
     """Mean of the torque over the run; None where the train locks."""
     greatest: TorqueExtreme | None = None
-    """Of the torque, and of all patterns where several balance; the greatest is None where the train locks."""
+    """Greatest torque, of all patterns where several balance; None where the train locks."""
     least: TorqueExtreme | None = None
-    """Of the torque, and of all patterns where several balance; the greatest is None where the train locks."""
+    """Least torque, of all patterns where several balance."""
     starting: TorqueExtreme | None = None
     """What starts the train at the worst position; None where it locks there."""
     energy: CycleEnergy | None = None

@@ -41,15 +41,15 @@ class Circuit(NamedTuple):
     kind: str
     """What closes the circuit."""
     i: str
-    """Links of its two wheels, or of the slot and the pin."""
+    """Link of the first wheel, or of the slot."""
     j: str
-    """Links of its two wheels, or of the slot and the pin."""
+    """Link of the second wheel, or of the pin."""
     carrier: str
     """The link k that holds both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
-    """Coefficients; a is above 0."""
+    """Coefficient of link i, above 0."""
     b: int
-    """Coefficients; a is above 0."""
+    """Coefficient of link j."""
     wheels: tuple[str, str]
     """Ids of the two wheels; of a coupling empty texts."""
     note: str = ""

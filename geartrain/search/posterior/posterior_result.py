@@ -33,9 +33,9 @@ class CountProbability(Result):
     value: Fraction | float
     """0 to 1; exact where it is a Fraction, to rounding where it is a float."""
     low: float | None = None
-    """95 % interval where it is estimated from a sample."""
+    """Lower end of the 95 % interval where the value is estimated from a sample."""
     high: float | None = None
-    """95 % interval where it is estimated from a sample."""
+    """Upper end of the 95 % interval where the value is estimated from a sample."""
 
     @property
     def exact(self) -> Fraction | None:

@@ -55,9 +55,9 @@ class StageConstraints(Result):
     """How many of the meshes are with a ring, 0 to the number of stages. Such a mesh keeps the sense, the others
     reverse it; its ring has more teeth than its pinion."""
     least_total: int | None = None
-    """Least and greatest sum of all counts."""
+    """Least sum of all counts."""
     most_total: int | None = None
-    """Least and greatest sum of all counts."""
+    """Greatest sum of all counts."""
     largest: int | None = None
     """Greatest count."""
 

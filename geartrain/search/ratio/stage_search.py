@@ -67,9 +67,9 @@ class StageFindings(Result):
     stages: int
     """Number of stages."""
     top: Sequence[int]
-    """Admissible counts on top and beneath, ascending."""
+    """Admissible counts on top, ascending."""
     beneath: Sequence[int]
-    """Admissible counts on top and beneath, ascending."""
+    """Admissible counts beneath, ascending."""
     fit: StageConstraints
     """Conditions on the counts."""
     by: str

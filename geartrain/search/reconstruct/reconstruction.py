@@ -69,9 +69,9 @@ class ReconstructionRequest:
     per: Literal["mechanism", "class"] = "mechanism"
     """What has a weight of its own: every train, or every class of equal ratios."""
     sample: int = 0
-    """How many trains are drawn at random, by their weight, and the random seed."""
+    """Number of trains drawn at random by their weight."""
     seed: int = 1
-    """How many trains are drawn at random, by their weight, and the random seed."""
+    """Seed of all random drawing."""
     assumptions: bool = False
     """Whether each hard fact is dropped in turn, and the trains are counted again."""
     known: tuple[Train, ...] = ()

@@ -183,9 +183,9 @@ class SearchedDial:
     name: str
     """Of the pointer."""
     least: Fraction
-    """Bounds of its speed [turns per unit of the input], equal where it must be exact."""
+    """Least speed [turns per unit of the input]; equal to `greatest` where it must be exact."""
     greatest: Fraction
-    """Bounds of its speed [turns per unit of the input], equal where it must be exact."""
+    """Greatest speed [turns per unit of the input]."""
     signed: bool = True
     """Whether the sense is known; if not, bounds are those of the magnitude."""
     place: str | None = None
@@ -209,9 +209,9 @@ class Additions:
     wheels: int
     """The maximum number of added wheels."""
     least: int
-    """Bounds of their tooth counts, inclusive."""
+    """Least tooth count, inclusive."""
     greatest: int
-    """Bounds of their tooth counts, inclusive."""
+    """Greatest tooth count, inclusive."""
     arbors: int | None = None
     """The maximum number of added arbors; default any number."""
     on: Literal["any", "new"] = "any"
@@ -228,11 +228,11 @@ class PriorFactors:
     """
 
     wheel: Fraction = Fraction(10)
-    """1 or more."""
+    """Factor for each added wheel, 1 or more."""
     arbor: Fraction = Fraction(10)
-    """1 or more."""
+    """Factor for each added arbor, 1 or more."""
     unused: Fraction = Fraction(100)
-    """1 or more."""
+    """Factor for each surviving wheel that is not used, 1 or more."""
 
 
 @dataclass(frozen=True)

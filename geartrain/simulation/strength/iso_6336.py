@@ -110,11 +110,11 @@ class IsoContact(Result):
     """Contact stress by ISO 6336-2."""
 
     ZH: float
-    """Zone factor; factor of elasticity [sqrt(MPa)]; contact ratio factor."""
+    """Zone factor."""
     ZE: float
-    """Zone factor; factor of elasticity [sqrt(MPa)]; contact ratio factor."""
+    """Elasticity factor [sqrt(MPa)]."""
     Zeps: float
-    """Zone factor; factor of elasticity [sqrt(MPa)]; contact ratio factor."""
+    """Contact ratio factor."""
     M1: float
     """ZB and ZD before they are kept from falling below 1, and of spur wheels."""
     M2: float
@@ -132,15 +132,15 @@ class IsoRoot(Result):
     """Root stress of one wheel by ISO 6336-3, the load at the outer point of single contact."""
 
     chord: float
-    """Of the root at its 30 degree tangent: thickness, radius of the round, and lever of the force [module]."""
+    """Thickness of the root at its 30 degree tangent [module]."""
     radius: float
-    """Of the root at its 30 degree tangent: thickness, radius of the round, and lever of the force [module]."""
+    """Radius of the root fillet at its 30 degree tangent [module]."""
     lever: float
-    """Of the root at its 30 degree tangent: thickness, radius of the round, and lever of the force [module]."""
+    """Lever of the force about the root at its 30 degree tangent [module]."""
     YF: float
-    """Form factor, stress correction factor."""
+    """Form factor."""
     YS: float
-    """Form factor, stress correction factor."""
+    """Stress correction factor."""
     stress: float
     """sF0 [MPa]."""
     Ybeta: float = 1.0

@@ -82,9 +82,9 @@ class StrengthReport(Result):
     """
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     title: str
-    """Of the train."""
+    """Title of the train."""
     states: tuple[TrainStrength, ...]
     """In the order asked."""
 

@@ -156,13 +156,13 @@ class PairStrength(Result):
     """
 
     pair: str
-    """Its name, and the form of its teeth."""
+    """Name of the pair."""
     form: str
-    """Its name, and the form of its teeth."""
+    """Form of its teeth."""
     module: float
-    """Mm; the width is that of the narrower wheel."""
+    """Module [mm]."""
     face_width: float
-    """Mm; the width is that of the narrower wheel."""
+    """Width of the narrower wheel [mm]."""
     tangential: float
     """Force along the pitch line [N]."""
     elasticity: float
@@ -192,17 +192,17 @@ class ArborStrength(Result):
     )
 
     link: str
-    """The link, and the material of its arbor."""
+    """The link."""
     material: str
-    """The link, and the material of its arbor."""
+    """Material of its arbor."""
     force: float
     """Across it, of all its meshes, as if they pulled one way [N]."""
     thrust: float
     """Along it: what all its meshes together leave for a shoulder [N]."""
     bending: float
-    """Greatest stresses [MPa]; with bending counts what is pressed or drawn along it."""
+    """Greatest bending stress [MPa], with the stress of the thrust."""
     torsion: float
-    """Greatest stresses [MPa]; with bending counts what is pressed or drawn along it."""
+    """Greatest torsional stress [MPa]."""
     stress: float
     """Both together, by von Mises [MPa]."""
     pivot_pressure: float
@@ -233,15 +233,15 @@ class WheelStrength(Result):
     )
 
     wheel: str
-    """Its name, and that of its material."""
+    """Name of the wheel."""
     material: str
-    """Its name, and that of its material."""
+    """Name of its material."""
     torque: float
     """On it [N m]."""
     section: float
-    """Where bending is greatest: distance from the axle, and thickness of the tooth there [mm]."""
+    """Distance from the axle of the section where bending is greatest [mm]."""
     thickness: float
-    """Where bending is greatest: distance from the axle, and thickness of the tooth there [mm]."""
+    """Thickness of the tooth at that section [mm]."""
     lewis: float
     """Y of Lewis's formula, the load at the tip."""
     tip_stress: float
@@ -251,9 +251,9 @@ class WheelStrength(Result):
     pressure: float | None
     """Greatest of the contact while one couple bears all [MPa]; None without a path of contact, or a bound."""
     strength: float | None
-    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
+    """Strength of the material [MPa]; None where it is not known."""
     spread: float | None
-    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
+    """Relative uncertainty of the strength; None where it is not known."""
     iso: IsoRoot | None = None
     """Root stress by ISO 6336-3 for the wheel as a hob cuts it."""
     wear: FlankWear | None = None
@@ -302,9 +302,9 @@ class WheelForce(Result):
     """
 
     pair: str
-    """The pair, and which of its wheels."""
+    """Name of the pair."""
     wheel: str
-    """The pair, and which of its wheels."""
+    """Which of its wheels."""
     radius: float
     """Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm]."""
     tangential: float
@@ -330,13 +330,13 @@ class FlankStrength(Result):
     KEYS = ("wheel", "material", "strength", "spread", "safety", "tip_stress", "root_safety")
 
     wheel: str
-    """Its name, and that of its material."""
+    """Name of the wheel."""
     material: str
-    """Its name, and that of its material."""
+    """Name of its material."""
     strength: float | None
-    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
+    """Strength of the material [MPa]; None where it is not known."""
     spread: float | None
-    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
+    """Relative uncertainty of the strength; None where it is not known."""
     safety: float | None
     """Pressure at which yielding begins below the flank over that of the contact."""
     tip_stress: float | None = None
@@ -368,9 +368,9 @@ class PointContact(Result):
     pressure: float
     """The greatest where as few couples touch as anywhere [MPa]."""
     longer: float
-    """Half axes of the ellipse in which they touch there [mm]."""
+    """Longer half axis of the contact ellipse [mm]."""
     shorter: float
-    """Half axes of the ellipse in which they touch there [mm]."""
+    """Shorter half axis of the contact ellipse [mm]."""
     wheels: tuple[FlankStrength, ...]
     """Both, as the pair names them."""
     notes: tuple[str, ...] = ()

@@ -212,11 +212,9 @@ class SteppedSeparation(Result):
     at: float | None
     """Turns of the input at which it does."""
     holds: float | None
-    """The greatest rate tried at which all flanks touch, and the least at which some part, by the shortest steps
-    [turn/s]."""
+    """Greatest rate tried at which all flanks touch, by the shortest steps [turn/s]."""
     parts: float | None
-    """The greatest rate tried at which all flanks touch, and the least at which some part, by the shortest steps
-    [turn/s]."""
+    """Least rate tried at which some flanks part, by the shortest steps [turn/s]."""
     flight: float
     """Turns of the input for which flanks must be apart to be noticed for certain."""
     complete: bool = True

@@ -78,31 +78,28 @@ class TimeRun(Tabular, Pictured, Result):
     step: float
     """Length of a step [s]."""
     skip: float
-    """Time before what is counted, and of what is counted [s]."""
+    """Time before what is counted [s]."""
     duration: float
-    """Time before what is counted, and of what is counted [s]."""
+    """Time that is counted [s]."""
     time: Floats
-    """Of the samples: time [s], and turns of the lead, counted the way in which it is declared to turn. Shape (n,)."""
+    """Times of the samples [s]. Shape (n,)."""
     turns: Floats
-    """Of the samples: time [s], and turns of the lead, counted the way in which it is declared to turn. Shape (n,)."""
+    """Turns of the lead at the samples, positive in its declared sense. Shape (n,)."""
     angles: LabelledArray
-    """Of all links [rad, rad/s]. Shape (link, time)."""
+    """Angles of all links [rad]. Shape (link, time)."""
     speeds: LabelledArray
-    """Of all links [rad, rad/s]. Shape (link, time)."""
+    """Speeds of all links [rad/s]. Shape (link, time)."""
     torques: LabelledArray
     """Means between samples, of torques on the driven sides [N m]. Shape (contact, time)."""
     gaps: LabelledArray
-    """By how much the driven side is off its drive flank, and off its coast flank [rad]: drive flanks are those that
-    push while the lead turns as declared. Shape (pair, time)."""
+    """Distance of the driven side from its drive flank [rad]. Drive flanks push while the lead turns as declared.
+    Shape (pair, time)."""
     coast_gaps: LabelledArray
-    """By how much the driven side is off its drive flank, and off its coast flank [rad]: drive flanks are those that
-    push while the lead turns as declared. Shape (pair, time)."""
+    """Distance of the driven side from its coast flank [rad]. Shape (pair, time)."""
     outputs: LabelledArray
-    """Angles through which outputs have turned, and by how much they are ahead of `motion` [rad]. Shape (output,
-    time)."""
+    """Angles through which outputs have turned [rad]. Shape (output, time)."""
     ahead: LabelledArray
-    """Angles through which outputs have turned, and by how much they are ahead of `motion` [rad]. Shape (output,
-    time)."""
+    """Angles by which outputs are ahead of `motion` [rad]. Shape (output, time)."""
     drive: Floats
     """Torque where power enters, mean between samples [N m], the way the train turns. Shape (n,)."""
     torque: float
@@ -233,13 +230,13 @@ class ImpactList(Result):
     contact: tuple[str, ...]
     """The pair, pin or escapement of each that was kept."""
     time: Floats
-    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
+    """Time of each impact [s]. Shape (kept,)."""
     speed: Floats
-    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
+    """Closing speed [rad/s]. Shape (kept,)."""
     energy: Floats
-    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
+    """Energy dissipated [J]. Shape (kept,)."""
     impulse: Floats
-    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
+    """Impulse on the driven side [N m s]. Shape (kept,)."""
 
 
 @dataclass(frozen=True)
@@ -267,17 +264,17 @@ class EnergyAccount(Result):
     )
 
     drive: float
-    """Work of what keeps a speed, of constant torques, of springs."""
+    """Work of what keeps a speed [J]."""
     loads: float
-    """Work of what keeps a speed, of constant torques, of springs."""
+    """Work of constant torques [J]."""
     springs: float
-    """Work of what keeps a speed, of constant torques, of springs."""
+    """Work of springs [J]."""
     bearings: float
-    """Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins."""
+    """Energy lost by dry friction in bearings [J]."""
     drag: float
-    """Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins."""
+    """Energy lost by viscous drag [J]."""
     friction: float
-    """Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins."""
+    """Energy lost by friction of teeth and pins [J]."""
     blows: float
     """Taken by impacts; of teeth that yield, by their damping."""
     steps: float
@@ -315,9 +312,9 @@ class OutputLead(Result):
     output: str
     """Its name."""
     ahead: float
-    """Greatest angles, 0 or more [rad]."""
+    """Greatest angle ahead of `motion`, 0 or more [rad]."""
     behind: float
-    """Greatest angles, 0 or more [rad]."""
+    """Greatest angle behind `motion`, 0 or more [rad]."""
     rms: float
     """Root mean square of the difference [rad]."""
 
@@ -336,9 +333,9 @@ class SettledFigure(Result):
     unit: str
     """Its unit."""
     coarse: float
-    """By steps of length h, and of h/2."""
+    """Value by steps of length h."""
     fine: float
-    """By steps of length h, and of h/2."""
+    """Value by steps of length h/2."""
     kind: Literal["mean", "extreme"]
     """A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic."""
     settled: bool

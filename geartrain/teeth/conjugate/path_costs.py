@@ -99,9 +99,9 @@ class PathMeasures(Result):
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
 
     one_pair: PathCosts
-    """Where one pair bears the load, and where pairs in contact share it equally."""
+    """Costs where one pair carries the load."""
     shared: PathCosts
-    """Where one pair bears the load, and where pairs in contact share it equally."""
+    """Costs where the pairs in contact share the load equally."""
     depth: float
     """Working depth |eta_a| + eta_r."""
     slowest: float
@@ -128,9 +128,9 @@ class PathRatios(Result):
     KEYS = (Key("one_pair", to=finite), Key("shared", to=finite), Key("", "free", finite))
 
     one_pair: dict[str, float]
-    """Of costs, by their assumption on the load."""
+    """Ratios of costs where one pair carries the load."""
     shared: dict[str, float]
-    """Of costs, by their assumption on the load."""
+    """Ratios of costs where the pairs in contact share the load equally."""
     free: dict[str, float]
     """Of what depends on no load."""
 

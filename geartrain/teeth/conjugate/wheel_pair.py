@@ -33,9 +33,9 @@ class WheelPair:
     """
 
     z1: float
-    """Tooth counts, which are not whole for virtual wheels that represent bevels."""
+    """Tooth count of the first wheel; not whole for a virtual wheel that represents a bevel."""
     z2: float
-    """Tooth counts, which are not whole for virtual wheels that represent bevels."""
+    """Tooth count of the second wheel; not whole for a virtual wheel that represents a bevel."""
     internal: bool = False
     """The second is a ring."""
     shaft_angle: float | None = None

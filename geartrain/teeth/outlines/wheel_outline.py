@@ -101,13 +101,13 @@ class WheelOutline(Result):
     contours: tuple[Contour, ...]
     """The outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis."""
     module: float
-    """Of the wheel [mm]."""
+    """Module [mm]."""
     pitch_radius: float
-    """Of the wheel [mm]."""
+    """Pitch radius [mm]."""
     tip_radius: float
-    """Of the wheel [mm]."""
+    """Tip radius [mm]."""
     root_radius: float
-    """Of the wheel [mm]."""
+    """Root radius [mm]."""
     thickness: float
     """Of a tooth along the pitch circle [mm]."""
     fillet: float
@@ -115,11 +115,11 @@ class WheelOutline(Result):
     relief: float
     """How far the root is turned off the flank's tangent, so that the mate's tip passes [rad]."""
     clearance: float
-    """Of the pair [mm]."""
+    """Tip clearance of the pair [mm]."""
     backlash: float
-    """Of the pair [mm]."""
+    """Backlash of the pair [mm]."""
     centre_distance: float
-    """Of the pair [mm]."""
+    """Centre distance of the pair [mm]."""
     tolerance: float
     """How far a chord may leave a flank [mm]."""
 

@@ -73,17 +73,17 @@ class TriangularSizes:
     """
 
     z1: int
-    """Tooth counts."""
+    """Tooth count of the first wheel."""
     z2: int
-    """Tooth counts."""
+    """Tooth count of the second wheel."""
     R1: float
-    """Tip radii."""
+    """Tip radius of the first wheel."""
     R2: float
-    """Tip radii."""
+    """Tip radius of the second wheel."""
     beta1: float
-    """Half apertures of the teeth [rad]."""
+    """Half aperture of the teeth of the first wheel [rad]."""
     beta2: float
-    """Half apertures of the teeth [rad]."""
+    """Half aperture of the teeth of the second wheel [rad]."""
     excess: float
     """The part of `deepest_distance` by which the wheels are apart: D = (1 + excess) deepest_distance outside, (1 -
     excess) inside, where the clearance factor is below 1."""

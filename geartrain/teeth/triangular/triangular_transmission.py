@@ -404,17 +404,17 @@ class ContactCourse(Result):
     phases: tuple[str, ...]
     """Of each row."""
     alpha1: Floats
-    """Angles of the apices from the line of centres (rad)."""
+    """Angle of the driver's apex from the line of centres [rad]."""
     alpha2: Floats
-    """Angles of the apices from the line of centres (rad)."""
+    """Angle of the driven wheel's apex from the line of centres [rad]."""
     speed_ratio: Floats
     """tau."""
     instant_centre: Floats
     """O1C, from the driver's axis, in the unit of the law's lengths; NaN in a standstill, as what follows."""
     driver_arm: Floats
-    """Of the force about either axis, b1 and b2."""
+    """Arm b1 of the force about the driver's axis."""
     driven_arm: Floats
-    """Of the force about either axis, b1 and b2."""
+    """Arm b2 of the force about the driven wheel's axis."""
     efficiency: Floats
     """tau b2/b1; NaN too where friction locks."""
 

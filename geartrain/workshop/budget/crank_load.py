@@ -82,9 +82,9 @@ class WeightDrive(Result):
     wheel: str | None = None
     """The link of the escape wheel; None where none is declared, or loads are."""
     mean: float | None = None
-    """Torque that arrives there while the weight alone drives, the mean and the least over the run [N m]."""
+    """Mean torque over the run at the escape wheel while the weight alone drives [N m]."""
     least: float | None = None
-    """Torque that arrives there while the weight alone drives, the mean and the least over the run [N m]."""
+    """Least torque over the run at the escape wheel while the weight alone drives [N m]."""
     efficiency: float | None = None
     """Energy that arrives there over that of the weight."""
 

@@ -99,9 +99,9 @@ class RatioDrift(Result):
     degrees_per_turn: float | None
     """Gained in a turn of the pointer [deg]."""
     degrees_per_year: float | None
-    """Gained in 365.25 and 36525 days [deg]; None where the train's unit is no time."""
+    """Angle gained in 365.25 days [deg]; None where the train's unit is not a time."""
     degrees_per_century: float | None
-    """Gained in 365.25 and 36525 days [deg]; None where the train's unit is no time."""
+    """Angle gained in 36525 days [deg]; None where the train's unit is not a time."""
     degrees_over_span: float | None
     """Gained over the span of the budget [deg]."""
 
@@ -129,9 +129,9 @@ class PointerBudget(Result):
     name: str
     """Of the output."""
     of: str
-    """The link that turns, and the link it is read against."""
+    """The link that turns."""
     relative_to: str
-    """The link that turns, and the link it is read against."""
+    """The link against which it is read."""
     speed: SpeedValue | None
     """Mean speed of the one seen from the other [the train's unit]."""
     degrees_per_day: float | None
@@ -207,9 +207,9 @@ class TrainBudget(Tabular, Pictured, Result):
     span_days: float
     """Over which ratios drift [d]."""
     turns: float
-    """Of the input, over which teeth and lost motion are followed, and at how many positions."""
+    """Turns of the input over which teeth and lost motion are followed."""
     samples: int
-    """Of the input, over which teeth and lost motion are followed, and at how many positions."""
+    """Number of positions of the input."""
     lead: str
     """The link whose turns these are."""
     pointers: tuple[PointerBudget, ...]

@@ -59,9 +59,9 @@ class FrictionSpread(NamedTuple):
     """
 
     sliding: float
-    """Mean and standard deviation of the coefficient."""
+    """Mean of the coefficient."""
     deviation: float
-    """Mean and standard deviation of the coefficient."""
+    """Standard deviation of the coefficient."""
 
 
 @dataclass(frozen=True)
@@ -286,19 +286,19 @@ class FrictionTrials(Result):
     link: str
     """The link whose torque it is."""
     wanted: int
-    """Trials asked for, and worked out."""
+    """Number of trials requested."""
     done: int
-    """Trials asked for, and worked out."""
+    """Number of trials computed."""
     seed: int
     """Of all that was drawn."""
     spreads: Mapping[str, FrictionSpread]
     """By `train` and by pair or coupling, what was drawn."""
     mean: TrialFigure
-    """Mean, greatest and starting torque of the trials that have one [N m, or plain]."""
+    """Mean torque of the trials that have one [N m, or plain]."""
     greatest: TrialFigure
-    """Mean, greatest and starting torque of the trials that have one [N m, or plain]."""
+    """Greatest torque of the trials that have one [N m, or plain]."""
     starting: TrialFigure
-    """Mean, greatest and starting torque of the trials that have one [N m, or plain]."""
+    """Starting torque of the trials that have one [N m, or plain]."""
     efficiency: TrialFigure
     """Energy out over energy in."""
     locks: ProbabilityEstimate

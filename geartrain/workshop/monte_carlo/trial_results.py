@@ -48,9 +48,9 @@ class TrialResults:
     plan: TrialPlan
     """What was asked, and the `seed` of its random numbers."""
     seed: int
-    """The seed, and the number of trials wanted: more than `done` in a run that was interrupted."""
+    """Seed of all random drawing."""
     wanted: int
-    """The seed, and the number of trials wanted: more than `done` in a run that was interrupted."""
+    """Number of trials requested: more than `done` in an interrupted run."""
     marks: Marks
     """What each pair does, (trials, pairs): a sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut."""
     turns: Floats
@@ -258,9 +258,9 @@ class FilingStatistics(Result):
     filed: ProbabilityEstimate
     """How often it jams before it is filed."""
     strokes: IntervalEstimate
-    """Mean number of strokes, and of teeth that took them, over all trials."""
+    """Mean number of strokes over all trials."""
     teeth: IntervalEstimate
-    """Mean number of strokes, and of teeth that took them, over all trials."""
+    """Mean number of teeth filed over all trials."""
     most: int
     """Strokes of the trial that took most."""
     jams: ProbabilityEstimate

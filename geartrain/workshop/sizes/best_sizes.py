@@ -61,9 +61,9 @@ class BestToothSizes(Tabular, Pictured, Result):
     outlines: OutlineAgreement
     """What the contact of the drawn outlines says of it."""
     equal_depth: ToothSizes | None
-    """With the window and half angles of `start`, and radii by rule; None where such a pair does not turn."""
+    """The pair with radii of equal depth, and the window and half angles of `start`; None where it does not turn."""
     pitch_true: ToothSizes | None
-    """With the window and half angles of `start`, and radii by rule; None where such a pair does not turn."""
+    """The pair with pitch-true radii, and the window and half angles of `start`; None where it does not turn."""
     front: tuple[ToothSizes, ...]
     """With two aims, the designs that none is better than in both, from the best in the first to that in the second."""
     evaluations: int
@@ -196,13 +196,13 @@ class OutlineAgreement(Result):
     KEYS = ("turns", "loss", "error", "impact", "play", "difference")
 
     loss: tuple[float, float]
-    """By the law, and by the outlines; in the units of `ToothSizes`."""
+    """Loss by the law, and by the outlines."""
     error: tuple[float, float]
-    """By the law, and by the outlines; in the units of `ToothSizes`."""
+    """Error by the law, and by the outlines, in the unit of `ToothSizes`."""
     impact: tuple[float, float]
-    """By the law, and by the outlines; in the units of `ToothSizes`."""
+    """Impact by the law, and by the outlines."""
     play: tuple[float, float]
-    """By the law, and by the outlines; in the units of `ToothSizes`."""
+    """Play by the law, and by the outlines, in the unit of `ToothSizes`."""
     turns: bool
     """The outlines turn without a jam and without losing contact."""
 

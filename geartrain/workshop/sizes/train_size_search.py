@@ -350,11 +350,11 @@ class PairSizes(Result):
     driver: str
     """The wheel that drives."""
     before: ToothSizes
-    """As declared; best for the pair by itself; best for the train."""
+    """Sizes as declared."""
     apart: ToothSizes
-    """As declared; best for the pair by itself; best for the train."""
+    """Best sizes for the pair by itself."""
     together: ToothSizes
-    """As declared; best for the pair by itself; best for the train."""
+    """Best sizes for the train."""
     runs: bool
     """Whether the pair turns as declared."""
     outlines: OutlineAgreement
@@ -391,24 +391,22 @@ class BestTrainSizes(Tabular, Pictured, Result):
     train: str
     """Its name."""
     aim: str
-    """What was asked for; the link or output, and the link at which power enters."""
+    """What was optimised."""
     output: str
-    """What was asked for; the link or output, and the link at which power enters."""
+    """Link or output whose figure it is."""
     source: str
-    """What was asked for; the link or output, and the link at which power enters."""
+    """Link at which power enters."""
     free: Mapping[str, Range]
     """Bounds of the free parameters; angles in rad."""
     limits: tuple[SizeLimit, ...]
     """What each pair has to keep."""
     before: float | None
-    """The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
-    together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module]."""
+    """Figure of the train as declared; None where it does not run. A loss, an error peak to peak [rad], the sum of
+    impacts, or the least margin [module]."""
     apart: float
-    """The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
-    together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module]."""
+    """The same figure with each pair best by itself."""
     together: float
-    """The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
-    together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module]."""
+    """The same figure with all pairs best together."""
     pairs: tuple[PairSizes, ...]
     """The pairs that act on the output."""
     untouched: Mapping[str, str]

@@ -54,14 +54,11 @@ class MeshProof(Result):
     pair: str
     """Its name."""
     declared: float
-    """Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel,
-    a ring's where there is one [mm]."""
+    """Stated play along the pitch circle of the second wheel, or of the ring [mm]."""
     least: float
-    """Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel,
-    a ring's where there is one [mm]."""
+    """Least play measured [mm]."""
     most: float
-    """Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel,
-    a ring's where there is one [mm]."""
+    """Greatest play measured [mm]."""
     overlap: float
     """Greatest common area in any position [mm2]."""
     contact_ratio: float | None

@@ -18,9 +18,9 @@ class CountFormula:
     wheels: Sequence[int]
     """The counts it depends on, as indices of `SceneFormulas.wheels`; one twice where equal planets have it."""
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms: a coefficient as text, and the powers, parallel to `wheels`, all 0 or more."""
+    """Terms of the numerator: a coefficient as text, and powers parallel to `wheels`, all 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
-    """Terms: a coefficient as text, and the powers, parallel to `wheels`, all 0 or more."""
+    """Terms of the denominator, likewise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,9 +58,9 @@ class SceneFormulas:
     formulas: Sequence[CountFormula]
     """Functions, each once."""
     bodies: Sequence[int | None]
-    """For each body and pointer of the scene the index of its function; None where nothing determines it."""
+    """Index of the function of each body of the scene; None where nothing determines it."""
     pointers: Sequence[int | None]
-    """For each body and pointer of the scene the index of its function; None where nothing determines it."""
+    """Index of the function of each pointer of the scene; None where nothing determines it."""
     conditions: Sequence[CountCondition]
     """Where one is broken, the train does not turn by these functions."""
     input: str

@@ -28,17 +28,16 @@ class ScenePart:
     body: int
     """Index of the body to which it belongs."""
     name: str
-    """Of a part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate; frame
-    for a plate of the frame, carrier for one that turns with a carrier or a ring, dial for one of dials."""
+    """Name in the list of parts."""
     kind: str
     """Of a part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate; frame
     for a plate of the frame, carrier for one that turns with a carrier or a ring, dial for one of dials."""
     place: Vector
     """Where it stands in the zero pose [mm]."""
     direction: Vector
-    """Unit vectors: its z and its x."""
+    """Unit vector of its z axis."""
     across: Vector
-    """Unit vectors: its z and its x."""
+    """Unit vector of its x axis."""
     bands: Sequence[tuple[float, float, float, float]] = ()
     """Of a turned part, from below: from and to along z, outside and inside radius [mm]."""
     outlines: Sequence[Sequence[float]] = ()
@@ -63,9 +62,9 @@ class SceneHanger:
     point: Vector
     """Where it hangs [mm]."""
     direction: Vector
-    """Unit vectors: the axis about which it swings or turns, and the way down, across it."""
+    """Unit vector along the axis about which it swings or turns."""
     down: Vector
-    """Unit vectors: the axis about which it swings or turns, and the way down, across it."""
+    """Unit vector downwards, across that axis."""
     length: float
     """From where it hangs to the middle of the bob, or to the weight in the zero pose [mm]."""
     rate: float
@@ -273,13 +272,13 @@ class SceneCoupling:
     """Angle about the slot's direction by which the slot, in the zero pose, runs aside from the line from `slot_at`
     to `pin_at` [rad]: 0 unless starting angles are declared."""
     pins_at: Sequence[Vector] = ()
-    """Middles of all pins in round holes, and of these, in the zero pose [mm]; none of a pin in a slot."""
+    """Middles of all pins in round holes in the zero pose [mm]; none of a pin in a slot."""
     holes_at: Sequence[Vector] = ()
-    """Middles of all pins in round holes, and of these, in the zero pose [mm]; none of a pin in a slot."""
+    """Middles of these holes in the zero pose [mm]; none of a pin in a slot."""
     pin_diameter: float = 0.0
-    """Diameters of such pins and holes [mm]; 0 of a pin in a slot."""
+    """Diameter of such a pin [mm]; 0 of a pin in a slot."""
     hole: float = 0.0
-    """Diameters of such pins and holes [mm]; 0 of a pin in a slot."""
+    """Diameter of such a hole [mm]; 0 of a pin in a slot."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,9 +312,9 @@ class SceneWave:
     """
 
     wheel: int
-    """Indices of the wheel, and of the body whose angle is the wave's."""
+    """Index of the wheel."""
     by: int
-    """Indices of the wheel, and of the body whose angle is the wave's."""
+    """Index of the body whose angle is that of the wave."""
     towards: Vector
     """Unit vector across the axis: to the first lobe in the zero pose."""
     rise: float
@@ -323,6 +322,6 @@ class SceneWave:
     lobes: int
     """How many of them."""
     middle: float
-    """Radius of that line in the round wheel, and the thickness of its wall [mm]."""
+    """Radius of the middle line of the wall in the round wheel [mm]."""
     wall: float
-    """Radius of that line in the round wheel, and the thickness of its wall [mm]."""
+    """Thickness of the wall [mm]."""

@@ -89,13 +89,13 @@ class ErrorSource:
     law: int
     """Index of its law in the movement."""
     driver: int
-    """Indices of bodies."""
+    """Index of the driving body."""
     carrier: int
-    """Indices of bodies."""
+    """Index of the body that carries the pair."""
     driver_sense: int
-    """1 or -1: how the errors of these bodies count in the pair's own sense."""
+    """1 or -1: how the error of the driver counts in the pair's own sense."""
     carrier_sense: int
-    """1 or -1: how the errors of these bodies count in the pair's own sense."""
+    """1 or -1: how the error of the carrier counts in the pair's own sense."""
     cycles: str
     """Periods of the law in a turn of the lead, exact."""
     start: float
@@ -116,15 +116,15 @@ class ErrorStep:
     """
 
     bodies: Sequence[int]
-    """Indices of bodies: those found in this step, and those it takes from steps before."""
+    """Indices of the bodies found in this step."""
     known: Sequence[int]
-    """Indices of bodies: those found in this step, and those it takes from steps before."""
+    """Indices of the bodies from steps before that it takes."""
     from_known: Sequence[Sequence[float]]
-    """Matrix, a row a body found."""
+    """Coefficients of the known bodies, a row for each body found."""
     sources: Sequence[int]
     """Indices of sources."""
     from_sources: Sequence[Sequence[float]]
-    """Matrix, a row a body found."""
+    """Coefficients of the sources, a row for each body found."""
     coupled: bool
     """True where sources depend on the bodies found: they are found together, by iteration."""
 

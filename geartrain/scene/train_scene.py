@@ -55,9 +55,9 @@ class DialFace:
     centre: Vector
     """Its middle [mm]."""
     normal: Vector
-    """Unit vectors: the way its face looks, and from the middle to its zero mark."""
+    """Unit vector along which the face looks."""
     zero: Vector
-    """Unit vectors: the way its face looks, and from the middle to its zero mark."""
+    """Unit vector from the middle to the zero mark."""
     radius: float
     """Of all that is engraved [mm]."""
     scale: DialScale
@@ -114,9 +114,9 @@ class SceneEpoch:
     calendar: str | None
     """In which dates are told; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str
-    """As declared."""
+    """Source as declared."""
     note: str
-    """As declared."""
+    """Note as declared."""
 
 
 @dataclass(frozen=True, slots=True)

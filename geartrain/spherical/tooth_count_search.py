@@ -334,13 +334,13 @@ class NeighbourRatioWindow:
     """
 
     a: str
-    """The kinds of gear that mesh."""
+    """Kind of the first gear."""
     b: str
-    """The kinds of gear that mesh."""
+    """Kind of the second gear."""
     low: float
-    """Bounds of z_a / z_b; `inf` where there is none."""
+    """Lower bound of z_a / z_b."""
     high: float
-    """Bounds of z_a / z_b; `inf` where there is none."""
+    """Upper bound of z_a / z_b; `inf` where there is none."""
 
     def __str__(self) -> str:
         return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"

@@ -6,6 +6,7 @@ import dataclasses
 import importlib
 import inspect
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -109,6 +110,19 @@ def gaps(where: str, thing: Any) -> Iterator[str]:
 @pytest.mark.parametrize("room", SHOWING)
 def test_public_names_say_what_goes_in_and_what_comes_out_and_show_it(room: str) -> None:
     assert [gap for name, thing in public(room) for gap in gaps(f"{room}.{name}", thing)] == []
+
+
+@pytest.mark.parametrize("room", SHOWING)
+def test_no_two_fields_of_a_public_class_have_one_meaning(room: str) -> None:
+    """Two fields with one docstring were described together, and neither by itself."""
+    shared = [
+        f"{name}: {meaning}"
+        for name, thing in public(room)
+        if inspect.isclass(thing)
+        for meaning, count in Counter(field_docs(thing).values()).items()
+        if count > 1
+    ]
+    assert shared == []
 
 
 def test_a_gap_is_found() -> None:

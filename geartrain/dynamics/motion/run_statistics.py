@@ -80,11 +80,10 @@ class RunningStatistics(Result):
     fast: float = -inf
     """Greatest speed less its mean, over the speed of the input."""
     error_within: float | None = 0.0
-    """No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
-    searched to the end, which leaves a thousand millionth of the range, and None where no bound is known."""
+    """No error of the run [rad] lies farther than this beyond the extremes of the error; 0 where the run was searched
+    to the end, which leaves a thousand millionth of the range, and None where no bound is known."""
     speed_within: float | None = 0.0
-    """No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
-    searched to the end, which leaves a thousand millionth of the range, and None where no bound is known."""
+    """The same for the speed over that of the input."""
 
     def add(self, error: Floats, rate: Floats) -> None:
         """Count some more positions.

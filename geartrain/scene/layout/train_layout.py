@@ -298,11 +298,11 @@ class WheelPlace:
     """
 
     wheel: str
-    """Its name, the link that carries it and the axis it turns about."""
+    """Its name."""
     link: str
-    """Its name, the link that carries it and the axis it turns about."""
+    """The link that carries it."""
     axis: str
-    """Its name, the link that carries it and the axis it turns about."""
+    """The axis about which it turns."""
     centre: Vector
     """Middle of its pitch circle, on its axis [mm]."""
     radius: float

@@ -35,9 +35,9 @@ class SolidPart:
     """Wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin,
     rod, bob or weight."""
     turn: Floats
-    """Rotation and shift [mm] that put it into the zero pose."""
+    """Rotation that puts it into the zero pose."""
     place: Floats
-    """Rotation and shift [mm] that put it into the zero pose."""
+    """Shift that puts it into the zero pose [mm]."""
     status: str = ""
     """Of a wheel as declared: surviving, reconstructed, ..."""
     contours: tuple[Contour, ...] = ()

@@ -50,9 +50,9 @@ class ConstraintOptions:
     """Of rings [modules]; None for that of external wheels. Rings are often cut shorter: at 1 and 20 deg 18 teeth in
     60 interfere."""
     least: int | None = None
-    """Bounds on the teeth of every free wheel, inclusive; worms are not asked."""
+    """Least tooth count of every free wheel, inclusive; worms are exempt."""
     most_teeth: int | None = None
-    """Bounds on the teeth of every free wheel, inclusive; worms are not asked."""
+    """Greatest tooth count of every free wheel, inclusive; worms are exempt."""
     largest_radius: Quantity | None = None
     """Of the pitch circle of every free wheel: a length, or a plain number of modules; worms are not asked."""
     different: bool = False

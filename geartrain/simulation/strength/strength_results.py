@@ -394,9 +394,9 @@ class PinContact(Result):
     name: str
     """Of the pair, or of the coupling."""
     disc: str
-    """The wheel with the lobes or holes, and its material."""
+    """The wheel with the lobes or holes."""
     material: str
-    """The wheel with the lobes or holes, and its material."""
+    """Material of that wheel."""
     pins: int
     """How many there are."""
     width: float

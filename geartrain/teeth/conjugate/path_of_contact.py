@@ -244,29 +244,29 @@ class PathContact:
     d: Floats
     """Signed distance from the pitch point [module; rad]."""
     sin_psi: Floats
-    """Of the pressure angle."""
+    """Sine of the pressure angle."""
     cos_psi: Floats
-    """Of the pressure angle."""
+    """Cosine of the pressure angle."""
     q: Floats
     """d(psi)/dX."""
     w: Floats
     """d(S sin psi)/dd."""
     U1: Floats
-    """Speed of the contact along each profile, over the pitch-line speed."""
+    """Speed of the contact along the profile of gear 1, over the pitch-line speed."""
     U2: Floats
-    """Speed of the contact along each profile, over the pitch-line speed."""
+    """Speed of the contact along the profile of gear 2, over the pitch-line speed."""
     k1: Floats
-    """(Geodesic) curvature of each profile; gear 1 is convex where k1 > 0, gear 2 where k2 < 0."""
+    """(Geodesic) curvature of the profile of gear 1, which is convex where k1 > 0."""
     k2: Floats
-    """(Geodesic) curvature of each profile; gear 1 is convex where k1 > 0, gear 2 where k2 < 0."""
+    """(Geodesic) curvature of the profile of gear 2, which is convex where k2 < 0."""
     kr: Floats
     """Relative curvature k1 - k2."""
     H: Floats
     """Kr / cos psi: the Hertz pressure is proportional to its square root."""
     Q1: Floats
-    """Frictional heat per area of each profile, over friction times tangential force."""
+    """Frictional heat per area of the profile of gear 1, over friction times tangential force."""
     Q2: Floats
-    """Frictional heat per area of each profile, over friction times tangential force."""
+    """Frictional heat per area of the profile of gear 2, over friction times tangential force."""
     flash: Floats
     """F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature of like materials is proportional."""
     rub: Floats
@@ -299,9 +299,9 @@ class PathOfContact:
     pitch: PitchSurfaces
     """Pitch cylinders or cones of both gears."""
     approach: PathSide
-    """The two sides."""
+    """The side before the pitch point."""
     recess: PathSide
-    """The two sides."""
+    """The side after the pitch point."""
     real: tuple[float, float] | None = None
     """Arcs of approach and recess (X) in which the teeth touch, where they are shorter than the sides; one is
     negative where contact begins, or ends, beyond the pitch point. None for the arcs of the sides."""

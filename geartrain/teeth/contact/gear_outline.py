@@ -40,9 +40,9 @@ class OutlineCurve:
     """Parameters of shape (n,) -> (n, 2): x forward, y outward along the middle of the tooth, the axle at 0; or (n,
     3), bevel, on the unit sphere, the axis along z."""
     start: float = 0.0
-    """Parameters of its ends."""
+    """Parameter of its beginning."""
     end: float = 1.0
-    """Parameters of its ends."""
+    """Parameter of its end."""
 
     def at(self, t: ArrayLike) -> Floats:
         """Points of the curve.

@@ -198,9 +198,9 @@ class FlankContact:
     kind: Indices
     """What touches, an index into `KINDS`: smooth sides or a corner."""
     radius1: Floats
-    """Of the contact about either axle, in the outlines' unit; bevel: polar angles [rad]."""
+    """Radius of the contact about the driver's axle, in the outlines' unit; bevel: polar angle [rad]."""
     radius2: Floats
-    """Of the contact about either axle, in the outlines' unit; bevel: polar angles [rad]."""
+    """Radius of the contact about the driven axle, in the outlines' unit; bevel: polar angle [rad]."""
     sharing: Indices
     """How many pairs of teeth are within reach of the contact."""
     curves: Indices
@@ -223,9 +223,9 @@ class TwoFlankContact:
     """
 
     front: FlankContact
-    """Of either side."""
+    """Contact of the drive flanks."""
     back: FlankContact
-    """Of either side."""
+    """Contact of the coast flanks."""
 
     @property
     def play(self) -> Floats:

@@ -216,9 +216,9 @@ class ClearanceWindow:
     """
 
     jam: float
-    """Ends of the window."""
+    """Clearance up to which the pair does not turn."""
     run: float
-    """Ends of the window."""
+    """Clearance up to which the pair runs."""
     run_kind: Literal["clash", "standstill"]
     """What happens beyond `run`."""
     reach: float

@@ -133,7 +133,7 @@ def print_schema(
     to = sink(out, force)
     if question:
         keys = [describe_answer(" ".join(question))]
-        emit(to_markdown(keys) if form == "markdown" else to_text(keys), to)
+        emit(to_markdown(keys) if form == "markdown" else to_text(keys, 120), to)  # keys are long
     elif form == "markdown":
         emit(declaration_reference(), to)
     else:

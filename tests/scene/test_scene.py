@@ -16,7 +16,7 @@ import shipped
 from hypothesis import given, settings
 from models import pair, planetary
 from reference_solver import _dense as solve_rows
-from reference_solver import solve_naively, turning_graph, willis_rows
+from reference_solver import rigid_rows, solve_naively, turning_graph, willis_rows
 from sampling import few_or_many
 from strategies import asked_trains, driven_trains, rerooted
 
@@ -139,16 +139,12 @@ def test_an_output_hangs_on_the_pairs_whose_error_moves_it(data: dict[str, Any])
 
 
 def _speeds(data: Mapping[str, Any], rows: list[dict[str, Fraction]], wrong: int | None) -> dict[str, Fraction]:
-    """Speeds with one circuit wrong by 1/7, by elimination; none where that contradicts the rest or leaves a link open.
-
-    Joints that a rigid connection across axes closes have no row here.
-    """
+    """Speeds with an error of 1/7 in one circuit; empty if that has no solution or leaves a link undetermined."""
     frame = data.get("frame", "frame")
     links = [link for link in data["links"] if link != frame]
     one, zero = Fraction(1), Fraction(0)
     system = [(row, Fraction(1, 7) if at == wrong else zero) for at, row in enumerate(rows)]
-    system += [({link: one}, zero) for link in data.get("fixed", ()) if link != frame]
-    system += [({a: one, b: -one}, zero) for a, b in data.get("locks", ()) if a != b]
+    system += [(row, zero) for row in rigid_rows(data)]
     system += [({link: one}, Fraction(speed)) for link, speed in data.get("inputs", {}).items()]
     matrix, pivots, consistent = solve_rows(system, links)
     return (

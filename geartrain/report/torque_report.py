@@ -86,13 +86,13 @@ class TorqueFigures(Result):
     in_newton_metres: bool
     """Whether torques have a unit."""
     flow: PowerFlow
-    blows: Mapping[str, float]
+    impact_power: Mapping[str, float]
     """What the collisions of each pair dissipate (W), where inertias and a rate are declared."""
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
         """What each pair and bearing loses."""
-        struck = {name: Impact(power) for name, power in self.blows.items()}
+        struck = {name: Impact(power) for name, power in self.impact_power.items()}
         return tuple(
             LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None)
             for loss in self.flow.shares
@@ -260,7 +260,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     yield Section(head, lines, tuple(tables))
-    parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.blows))
+    parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))
     if any(parts):
         yield Section("Flow of power" if state is None else f"State {state}: flow of power", *parts)
 
@@ -345,35 +345,35 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
         )
 
 
-def _losses(flow: PowerFlow, amounts: _Amounts, blows: Mapping[str, float]) -> Iterator[Table]:
+def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
     """What each pair and bearing loses, the total last; what collisions take stands in columns of its own."""
-    if not flow.losses and not blows:
+    if not flow.losses and not impact_power:
         return
-    struck = [node for node in flow.nodes if node.kind == "pair" and node.name in blows]
+    struck = [node for node in flow.nodes if node.kind == "pair" and node.name in impact_power]
     nodes = dict.fromkeys((*flow.losses, *struck))
     rows = []
     for node in nodes:
         pair = node.kind == "pair"
-        row = _loss_row(flow, amounts, flow.losses.get(node, Fraction(0)), blows.get(node.name) if pair else None)
+        row = _loss_row(flow, amounts, flow.losses.get(node, Fraction(0)), impact_power.get(node.name) if pair else None)
         rows.append((node.name if pair else f"bearing of {node.name}", *row))
     teeth = sum((loss for node, loss in flow.losses.items() if node.kind == "pair"), Fraction(0))
     if 0 < teeth < flow.loss:
         sums = {"all pairs": teeth, "all bearings": flow.loss - teeth}
         rows += [(name, *_loss_row(flow, amounts, lost, None)) for name, lost in sums.items()]
-    rows.append(("total", *_loss_row(flow, amounts, flow.loss, sum(blows.values()) if blows else None)))
+    rows.append(("total", *_loss_row(flow, amounts, flow.loss, sum(impact_power.values()) if impact_power else None)))
     header: tuple[str, ...] = ("where", "lost", "of power in", "of all lost")
-    if blows:
+    if impact_power:
         header = ("where", "sliding", "of power in", "of all sliding", "impact", "of power in")
     yield Table(header, cut([row[: len(header)] for row in rows]))
 
 
-def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, blow: float | None) -> tuple[str, ...]:
+def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
     """A loss with its shares, then what collisions dissipate, and its share."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
-    if blow is None:
+    if struck is None:
         return (amounts.text(lost), *parts, "", "")
     whole = float(flow.power_in) * (amounts.watts or 0.0)
-    return (amounts.text(lost), *parts, watts_text(blow), percent_text(Fraction(blow / whole)) if whole else "-")
+    return (amounts.text(lost), *parts, watts_text(struck), percent_text(Fraction(struck / whole)) if whole else "-")
 
 
 def summary_text(torques: Torques) -> str:

@@ -40,13 +40,13 @@ class ToothImpact:
     """Of all that is struck, at the driven wheel [kg m^2]."""
     rate: float
     """Pitches passed a second [1/s]."""
-    blows: tuple[float, ...]
+    jumps: tuple[float, ...]
     """Jumps of the driven wheel's speed [rad/s], those of one pitch."""
 
     @property
     def power(self) -> float:
         """Power dissipated (W)."""
-        return self.rate * sum(self.inertia * blow**2 / 2 for blow in self.blows)
+        return self.rate * sum(self.inertia * jump**2 / 2 for jump in self.jumps)
 
 
 def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) -> dict[str, ToothImpact]:
@@ -66,15 +66,15 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
         unit[source.pair] = 1.0
         struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
         driver = abs(source.mean * speed)
-        blows = tuple(leap.size * driver for leap in leaps)
-        found[source.id] = ToothImpact(struck, driver / law.period, blows)
+        jumps = tuple(leap.size * driver for leap in leaps)
+        found[source.id] = ToothImpact(struck, driver / law.period, jumps)
     return found
 
 
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:
     """Energies of one pitch's collisions (J): handed to the driven side, dissipated, and their sum, the driver's work.
 
-    J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic blows, the driver at constant speed
+    J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts, the driver at constant speed
     omega1 (rad/s), `inertia` J (kg m2) all that turns with the driven wheel. The source of triangular teeth counts
     the first as lost; what is lost is the second.
     """

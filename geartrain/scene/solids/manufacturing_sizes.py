@@ -162,8 +162,8 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
     form = declared.form_of(gear)
     if form is None:
         return gear
-    play = Fraction(str(PLAY)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
-    thinner = form.thinned(Quantity(play, None, f"{float(play):.9g}"))
+    share = Fraction(str(PLAY)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
+    thinner = form.thinned(Quantity(share, None, f"{float(share):.9g}"))
     return gear if thinner is form else gear.changed(tooth_form=thinner)
 
 

@@ -214,7 +214,7 @@ class InertialContacts:
         """The rate (rad/s of the input) from which each pair parts at each position, (pairs, n)."""
         return least_rate(*self.torques(turns))
 
-    def blows(self, corners: Floats, width: float) -> Floats:
+    def impulses(self, corners: Floats, width: float) -> Floats:
         """What pairs carry of the blow where some law is at a corner, for each unit of the input's speed (N m s2).
 
         Below 0 they part at any rate. 0 where no speed jumps.

@@ -346,10 +346,10 @@ def _leaps(contacts: InertialContacts, corners: Floats, narrowest: float) -> dic
     """Pairs that part at any rate, because a speed jumps so that their blow would have to pull."""
     if not len(corners):
         return {}
-    blows = contacts.blows(corners, _INSIDE * max(narrowest, 1e-6))
-    tolerance = 1e-9 * np.abs(blows).max(axis=1, keepdims=True, initial=0.0)
+    impulses = contacts.impulses(corners, _INSIDE * max(narrowest, 1e-6))
+    tolerance = 1e-9 * np.abs(impulses).max(axis=1, keepdims=True, initial=0.0)
     found = {}
-    for pair, row in enumerate(blows < -tolerance):
+    for pair, row in enumerate(impulses < -tolerance):
         if row.any():
             found[pair] = Parting(contacts.pairs[pair], 0.0, float(corners[row.argmax()]), True)
     return found

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 OPEN, FRONT, BACK = 0, 1, 2
 """Which flank of a pair touches: none, the drive flank, the coast flank."""
 
-WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, BLOWS, STEP, FRICTION = range(8)
+WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRICTION = range(8)
 """Columns of the energy account (J): three kinds of work put in, five of loss."""
 
 ENERGIES = 8

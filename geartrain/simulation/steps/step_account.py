@@ -12,7 +12,7 @@ from geartrain.simulation.steps.contact_solution import (
     BLOW_COUNT,
     BLOW_ENERGY,
     BLOW_SPEED,
-    BLOWS,
+    IMPACT_LOSS,
     CHANGES,
     FRICTION,
     GAP,
@@ -121,14 +121,14 @@ def count_contacts(
         least = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
         if struck and system.two_sided[m] == 0 and here.closing[m, side] > least:
             state.struck[m] = 1
-            count_blow(record, m, taken, here.P[m], state.steady[m])
+            count_impact(record, m, taken, here.P[m], state.steady[m])
             counts[BLOW_COUNT] += 1.0
             counts[BLOW_SPEED] = max(counts[BLOW_SPEED], here.closing[m, side])
             note_impact(record, state.clock[0] + rules.step, m, here.closing[m, side], taken, here.P[m])
         elif state.struck[m] != 0:
             # a ratio that jumps within a step is met by the mean of both, and the rest follows in the next
             state.struck[m] = 0
-            count_blow(record, m, taken, here.P[m], state.steady[m])
+            count_impact(record, m, taken, here.P[m], state.steady[m])
         else:
             record.energy[STEP] += taken
             state.steady[m] = abs(here.P[m])
@@ -160,10 +160,10 @@ def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
 
 
 @kernel
-def count_blow(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
+def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
     """Part what a contact takes in a step between the blow and the steady force beside it."""
     share = (impulse - steady) / impulse if impulse > steady else 0.0
-    record.energy[BLOWS] += taken * share
+    record.energy[IMPACT_LOSS] += taken * share
     record.energy[STEP] += taken * (1.0 - share)
     record.counts[m, BLOW_ENERGY] += taken * share
 
@@ -196,12 +196,12 @@ def count_stops(
         counts[IMPULSE] += here.P[pairs + m]
         if state.struck[pairs + m] != 0:
             state.struck[pairs + m] = 0
-            record.energy[BLOWS] += taken
+            record.energy[IMPACT_LOSS] += taken
             counts[BLOW_ENERGY] += taken
         elif here.before[pairs + m] == 0 and start > 0.0:
             # it comes to its stop in this step, and to rest in the next
             state.struck[pairs + m] = 1
-            record.energy[BLOWS] += taken
+            record.energy[IMPACT_LOSS] += taken
             counts[BLOW_COUNT] += 1.0
             counts[BLOW_ENERGY] += taken
             closing = here.stop_closing[m]
@@ -210,7 +210,7 @@ def count_stops(
         else:
             # a stop that moves on and is met again within one step: all that it takes is of that blow
             # (its closing speed is that of the step at least)
-            record.energy[BLOWS] += taken
+            record.energy[IMPACT_LOSS] += taken
             counts[BLOW_ENERGY] += taken
             if here.stop_bound[m] * step > system.stop_pitch[m] / 2:
                 counts[BLOW_COUNT] += 1.0

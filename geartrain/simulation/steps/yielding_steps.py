@@ -23,7 +23,7 @@ from geartrain.simulation.steps.contact_solution import (
     BLOW_COUNT,
     BLOW_ENERGY,
     BLOW_SPEED,
-    BLOWS,
+    IMPACT_LOSS,
     CHANGES,
     DIVERGED,
     FRICTION,
@@ -231,7 +231,7 @@ def count_yielding(
         damped = rules.step * teeth.damping[m] * rate * rate
         rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
         record.energy[FRICTION] += rubbed
-        record.energy[BLOWS] += damped
+        record.energy[IMPACT_LOSS] += damped
         record.energy[STEP] += -here.P[m] * sign * rate - damped
         counts[RUBBED] += rubbed
         counts[BLOW_ENERGY] += damped
@@ -271,6 +271,6 @@ def count_straightened(
     if parted != 0:
         pressed = min(teeth.gap[m, side] - opened, 0.0)
         left = parted * teeth.stiffness[m] / 2 * pressed * pressed
-        record.energy[BLOWS] += left
+        record.energy[IMPACT_LOSS] += left
         record.energy[STEP] -= left
         record.counts[m, BLOW_ENERGY] += left

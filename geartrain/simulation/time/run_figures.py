@@ -17,7 +17,7 @@ from geartrain.simulation.steps.contact_solution import (
     BLOW_COUNT,
     BLOW_ENERGY,
     BLOW_SPEED,
-    BLOWS,
+    IMPACT_LOSS,
     CHANGES,
     FRICTION,
     GAP,
@@ -151,7 +151,7 @@ class RunFigures:
             bearings=float(energy[BEARINGS]),
             drag=float(energy[VISCOUS]),
             friction=float(energy[FRICTION]),
-            blows=float(energy[BLOWS]),
+            impact_loss=float(energy[IMPACT_LOSS]),
             steps=float(energy[STEP]),
             kinetic=self.run.end - self.run.start,
             stored=self.run.end,
@@ -215,7 +215,7 @@ class RunFigures:
         return found
 
     @cached_property
-    def leads(self) -> tuple[OutputLead, ...]:
+    def deviations(self) -> tuple[OutputLead, ...]:
         """How far outputs are ahead and behind."""
         counted = {name: each[self.first :] for name, each in self.differences.items()}
         return tuple(
@@ -231,7 +231,7 @@ class RunFigures:
     def means(self) -> Iterator[_Figure]:
         """Means over the run."""
         yield "torque of the drive", "N m", self.torque, "mean"
-        yield "power of blows", "W", self.energy.blows / self.duration, "mean"
+        yield "power of blows", "W", self.energy.impact_loss / self.duration, "mean"
         for each in self.contacts:
             yield f"{each.name} apart", "", each.apart, "mean"
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
@@ -244,13 +244,13 @@ class RunFigures:
     def extremes(self) -> Iterator[_Figure]:
         """Greatest values of the run."""
         for each in self.contacts:
-            if each.blows:
+            if each.impact_rate:
                 yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
             if each.peak is not None:
                 yield f"{each.name} peak torque", "N m", each.peak, "extreme"
-        for lead in self.leads:
-            yield f"{lead.output} ahead", "rad", lead.ahead, "extreme"
-            yield f"{lead.output} behind", "rad", lead.behind, "extreme"
+        for deviation in self.deviations:
+            yield f"{deviation.output} ahead", "rad", deviation.ahead, "extreme"
+            yield f"{deviation.output} behind", "rad", deviation.behind, "extreme"
 
     @cached_property
     def gaps(self) -> tuple[Floats, Floats]:
@@ -295,7 +295,7 @@ class RunFigures:
             self.contacts,
             self._impacts(),
             self.energy,
-            self.leads,
+            self.deviations,
             {name: tuple(self._peaks(name)) for name, _, _ in self.outputs},
             () if coarse is None else tuple(self._compared(coarse)),
             self.run.numbers[UNSOLVED],

@@ -50,7 +50,7 @@ class Simulation:
         By pair, pin and escapement.
     torque : float
         Of the drive, the way its link turns; mean of the last advance [N m].
-    torques, apart, blows : dict of str to float
+    torques, apart, impact_energy : dict of str to float
         By pair, pin and escapement, over the last advance: mean torque on the driven side [N m], share of time in which
         no flank touches, energy that blows took [J].
     unsolved : int
@@ -107,7 +107,7 @@ class Simulation:
         self._torque = np.array(self._system.torque)
         self.time = 0.0
         self.torque = 0.0
-        self.torques, self.apart, self.blows = (dict.fromkeys(self._names, 0.0) for _ in range(3))
+        self.torques, self.apart, self.impact_energy = (dict.fromkeys(self._names, 0.0) for _ in range(3))
         self.unsolved = 0
         self._set_torques()
 
@@ -291,7 +291,7 @@ class Simulation:
         forces, drive = record.forces[0] / time, record.drive[0] / time
         self.torques = dict(zip(self._names, forces.tolist(), strict=True))
         self.apart = dict(zip(self._names, (record.counts[:, TIME_APART] / steps).tolist(), strict=True))
-        self.blows = dict(zip(self._names, record.counts[:, BLOW_ENERGY].tolist(), strict=True))
+        self.impact_energy = dict(zip(self._names, record.counts[:, BLOW_ENERGY].tolist(), strict=True))
         self.unsolved += int(record.numbers[UNSOLVED])
         way = -1.0 if self._of.typical(self.drive_link) < 0 else 1.0
         if self.drive_kind == "rate":

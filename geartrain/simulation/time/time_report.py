@@ -219,10 +219,10 @@ def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
         each.name,
         figure(100 * each.apart, 4),
         figure(100 * each.coast, 4),
-        figure(each.blows * turn, 4),
-        figure(1e6 * each.power / each.blows, 4) if each.blows else "",
-        figure(1e3 * each.power, 4) if each.blows else "",
-        figure(each.hardest, 4) if each.blows else "",
+        figure(each.impact_rate * turn, 4),
+        figure(1e6 * each.power / each.impact_rate, 4) if each.impact_rate else "",
+        figure(1e3 * each.power, 4) if each.impact_rate else "",
+        figure(each.hardest, 4) if each.impact_rate else "",
         figure(degrees(each.gap), 4) if each.gap > _STILL else "",
         figure(1e3 * each.torque, 5),
         figure(1e3 * each.rubbed, 4) if each.rubbed else "",
@@ -238,7 +238,7 @@ def _outputs(run: TimeRun) -> Section:
         f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; {word}: {watts_text(abs(power))}.",
         "Outputs against the motion in which all drive flanks touch, which is that of `geartrain motion`.",
     ]
-    off = [lead for lead in run.leads if max(lead.ahead, lead.behind) > _STILL]
+    off = [each for each in run.deviations if max(each.ahead, each.behind) > _STILL]
     if not off:
         text.append("None is ahead or behind.")
     rows = [(lead.output, *(_angle(each) for each in (lead.ahead, lead.behind, lead.rms))) for lead in off]
@@ -260,7 +260,7 @@ def _energy(run: TimeRun) -> Section:
         "lost in bearings": energy.bearings,
         "lost to viscous drag": energy.drag,
         "lost by friction of teeth and pins": energy.friction,
-        "lost in impacts" if run.model == "rigid" else "lost in teeth that yield": energy.blows,
+        "lost in impacts" if run.model == "rigid" else "lost in teeth that yield": energy.impact_loss,
         "taken by the length of steps": energy.steps,
         "more kinetic energy than at first": energy.kinetic,
         "more in teeth that yield": energy.elastic,

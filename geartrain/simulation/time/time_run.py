@@ -54,7 +54,7 @@ class TimeRun(Tabular, Pictured, Result):
         "contacts",
         "impacts",
         group("energy", Key("", "energy")),
-        "leads",
+        "deviations",
         "spectra",
         "figures",
         "unsolved",
@@ -110,7 +110,7 @@ class TimeRun(Tabular, Pictured, Result):
     """Those of the counted part."""
     energy: EnergyAccount
     """Of the counted part."""
-    leads: tuple[OutputLead, ...]
+    deviations: tuple[OutputLead, ...]
     """Outputs against `motion`."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
     """By output, strongest first."""
@@ -139,7 +139,7 @@ class TimeRun(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, leads."""
+        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, deviations."""
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
             (self.angles, "angle (rad)"),
@@ -150,8 +150,8 @@ class TimeRun(Tabular, Pictured, Result):
         made["drive torque (N m)"] = self.drive
         for name, drive, coast in zip(self.gaps.labels[0], self.gaps.values, self.coast_gaps.values, strict=True):
             made |= {f"{name} gap (rad)": drive, f"{name} coast gap (rad)": coast}
-        leads = zip(self.ahead.labels[0], self.ahead.values, strict=True)
-        made |= {f"output {name} ahead (rad)": row for name, row in leads}
+        deviations = zip(self.ahead.labels[0], self.ahead.values, strict=True)
+        made |= {f"output {name} ahead (rad)": row for name, row in deviations}
         return {name: column.tolist() for name, column in made.items()}
 
     def to_csv(self) -> str:
@@ -168,7 +168,7 @@ class TimeRun(Tabular, Pictured, Result):
     def _repr_html_(self) -> str:
         rows = "".join(
             f"<tr><td>{html.escape(each.name)}</td><td>{100 * each.apart:.3g}</td><td>{100 * each.coast:.3g}</td>"
-            f"<td>{each.blows:.4g}</td><td>{1e3 * each.power:.3g}</td></tr>"
+            f"<td>{each.impact_rate:.4g}</td><td>{1e3 * each.power:.3g}</td></tr>"
             for each in self.contacts
         )
         head = "<tr><th>contact</th><th>apart (%)</th><th>coast (%)</th><th>blows (1/s)</th><th>blows (mW)</th></tr>"
@@ -194,7 +194,7 @@ class ContactInTime(Result):
     """Share of time in which no flank touches."""
     coast: float
     """Share of time on the coast flank, or nearer to it."""
-    blows: float
+    impact_rate: float
     """Impacts a second [1/s]."""
     power: float
     """What they take [W]."""
@@ -255,7 +255,7 @@ class EnergyAccount(Result):
         "bearings",
         "drag",
         "friction",
-        "blows",
+        "impact_loss",
         "steps",
         "kinetic",
         "elastic",
@@ -275,7 +275,7 @@ class EnergyAccount(Result):
     """Energy lost by viscous drag [J]."""
     friction: float
     """Energy lost by friction of teeth and pins [J]."""
-    blows: float
+    impact_loss: float
     """Taken by impacts; of teeth that yield, by their damping."""
     steps: float
     """Taken, or given, by contact that lasts: an error of the steps' length, that falls with it."""
@@ -294,7 +294,7 @@ class EnergyAccount(Result):
     @property
     def closure(self) -> float:
         """By how much the account does not close, over all that passed through it and what is stored."""
-        taken = self.bearings + self.drag + self.friction + self.blows + self.steps
+        taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
         scale = sum(abs(each) for each in (self.put_in, taken, kept, self.stored))
         return abs(self.put_in - taken - kept) / scale if scale else 0.0
@@ -306,7 +306,7 @@ class OutputLead(Result):
 
     See Also
     --------
-    TimeRun.leads : where these stand.
+    TimeRun.deviations : where these stand.
     """
 
     output: str

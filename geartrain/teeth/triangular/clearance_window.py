@@ -384,17 +384,17 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
     """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
 
-    def play(excess: float) -> float:
+    def minimum(excess: float) -> float:
         D = sizes.factor(excess) * sizes.deepest_distance
         return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / sizes.pitch_sum
 
     # at the greatest excess itself tips do not touch, and there is no play
     low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
-    least, most = play(low), play(high)
+    least, most = minimum(low), minimum(high)
     if not least <= backlash <= most:
         raise refused(
             f"no clearance gives a backlash of {text}",
             f"these teeth have from {max(least, 0):.6g} to {most:.6g} (in m, or the plain unit)",
             "give a backlash between the two",
         )
-    return root(lambda excess: play(excess) - backlash, low, high, least - backlash, most - backlash)
+    return root(lambda excess: minimum(excess) - backlash, low, high, least - backlash, most - backlash)

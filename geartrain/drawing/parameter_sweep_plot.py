@@ -45,13 +45,13 @@ _SHOWN = {
 _FAULTS = {  # hatches of the verdicts on pairs that do not run
     "jam": "xx",
     "clash": "\\\\",
-    "standstill": "//",
+    "dwell": "//",
     "overhang": "++",
     "no valley": "..",
     "apart": "--",
     "none": "",
 }
-_STANDS = "standstill"  # a fault with which the pair still turns
+_STANDS = "dwell"  # a fault with which the pair still turns
 _KNOWN = {  # ways of running: series and how strong its veil is, so that in print no two are like grey
     "approach": (0, 0.08),
     "recess": (1, 0.27),

@@ -223,8 +223,8 @@ def describe_torques(found: TorqueReport) -> Document:
         sections += cycle_sections(found.over_turn)
     if found.friction_trials is not None:
         sections += wing("workshop.monte_carlo.friction_trials").trial_sections(found.friction_trials)
-    lead = [f"Train '{found.name}'. {_units(found.states)}"]
-    return Document(f"Torques of {found.name}", lead, sections)
+    summary = [f"Train '{found.name}'. {_units(found.states)}"]
+    return Document(f"Torques of {found.name}", summary, sections)
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
@@ -256,7 +256,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
             f"the greatest power through a pair is {figure(circulating, 5)} times that."
         )
     if found.bearing_loss:
-        needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.asked)
+        needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.requested)
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     yield Section(head, lines, tuple(tables))
@@ -287,7 +287,7 @@ def _units(found: Sequence[TorqueFigures]) -> str:
 def _links(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
-            link + (" (solved for)" if link in found.asked else ""),
+            link + (" (solved for)" if link in found.requested else ""),
             figure(torque, 6),
             figure(found.speeds[link], 6) if link in found.speeds else "free",
             amounts.text(found.powers[link], 6) if link in found.speeds else "open",
@@ -354,7 +354,9 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
     rows = []
     for node in nodes:
         pair = node.kind == "pair"
-        row = _loss_row(flow, amounts, flow.losses.get(node, Fraction(0)), impact_power.get(node.name) if pair else None)
+        row = _loss_row(
+            flow, amounts, flow.losses.get(node, Fraction(0)), impact_power.get(node.name) if pair else None
+        )
         rows.append((node.name if pair else f"bearing of {node.name}", *row))
     teeth = sum((loss for node, loss in flow.losses.items() if node.kind == "pair"), Fraction(0))
     if 0 < teeth < flow.loss:
@@ -405,7 +407,7 @@ def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
 # --------------------------------------------------------------------------------------------------- torque over a turn
 
 
-_LEAST = 1e-12  # of all that is lost: less is rounding
+_MINIMUM = 1e-12  # of all that is lost: less is rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
@@ -477,7 +479,7 @@ def _remarks(found: TorqueCycle) -> Iterator[str]:
 def _torques(found: TorqueCycle) -> Table:
     unit = f" ({found.unit})" if found.unit else ""
     rows = [("mean", figure(found.mean, 9), "", "")]
-    for name, extreme in (("greatest", found.greatest), ("least", found.least), ("starting", found.starting)):
+    for name, extreme in (("maximum", found.maximum), ("minimum", found.minimum), ("starting", found.starting)):
         if extreme is None:
             rows.append((name, "-", "", ""))
         else:
@@ -519,7 +521,9 @@ def _energies(found: TorqueCycle) -> Table:
         "lost in bearings": energy.bearing,
     }
     rows = [
-        (name, figure(value, 9), _share(value, whole)) for name, value in amounts.items() if abs(value) > _LEAST * whole
+        (name, figure(value, 9), _share(value, whole))
+        for name, value in amounts.items()
+        if abs(value) > _MINIMUM * whole
     ]
     return Table(("over the run", "energy", "of all put in"), rows)
 
@@ -532,13 +536,13 @@ def _parts(found: TorqueCycle) -> Iterator[Table]:
     rows = [
         (
             name,
-            figure(part.loss if part.loss > _LEAST * lost else 0.0, 7),
-            _share(part.loss, lost) if part.loss > _LEAST * lost else "",
+            figure(part.loss if part.loss > _MINIMUM * lost else 0.0, 7),
+            _share(part.loss, lost) if part.loss > _MINIMUM * lost else "",
             "" if part.kind == "bearing" else figure(part.passed, 7),
             "" if part.kind == "bearing" else str(part.flank_changes),
         )
         for name, part in ranked
-        if part.loss > _LEAST * lost or part.passed
+        if part.loss > _MINIMUM * lost or part.passed
     ]
     if rows:
         yield Table(("where", "lost", "of all lost", "passed on", "flank changes"), cut(rows))

@@ -83,8 +83,8 @@ class SceneContact(Result):
         "hardest",
         Key("changes", "packed_changes"),
         "states",
-        Key("blow_times", "packed_times"),
-        Key("blow_speeds", "packed_speeds"),
+        Key("impact_times", "packed_times"),
+        Key("impact_speeds", "packed_speeds"),
     )
 
     name: str
@@ -107,9 +107,9 @@ class SceneContact(Result):
     """Samples from which `states` hold. Shape (n,)."""
     states: str
     """One letter each: `d` on the drive flank, `c` on the coast flank, `a` apart; empty where that is not known."""
-    blow_times: Floats
+    impact_times: Floats
     """Times of impacts since the start of what is shown [s]. Shape (m,)."""
-    blow_speeds: Floats
+    impact_speeds: Floats
     """Closing speeds of the driven side at impacts [rad/s]. Shape (m,)."""
 
     @property
@@ -120,12 +120,12 @@ class SceneContact(Result):
     @property
     def packed_times(self) -> str:
         """The times as a page carries them: base64 of little-endian float64."""
-        return packed(self.blow_times)
+        return packed(self.impact_times)
 
     @property
     def packed_speeds(self) -> str:
         """The speeds as a page carries them: base64 of little-endian float32."""
-        return packed(self.blow_speeds, "<f4")
+        return packed(self.impact_speeds, "<f4")
 
 
 @dataclass(frozen=True, slots=True)
@@ -294,7 +294,7 @@ def _turned(stage: SceneContext, run: TimeRun, link: str) -> Floats:
 
 def _tolerance(stage: SceneContext, link: str) -> float:
     """Finer for the lead: by its angle the page says where all other links would stand if teeth touched."""
-    if link != stage.lead:
+    if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)
     return TOLERANCE / max(1.0, *(abs(float(ratio)) for ratio in ratios if ratio))

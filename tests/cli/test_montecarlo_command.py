@@ -61,7 +61,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
     for name, column in columns.items():
         assert [float(row[name]) for row in rows] == column
     told = json.loads((here / "t.json").read_text())
-    jams = sum(play < 0 for play in columns["p~w play (pitches)"])
+    jams = sum(backlash < 0 for backlash in columns["p~w play (pitches)"])
     assert told["pairs"][0]["jam"]["count"] == jams == sum(mark % 2 for mark in columns["p~w events"])
     free = [error for error, mark in zip(columns["b error (deg)"], columns["p~w events"], strict=True) if not mark & 25]
     mean = sum(free) / len(free)
@@ -71,7 +71,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
     assert not list(here.glob("*partial*")), "whole runs leave nothing behind"
 
 
-def test_everything_that_can_be_asked_stands_in_one_document(train_file: Write, here: Path) -> None:
+def test_everything_that_can_be_requested_stands_in_one_document(train_file: Write, here: Path) -> None:
     found = ask(
         train_file(PAIR),
         *("--trials", 128, "--output", "b", "--clearance", "1.01:1.03:2", "--sobol"),
@@ -124,24 +124,24 @@ def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path)
     from geartrain.workshop.monte_carlo.trial_run import journal_key
 
     plan = find_trial_plan(load(train_file(PAIR)))
-    asked = journal_key(plan, 1, 300)
-    Journal(here / "j", asked).close()
+    requested = journal_key(plan, 1, 300)
+    Journal(here / "j", requested).close()
     others = [
         journal_key(plan, 2, 300),
         journal_key(plan, 1, 301),
         journal_key(plan.scaled(1.01), 1, 300),
         journal_key(plan.cleared(1.03), 1, 300),
-        asked | {"geartrain": "0.0.0"},
+        requested | {"geartrain": "0.0.0"},
     ]
     for other in others:
         with pytest.raises(QuestionError, match="another question"):
             Journal(here / "j", other)
-    Journal(here / "j", asked).close()
+    Journal(here / "j", requested).close()
 
 
 @pytest.mark.needs("pyarrow")
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
-def test_a_full_disk_is_said_and_the_name_asked_for_is_not_taken(here: Path) -> None:
+def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path) -> None:
     path = here / "t.parquet"
     os.symlink("/dev/full", here / "t.partial.parquet")
 
@@ -184,7 +184,7 @@ def test_a_full_disk_is_said_and_the_name_asked_for_is_not_taken(here: Path) -> 
         (("--clearance", "a:b"), "no sweep"),
     ],
 )
-def test_what_cannot_be_asked_is_refused_with_what_why_and_what_to_do(
+def test_what_cannot_be_requested_is_refused_with_what_why_and_what_to_do(
     train_file: Write, here: Path, words: tuple[str, ...], said: str
 ) -> None:
     found = ask(train_file(PAIR), "--trials", 64, *words)

@@ -168,7 +168,7 @@ def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> 
 
 
 @pytest.mark.parametrize(
-    ("asked", "said"),
+    ("requested", "said"),
     [
         (("--embed", "--kiosk"), "--embed and --kiosk at once"),
         (("planetary", "--embed"), "two trains"),
@@ -178,8 +178,8 @@ def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> 
         (("planetary", "--dynamics"), "motion in time of two trains"),
     ],
 )
-def test_what_does_not_go_together_is_refused(here: Path, asked: tuple[str, ...], said: str) -> None:
-    assert said in refusal("worm", *asked)
+def test_what_does_not_go_together_is_refused(here: Path, requested: tuple[str, ...], said: str) -> None:
+    assert said in refusal("worm", *requested)
     assert list(here.iterdir()) == []
 
 

@@ -213,7 +213,7 @@ def test_declared_teeth_that_cannot_reach_are_an_error_that_names_the_shifts() -
     assert "shift" not in cycloidal
 
 
-def test_more_distance_is_more_play_of_involutes() -> None:
+def test_more_distance_is_more_backlash_of_involutes() -> None:
     """2 da tan(20 deg) = 0.0364 at da = 0.05; the play measured on outlines is 0.0352 on the pitch circle."""
     text = pair(
         sized(20, "1 mm"), sized(40, "1 mm"), more=places(A="0 mm", B="30.05 mm") + "\ntooth_form: {form: involute}"

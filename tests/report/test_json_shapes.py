@@ -85,7 +85,7 @@ def test_no_number_of_states_changes_the_shape(files: Path, verb: str) -> None:
 
 
 @pytest.mark.parametrize("verb", ["solve", "torques"])
-def test_one_state_asked_for_has_one_shape_whatever_others_there_are(files: Path, verb: str) -> None:
+def test_one_state_requested_for_has_one_shape_whatever_others_there_are(files: Path, verb: str) -> None:
     one, two = (data(verb, f"{name}.yaml", "--state", "only", "--json") for name in ("one", "two"))
     assert list(one) == list(two)
     assert [each["state"] for each in one["states"]] == [each["state"] for each in two["states"]] == ["only"]
@@ -114,7 +114,7 @@ PAIR = ("--teeth", "20", "30")
 TRIANGULAR = ("mesh", "triangular", *PAIR)
 IN_TIME = ("--rate", "1", "--turns", "0.1", "--skip", "0", "--steps", "200", "--no-fast")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
-ASKED: dict[str, list[tuple[str, ...]]] = {
+REQUESTED: dict[str, list[tuple[str, ...]]] = {
     "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
     "dynamics": [
         ("dynamics", "heavy.yaml", *IN_TIME),
@@ -201,9 +201,9 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
 }
 
 
-@pytest.mark.parametrize("question", all_but({"bench", "strength"}, ASKED))
+@pytest.mark.parametrize("question", all_but({"bench", "strength"}, REQUESTED))
 def test_one_shape_for_one_question(files: Path, question: str) -> None:
-    found = [data(*words, "--json") for words in ASKED[question]]
+    found = [data(*words, "--json") for words in REQUESTED[question]]
     for each in found:
         holds(question, each)
     if isinstance(found[0], dict) and question != "teeth set --kind list":
@@ -212,7 +212,7 @@ def test_one_shape_for_one_question(files: Path, question: str) -> None:
 
 def test_every_question_is_tried() -> None:
     others = {"solve", "report", "compare", "torques", "sphere --survey", "graph --as json", "graph --as matrix"}
-    assert {*ASKED, *others} == set(ANSWERS)
+    assert {*REQUESTED, *others} == set(ANSWERS)
 
 
 @pytest.mark.parametrize("form", ["json", "matrix"])

@@ -493,11 +493,11 @@ def test_who_does_the_work_changes_nothing(tmp_path: Any) -> None:
 
 
 def test_an_interrupted_run_says_what_it_knows(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[object] = []
+    requested: list[object] = []
 
     def first_only(shared: bytes, task: Any) -> Any:
-        asked.append(task)
-        if len(asked) > 1:
+        requested.append(task)
+        if len(requested) > 1:
             raise KeyboardInterrupt
         return sample_task(shared, task)
 
@@ -531,8 +531,8 @@ def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
 
 def test_a_batch_says_what_the_solver_says() -> None:
     train = declared(CHAIN)
-    asked = build_inference_problem(train.declaration, find_priors(train.declaration, {}))
-    batch, draw = LikelihoodBatch(asked, every=True), random.Random(1)
+    requested = build_inference_problem(train.declaration, find_priors(train.declaration, {}))
+    batch, draw = LikelihoodBatch(requested, every=True), random.Random(1)
     counts = {wheel: np.array([draw.choice(domain) for _ in range(40)]) for wheel, domain in batch.domains.items()}
     rows = batch.columns(counts)
     met, speeds = batch.judged(rows)[0], batch.speeds(rows)
@@ -541,7 +541,7 @@ def test_a_batch_says_what_the_solver_says() -> None:
         for name, (values, bounds) in speeds.items():
             assert abs(Fraction(float(values[at])) - answer[name]) <= Fraction(float(bounds[at]))
             assert bounds[at] < 1e-12 * abs(float(answer[name]))
-        assert met[at] == all(witness.fits(Fraction(answer[witness.name])) for witness in asked.witnesses)
+        assert met[at] == all(witness.fits(Fraction(answer[witness.name])) for witness in requested.witnesses)
     assert met.any()
     assert not met.all()
 
@@ -566,7 +566,7 @@ def test_a_batch_says_what_the_solver_says() -> None:
         ({"method": "exact", "limit": 1}, "too many steps"),
     ],
 )
-def test_what_cannot_be_asked_is_refused_with_a_way_out(options: dict[str, Any], said: str) -> None:
+def test_what_cannot_be_requested_is_refused_with_a_way_out(options: dict[str, Any], said: str) -> None:
     with pytest.raises((QuestionError, RangeError)) as caught:
         run(CHAIN, **options)
     assert said in str(caught.value)

@@ -158,7 +158,7 @@ loads: {{b: 1 N m}}
 def test_triangles_push_apart_along_the_normals_of_their_flanks(angle: str, clearance: float) -> None:
     """Mean over a pitch of F sin(psi), F = T/n2, by the closure equations: a flank leans by beta1 + x or beta2 - y."""
     train = triangles(angle, clearance)
-    sizes = train.meshes[0].law.sizes
+    sizes = train.meshes[0].transmission.sizes
     pair = sorge.Pair.of(sizes)
     total = 0.0
     for part in pair.path:

@@ -225,7 +225,7 @@ def test_an_output_is_a_link_or_a_link_seen_from_a_link() -> None:
     assert answer["rel"] == Fraction(-24, 18) * 5
 
 
-def test_an_output_is_asked_for_by_its_name() -> None:
+def test_an_output_is_requested_for_by_its_name() -> None:
     train = planetary("inputs: {sun: 7}\noutputs: {rel: {of: planet, relative_to: carrier}}")
     assert train.solve(output="rel")["rel"] == train.solve()["rel"]
     with pytest.raises(GearTrainError, match="no output or link 'nonsense'"):

@@ -58,8 +58,8 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
     weight = np.array([inertias.get(link, 0.0) for link in spread.links])
     found = {}
     for source in motion.ahead.sources:
-        law = source.law
-        leaps = law.speed_leaps()
+        transmission = source.transmission
+        leaps = transmission.speed_leaps()
         if leaps is None:
             continue
         unit = np.zeros((len(spread.pairs), 1))
@@ -67,7 +67,7 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
         struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
         driver = abs(source.mean * speed)
         jumps = tuple(leap.size * driver for leap in leaps)
-        found[source.id] = ToothImpact(struck, driver / law.period, jumps)
+        found[source.id] = ToothImpact(struck, driver / transmission.period, jumps)
     return found
 
 
@@ -117,20 +117,20 @@ class PairImpacts(Result):
     """Energy of one pitch dissipated by collisions [J]."""
     work: float | None = None
     """Sum of the energies handed and dissipated in one pitch [J]."""
-    least_load: float | None = None
+    minimum_load: float | None = None
     """Load torque (N m) that keeps the teeth in contact at this rate."""
     void: float | None = None
     """Driver's speed (turns per second) above which they part under the declared load."""
 
 
-def find_pair_impacts(law: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:
+def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:
     """What collisions cost; None where no inertia is known, or the law has no account of its collisions."""
     inertia, load, omega1 = operation.inertia, operation.load, operation.omega1
-    leaps, steepest = law.speed_leaps(), law.steepest_fall()
+    leaps, steepest = transmission.speed_leaps(), transmission.steepest_fall()
     if inertia is None or leaps is None or steepest is None:
         return None
     void = sqrt(load / (inertia * steepest)) / (2 * pi) if load is not None and steepest > 0 else None
     if omega1 is None:
         return PairImpacts(inertia, void=void)
     energies = collision_energies(leaps, inertia, omega1)
-    return PairImpacts(inertia, operation.rate, *energies, least_load=inertia * omega1**2 * steepest, void=void)
+    return PairImpacts(inertia, operation.rate, *energies, minimum_load=inertia * omega1**2 * steepest, void=void)

@@ -347,9 +347,9 @@ class OutputLikelihood:
         value: FormulaValues | None = None,
     ) -> None:
         self.value = value or FormulaValues.of(witness.formula, monomials, domains)
-        asked = witness.asked(soft)
-        self._folded, self._ends = _folded(() if asked is None else asked.intervals)
-        self._gate = None if asked is None else exact_constraint(asked, monomials, domains)
+        requested = witness.requested(soft)
+        self._folded, self._ends = _folded(() if requested is None else requested.intervals)
+        self._gate = None if requested is None else exact_constraint(requested, monomials, domains)
         self._poles = exact_constraint(
             IntervalConstraint(witness.name, witness.formula, ((None, None),)), monomials, domains
         )
@@ -437,9 +437,11 @@ def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
     return misfit
 
 
-def exact_constraint(asked: IntervalConstraint, monomials: Sequence[Powers], domains: Domains) -> PolynomialConstraint:
+def exact_constraint(
+    requested: IntervalConstraint, monomials: Sequence[Powers], domains: Domains
+) -> PolynomialConstraint:
     """A demand that holds or does not, decided exactly."""
-    (found,) = find_polynomial_constraints([asked], [recipe_of(powers) for powers in monomials], domains)
+    (found,) = find_polynomial_constraints([requested], [recipe_of(powers) for powers in monomials], domains)
     return found
 
 
@@ -570,13 +572,13 @@ def recipe_of(powers: Powers) -> ItemRecipe:
     return ItemRecipe(above, tuple((wheel, -power) for wheel, power in powers.items() if power < 0))
 
 
-def find_monomials(asked: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
+def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
     """As few monomials as possible through which all functions see the wheels, each exact in int64.
 
     domains   the wheels in question; only those on which a function depends are in a monomial
     """
-    moving = {wheel for one in asked for wheel in one.function.wheels}
-    bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], asked, frozenset())
+    moving = {wheel for one in requested for wheel in one.function.wheels}
+    bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], requested, frozenset())
     return tuple(part for bundle in bundles for part in _parts(bundle.powers, domains))
 
 

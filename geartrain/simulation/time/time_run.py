@@ -42,7 +42,7 @@ class TimeRun(Tabular, Pictured, Result):
         "train",
         "state",
         "model",
-        "lead",
+        "driving_link",
         "rate",
         "link",
         "driven",
@@ -67,7 +67,7 @@ class TimeRun(Tabular, Pictured, Result):
     """Its name."""
     state: str | None
     """The declared state."""
-    lead: str
+    driving_link: str
     """The input that sets the scale."""
     rate: float
     """Its mean speed in the counted part of the run [rad/s], below 0 where it turns backwards."""
@@ -110,11 +110,11 @@ class TimeRun(Tabular, Pictured, Result):
     """Those of the counted part."""
     energy: EnergyAccount
     """Of the counted part."""
-    deviations: tuple[OutputLead, ...]
+    deviations: tuple[OutputDeviation, ...]
     """Outputs against `motion`."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
     """By output, strongest first."""
-    figures: tuple[SettledFigure, ...]
+    figures: tuple[ConvergedFigure, ...]
     """What steps of h and h/2 say."""
     unsolved: int
     """Steps in which no consistent set of contacts was found; their last guess was taken."""
@@ -172,7 +172,7 @@ class TimeRun(Tabular, Pictured, Result):
             for each in self.contacts
         )
         head = "<tr><th>contact</th><th>apart (%)</th><th>coast (%)</th><th>blows (1/s)</th><th>blows (mW)</th></tr>"
-        text = f"{html.escape(self.train)}: {self.rate / tau:.4g} turn/s of {html.escape(self.lead)}"
+        text = f"{html.escape(self.train)}: {self.rate / tau:.4g} turn/s of {html.escape(self.driving_link)}"
         return f"<p>{text}</p><table>{head}{rows}</table>"
 
 
@@ -301,7 +301,7 @@ class EnergyAccount(Result):
 
 
 @dataclass(frozen=True)
-class OutputLead(Result):
+class OutputDeviation(Result):
     """How far an output runs ahead of the motion in which all drive flanks touch, and behind it.
 
     See Also
@@ -320,7 +320,7 @@ class OutputLead(Result):
 
 
 @dataclass(frozen=True)
-class SettledFigure(Result):
+class ConvergedFigure(Result):
     """A figure by steps of length h and h/2, with what the length of the run leaves open.
 
     See Also
@@ -338,7 +338,7 @@ class SettledFigure(Result):
     """Value by steps of length h/2."""
     kind: Literal["mean", "extreme"]
     """A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic."""
-    settled: bool
+    converged: bool
     """Whether both agree: a mean to 5 %, an extreme to 1 %, a share of time to 0.005, an angle to 1e-6 rad if that
     is more; and whether the interval of a mean is as narrow."""
     interval: float | None = None

@@ -129,7 +129,7 @@ def _across(run: TimeRun) -> Floats:
 
 
 def _across_text(run: TimeRun) -> str:
-    return f"turns of {short(run.lead)}" if run.driven == "rate" else "time (s)"
+    return f"turns of {short(run.driving_link)}" if run.driven == "rate" else "time (s)"
 
 
 def _loose(run: TimeRun) -> list[str]:

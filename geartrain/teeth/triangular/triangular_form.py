@@ -45,10 +45,10 @@ class Triangular(ToothForm):
 
     Examples
     --------
-    >>> law = Triangular(form="triangular", half_angle="30 deg", window="0.5").law(48, 96, 0.2)
-    >>> law.verdict.text, law.ratio, [round(speed, 4) for speed in law.speed_range()]
+    >>> transmission = Triangular(form="triangular", half_angle="30 deg", window="0.5").transmission(48, 96, 0.2)
+    >>> transmission.verdict.text, transmission.ratio, [round(speed, 4) for speed in transmission.speed_range()]
     ('the wheels turn', Fraction(1, 2), [0.457, 0.5392])
-    >>> round(law.efficiency_mean(), 4)
+    >>> round(transmission.efficiency_mean(), 4)
     0.9681
     """
 
@@ -193,10 +193,12 @@ class Triangular(ToothForm):
         del shaft_angle
         if why := refusal(wheels.kinds, any(wheels.internal)):
             raise refused("it cannot have triangular teeth", why, f"{TRIANGULAR_SCOPE}; {IDEAL}")
-        law = self.law(*wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring)
-        return TriangularMesh(wheels, self, wheels.driver, law)
+        transmission = self.transmission(
+            *wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring
+        )
+        return TriangularMesh(wheels, self, wheels.driver, transmission)
 
-    def own_play(self, pair: str) -> Problem:
+    def own_backlash(self, pair: str) -> Problem:
         """Why the play of triangular teeth is not for a maker to say.
 
         Returns
@@ -307,7 +309,7 @@ class Triangular(ToothForm):
             )
         return float(excess)
 
-    def law(
+    def transmission(
         self,
         z1: int,
         z2: int,

@@ -236,8 +236,8 @@ class _Reader:
             if abs(off.size) >= MOST[kind]:
                 of = {"placement": "its pitch", "aperture": "its aperture"}.get(kind, "the depth of its teeth")
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} of {of}"
-                least = self.scales["placement"] or 0
-                why = f"an error greater than the tooth leaves none; the pitch is {degrees(least):.3g} deg"
+                minimum = self.scales["placement"] or 0
+                why = f"an error greater than the tooth leaves none; the pitch is {degrees(minimum):.3g} deg"
                 raise RangeError(Problem(what, why, "give an error smaller than the tooth", self.place))
 
     def tables(self, cutting: WheelManufacture | PairMounting | None) -> dict[str, tuple[float, ...]]:

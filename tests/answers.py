@@ -62,7 +62,7 @@ RUNS = (
     "motion {} --turns -1/3 --samples 50 --csv",
     "montecarlo {} --trials 4 --json",
     "budget {} --turns 2 --samples 400 --trials 4 --json",
-    'montecarlo {} --trials 4 --set placement="0.1 deg" --set tip="0.3 %" --json',
+    'montecarlo {} --trials 4 --set pitch_deviation="0.1 deg" --set tip="0.3 %" --json',
 )
 """What is asked of every state of every shipped train."""
 
@@ -76,8 +76,8 @@ OTHERS = (
     *(f"mesh {form} --teeth 24 36 --json" for form in ("uniform_stress", "uniform_temperature", "compare")),
     *(f"mesh triangular --teeth 48 96 --{by} --friction 0.2 --json" for by in ("clearance 1.01", "window 0.3")),
     "mesh involute --teeth 36 70 --internal --shift 0.696,0.226 --json",
-    "mesh triangular --teeth 20 31 --clearance 1.012 --backwards --json",
-    "mesh triangular --teeth 48 96 --vary clearance=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
+    "mesh triangular --teeth 20 31 --clearance-factor 1.012 --backwards --json",
+    "mesh triangular --teeth 48 96 --vary clearance-factor=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
     "mesh pin --pin-radius 9.6mm --offset 1.1mm --friction 0.1 --json",
     *(
         f"teeth set 142 --kind {kind} --planets 3 --range 12:70 --best 5 --json"

@@ -25,7 +25,7 @@ PITCH_TRUE = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5, ra
 FRICTION = "friction: 0.2"
 DRAG = "1 N mm"
 """Friction torque of the bearing of a pointer."""
-CUTTING = "cutting: {placement: {normal: 0.1 deg}}"
+CUTTING = "cutting: {pitch_deviation: {normal: 0.1 deg}}"
 REQUESTED = BudgetQuestion(samples=10_000, clearances=(0.3, 0.5, 0.7))
 WHOLE = "freeth-2021"
 """The reconstruction by which the literature is judged."""

@@ -63,7 +63,7 @@ _CUT = 0.8  # points: the line between two bands
 _NAMES = {  # of parameters, and the unit of one that has none of its own
     "z1": ("teeth of wheel 1", ""),
     "z2": ("teeth of wheel 2", ""),
-    "clearance": ("clearance factor", ""),
+    "clearance_factor": ("clearance factor", ""),
     "excess": ("clearance factor less 1", ""),
     "backlash": ("backlash", "modules"),
     "centre_distance": ("centre distance", "modules"),

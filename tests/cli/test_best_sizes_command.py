@@ -30,7 +30,7 @@ def test_limits_have_units_and_are_kept() -> None:
 
 
 def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
-    done = call(*BEST, "--radii", "0.98", "--within", "stops=5%", "--set", "placement=1 %")
+    done = call(*BEST, "--radii", "0.98", "--within", "stops=5%", "--set", "pitch_deviation=1 %")
     assert "jams or clashes in 0 % of the trials" in done.stdout, done.output
 
 
@@ -47,7 +47,7 @@ def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
         (("--best", "error", "--vary", "window=0.1:0.9:3"), "--best asks for something else"),
         (("--best", "loss"), "without friction"),
         (("--free", "radii"), "give --best"),
-        (("--set", "placement=1 %"), "give --best"),
+        (("--set", "pitch_deviation=1 %"), "give --best"),
         (("--window", "0.5", "--radii", "0"), "out of range"),
     ],
 )

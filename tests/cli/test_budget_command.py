@@ -41,7 +41,7 @@ def test_a_body_is_taken_from_a_name_unless_it_is_said() -> None:
 
 
 def test_what_cannot_be_meant_is_refused() -> None:
-    for more in (("--span", "0 d"), ("--span", "19 furlongs"), ("--turns", "-1"), ("--cutting", "placement=1 %")):
+    for more in (("--span", "0 d"), ("--span", "19 furlongs"), ("--turns", "-1"), ("--cutting", "pitch_deviation=1 %")):
         assert isinstance(call(*REQUESTED, *more).exception, GearTrainError), more
 
 
@@ -56,7 +56,7 @@ def test_trials_that_are_stopped_are_no_budget(monkeypatch: pytest.MonkeyPatch, 
 
     monkeypatch.setattr(TrialResults, "complete", property(lambda self: False))
     out = tmp_path / "x.json"
-    more = ("--cutting", "placement=1 %", "--trials", "4", "--turns", "1", "--samples", "64")
+    more = ("--cutting", "pitch_deviation=1 %", "--trials", "4", "--turns", "1", "--samples", "64")
     done = call("budget", "moon-triangular", *more, "-o", out)
     assert done.exit_code == 130
     assert not out.exists()

@@ -197,7 +197,7 @@ def test_all_exit_codes_are_told_where_exit_codes_are_told() -> None:
 
 # ------------------------------------------------------------------------------------------------------------- resumed
 
-CUT = ("montecarlo", "moon-triangular", "--output", "moon", "--set", "placement=2 %")
+CUT = ("montecarlo", "moon-triangular", "--output", "moon", "--set", "pitch_deviation=2 %")
 
 
 @pytest.mark.parametrize("question", [(*CUT, "--trials", "2"), DOUBT])

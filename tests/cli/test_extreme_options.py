@@ -35,7 +35,7 @@ PAIR = """
 name: pair
 links: {frame: {}, a: {wheels: {x: {teeth: 48, module: 1 mm}}}, b: {wheels: {y: {teeth: 96, module: 1 mm}}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-gears: [{pair: [x, y], friction: 0.1, tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}}]
+gears: [{pair: [x, y], friction: 0.1, tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}}]
 frame: frame
 inputs: {a: 1}
 outputs: {b: }
@@ -170,12 +170,12 @@ def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
 
 KEPT = [
     *(
-        ("mesh triangular --teeth 48 96 --clearance 1.01", option, value)
+        ("mesh triangular --teeth 48 96 --clearance-factor 1.01", option, value)
         for option, values in {"half-angle:angle": ("1e-300", "1e-9"), "module:length": ("0", "-1", "1e300")}.items()
         for value in values
     ),
-    ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
-    ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
+    ("mesh triangular --teeth 48 96 --clearance-factor 1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
+    ("mesh triangular --teeth 48 96 --clearance-factor 1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
     ("mesh pin --offset 2", "pin-radius", "1e300"),
     ("mesh pin --pin-radius 10", "offset:length", "1e300"),
     ("mesh compare --teeth 24 36", "bevel:angle", "1e-300"),

@@ -32,7 +32,7 @@ PRINTED = [
 
 @pytest.mark.parametrize(("z1", "z2", "a", "jumps"), PRINTED)
 def test_the_jumps_are_those_printed(z1: int, z2: int, a: float, jumps: dict[str, float]) -> None:
-    data = json.loads(call("mesh", "triangular", "--teeth", z1, z2, "--clearance", a, "--json").output)
+    data = json.loads(call("mesh", "triangular", "--teeth", z1, z2, "--clearance-factor", a, "--json").output)
     assert {jump["kind"]: round(jump["value"], 4) for jump in data["jumps"]} == jumps
     assert data["speed_ratio"]["mean"] == z1 / z2
 
@@ -73,7 +73,7 @@ def test_a_pair_outside_its_window_is_a_verdict_that_names_it(arguments: list[ob
 
 
 def test_friction_that_locks_is_a_verdict_with_the_minimum_friction_that_does() -> None:
-    base = ("mesh", "triangular", "--teeth", 96, 72, "--clearance", 1.01, "--friction")
+    base = ("mesh", "triangular", "--teeth", 96, 72, "--clearance-factor", 1.01, "--friction")
     data = json.loads(call(*base, 1.2, "--json").output)
     limit = data["efficiency"]["locks_at"]
     assert (data["efficiency"]["mean"], data["efficiency"]["min"]) == (None, None)
@@ -101,11 +101,11 @@ REFUSED = [
     (["--teeth", 48, 96, "--backlash", "9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
     (["--teeth", 8, 64, "--window", 0.5], "no clearance lets 8 and 64"),
     (["--teeth", 48, 96, "--vary", "clearence=1:2:3"], "cannot be varied"),
-    (["--teeth", 48, 96, "--vary", "clearance=1:2"], "FIRST:LAST:COUNT"),
+    (["--teeth", 48, 96, "--vary", "clearance-factor=1:2"], "FIRST:LAST:COUNT"),
     (["--teeth", 48, 96, "--clearance", 1.01, "--plot", "x.bmp"], "'.bmp'"),
     (["--teeth", 48, 96, "--clearance", 1.01, "--profile", "w.svg"], "there is no module"),
     (["--teeth", 48, 96, "--module", "1mm", "--clearance", 1.01, "--profile", "w.stl"], "no form of outline"),
-    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance=1.01:1.02:3"], "leave --vary out"),
+    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "leave --vary out"),
 ]
 
 
@@ -139,7 +139,7 @@ def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
     there = json.loads(call(*PAIR, "--clearance", 1.01, "--json").output)
     back = json.loads(call(*PAIR, "--clearance", 1.01, "--driver", 2, "--json").output)
     swapped = json.loads(
-        call("mesh", "triangular", "--teeth", 96, 48, "--friction", 0.2, "--clearance", 1.01, "--json").output
+        call("mesh", "triangular", "--teeth", 96, 48, "--friction", 0.2, "--clearance-factor", 1.01, "--json").output
     )
     assert back["speed_ratio"]["mean"] == 2
     for key in ("min", "max"):
@@ -168,7 +168,7 @@ def test_impacts_share_the_drivers_work() -> None:
 def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None:
     out = tmp_path / "s.csv"
     result = call(
-        "mesh", "triangular", "--teeth", 96, 96, "--friction", 0.2, "--vary", "clearance=1.0005:1.028:24", "-o", out
+        "mesh", "triangular", "--teeth", 96, 96, "--friction", 0.2, "--vary", "clearance-factor=1.0005:1.028:24", "-o", out
     )
     assert result.exit_code == 0
     rows = list(csv.DictReader(io.StringIO(out.read_text(encoding="utf-8"))))
@@ -186,7 +186,7 @@ def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None
 
 
 def test_a_sweep_of_two_has_every_combination() -> None:
-    result = call(*PAIR, "--vary", "clearance=1.005:1.025:3", "--vary", "half-angle=20deg:40deg:2", "--json")
+    result = call(*PAIR, "--vary", "clearance-factor=1.005:1.025:3", "--vary", "half-angle=20deg:40deg:2", "--json")
     rows = json.loads(result.stdout)
     assert [(row["clearance"], row["half_angle"]) for row in rows] == [
         (a, b) for a in (1.005, 1.015, 1.025) for b in (20.0, 40.0)

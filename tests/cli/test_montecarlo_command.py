@@ -26,8 +26,8 @@ PAIR = """
     gears: [{pair: [p, w]}]
     inputs: {a: 1}
     outputs: {b: {}}
-    tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
-    cutting: {placement: {normal: 2 %}}
+    tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
+    cutting: {pitch_deviation: {normal: 2 %}}
 """
 Write = Callable[..., Path]
 
@@ -167,16 +167,16 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
     [
         (("--trials", "0"), "0 trials"),
         (("--trials", "-5"), "-5 trials"),
-        (("--set", "placement=120 %"), "greater than the tooth"),
-        (("--set", "placement=45 %"), "cannot be cut"),
-        (("--set", "placement=20 deg"), "greater than the tooth"),
+        (("--set", "pitch_deviation=120 %"), "greater than the tooth"),
+        (("--set", "pitch_deviation=45 %"), "cannot be cut"),
+        (("--set", "pitch_deviation=20 deg"), "greater than the tooth"),
         (("--set", "tip=0.1 mm"), "no module"),
         (("--set", "colour=3 %"), "sets no error"),
-        (("--set", "placement=3 apples"), "sets no error"),
-        (("--set", "placement=-3 %"), "no width"),
-        (("--set", "x9.placement=3 %"), "no wheel 'x9'"),
+        (("--set", "pitch_deviation=3 apples"), "sets no error"),
+        (("--set", "pitch_deviation=-3 %"), "no width"),
+        (("--set", "x9.pitch_deviation=3 %"), "no wheel 'x9'"),
         (("--set", "p.centre=3 %"), "no pair 'p'"),
-        (("--set", "placement=0"), "declares no errors"),
+        (("--set", "pitch_deviation=0"), "declares no errors"),
         (("--output", "nothing"), "no output or link"),
         (("--state", "fast"), "no state"),
         (("--clearance", "1.03:1.01:3"), "no sweep"),
@@ -198,14 +198,14 @@ def test_what_cannot_be_requested_is_refused_with_what_why_and_what_to_do(
 def test_trains_that_cannot_be_cut_are_refused(train_file: Write) -> None:
     bare = train_file(PAIR.replace("tooth_form", "note: ideal teeth #"), "bare.yaml")
     with pytest.raises(QuestionError, match="no triangular teeth"):
-        find_trial_plan(load(bare), read_error_overrides(["placement=2 %"]))
+        find_trial_plan(load(bare), read_error_overrides(["pitch_deviation=2 %"]))
     loop = """
         links: {frame: {}, a: {wheels: {p: 20, q: 20}}, b: {wheels: {w: 15, v: 15}}}
         revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
         gears: [{id: one, pair: [p, w]}, {id: two, pair: [q, v]}]
         inputs: {a: 1}
-        tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
-        cutting: {placement: {normal: 2 %}}
+        tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
+        cutting: {pitch_deviation: {normal: 2 %}}
     """
     closed = load(train_file(loop, "loop.yaml"))
     with pytest.raises(GearTrainError, match="close a loop"):
@@ -228,7 +228,7 @@ def test_sweeps_read_as_they_are_written() -> None:
 
 
 def test_a_few_wheels_that_cannot_be_cut_are_left_out_and_said(train_file: Write) -> None:
-    plan = find_trial_plan(load(train_file(PAIR)), read_error_overrides(["placement=22 %"]))
+    plan = find_trial_plan(load(train_file(PAIR)), read_error_overrides(["pitch_deviation=22 %"]))
     found = run_trials(plan, 256)
     uncut = found.train.uncut
     assert 0 < uncut < 128

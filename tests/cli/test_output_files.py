@@ -26,7 +26,7 @@ FORMS = ("involute", "cycloidal", "lantern", "circular-arc", "uniform-stress", "
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
-ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
+ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "pitch_deviation=2 %")
 IN_TIME = ("--rate", "1", "--turns", "2", "--skip", "0", "--steps", "100", "--no-fast")
 BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 

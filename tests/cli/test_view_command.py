@@ -117,7 +117,7 @@ def test_a_train_that_cannot_turn_is_shown_and_the_exit_code_tells(train_file: W
 JAMMED = """
 links: {frame: {}, a: {wheels: {p: 27}}, b: {wheels: {q: 45}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-gears: [{pair: [p, q], tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.001}}]
+gears: [{pair: [p, q], tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.001}}]
 inputs: {a: 1}
 """
 

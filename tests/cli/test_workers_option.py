@@ -22,8 +22,8 @@ PAIR = """
     gears: [{pair: [p, w]}]
     inputs: {a: 1}
     outputs: {b: {}}
-    tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
-    cutting: {placement: {normal: 2 %}, tip: {normal: 3 %}}
+    tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
+    cutting: {pitch_deviation: {normal: 2 %}, tip: {normal: 3 %}}
 """
 PIN = """
     links: {frame: {}, a: {}, b: {}}

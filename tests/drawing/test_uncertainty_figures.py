@@ -293,7 +293,7 @@ def test_where_nothing_fits_nothing_is_drawn() -> None:
 
 @pytest.fixture(scope="module")
 def findings() -> MonteCarloResult:
-    plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=1 %"]), ("moon",))
+    plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=1 %"]), ("moon",))
     trials = run_trials(plan, 300)
     cleared = jamming_map(plan, [0.3, 0.6], [0.5, 4.0], 20)
     return MonteCarloResult(trials, cleared, [run_course(plan, 0, 12, 1, 20)])
@@ -365,7 +365,7 @@ gears: [{pair: [p, q]}]
 inputs: {a: 1}
 outputs: {b: {}}
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
-cutting: {placement: {normal: 2 %}}
+cutting: {pitch_deviation: {normal: 2 %}}
 """
 
 # ---------------------------------------------------------------------------------------------------------- all of them

@@ -14,7 +14,7 @@ from models import PAIR
 from geartrain import GearTrainError, load
 from geartrain.teeth import GearMesh, Triangular
 
-TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}\nfriction: 0.1\ninputs: {a: 1}"
+TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}\nfriction: 0.1\ninputs: {a: 1}"
 # 20/60 turns between 1.01031 and 1.0390 (30 deg, equal depth)
 
 

@@ -153,7 +153,7 @@ def test_declared_places_agree_with_radii() -> None:
         ("30.05 mm", "tooth_form: {form: cycloidal}", [("P1", "error")]),
         ("30.5 mm", "tooth_form: {form: involute, centre_distance: 30.5 mm}", []),
         ("30.5 mm", "tooth_form: {form: involute, centre_distance: 30.5}", []),
-        ("30.05 mm", "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}", [("P1", "note")]),
+        ("30.05 mm", "tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}", [("P1", "note")]),
     ],
 )
 def test_how_far_teeth_may_stand_from_their_distance(distance: str, form: str, said: list[tuple[str, str]]) -> None:

@@ -108,7 +108,7 @@ def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
 # ------------------------------------------------------------------------------------------------- all other questions
 
 RATIO = ("teeth", "ratio", "7/3", "--stages", "1", "--best", "2")
-CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "placement=2 %")
+CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "pitch_deviation=2 %")
 DOUBT = ("posterior", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
 PAIR = ("--teeth", "20", "30")
 TRIANGULAR = ("mesh", "triangular", *PAIR)
@@ -136,7 +136,7 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
     "budget": [
         ("budget", "moon-triangular", "--turns", "1", "--samples", "64"),
         ("budget", "freeth-2008", "--turns", "1", "--samples", "64", "--output", "moon"),
-        ("budget", "moon-triangular", "--turns", "1", "--cutting", "placement=1 %", "--trials", "4"),
+        ("budget", "moon-triangular", "--turns", "1", "--cutting", "pitch_deviation=1 %", "--trials", "4"),
     ],
     "montecarlo": [CUT, (*CUT, "--output", "moon"), (*CUT, "--clearance", "0.2:0.8:2")],
     "posterior": [

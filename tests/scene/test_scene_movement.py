@@ -75,8 +75,8 @@ class Reader:
         cycles = Fraction(source["cycles"]) * turns
         rest = float(cycles - floor(cycles))
         own = source["driver_sense"] * errors[source["driver"]] - source["carrier_sense"] * errors[source["carrier"]]
-        S = source["start"] + self.transmissions[source["law"]][0] * rest + source["forward"] * own
-        return float(source["sense"] * self.error_of_transmission(source["law"], S))
+        S = source["start"] + self.transmissions[source["transmission"]][0] * rest + source["forward"] * own
+        return float(source["sense"] * self.error_of_transmission(source["transmission"], S))
 
     def angles(self, turns: float) -> list[float]:
         """Angle of every body about its direction (rad), whole turns taken off its mean."""
@@ -133,7 +133,7 @@ def test_the_plain_data_move_every_pointer_as_the_train_does(name: str, back: bo
     assert compared(shipped.train(name), back) < AGREE
 
 
-TRIANGULAR = "form: triangular, half_angle: 30 deg, clearance: 1.01"
+TRIANGULAR = "form: triangular, half_angle: 30 deg, clearance_factor: 1.01"
 PAIRS = """
 links:
   frame: {{}}
@@ -214,7 +214,7 @@ revolutes:
   - {pair: [frame, c], axis: C}
   - {pair: [frame, d], axis: D}
 gears: [{pair: [wa, wb]}, {pair: [wb, wc]}, {pair: [wc, wd]}, {pair: [wd, wa]}]
-tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}
+tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}
 inputs: {a: 1}
 """
     scene = make_scene(geartrain.load(loop))

@@ -285,7 +285,7 @@ TEETH = """
 links: {{frame: {{}}, a: {{wheels: {{p: 15}}}}, b: {{wheels: {{w: 60}}, inertia: 1e-5 kg m2, bearing: 1 N mm}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
 gears: [{{pair: [p, w]}}]
-tooth_form: {{form: triangular, half_angle: 30 deg, clearance: {0}}}
+tooth_form: {{form: triangular, half_angle: 30 deg, clearance_factor: {0}}}
 inputs: {{a: 1}}
 """
 

@@ -148,7 +148,7 @@ def triangles(angle: str, clearance: float) -> geartrain.GearTrain:
     return geartrain.load(f"""
 links: {{frame: {{}}, a: {{wheels: {{p: {{teeth: 20, module: 2 mm}}}}}}, b: {{wheels: {{w: 40}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
-gears: [{{pair: [p, w], tooth_form: {{form: triangular, half_angle: {angle}, clearance: {clearance}}}}}]
+gears: [{{pair: [p, w], tooth_form: {{form: triangular, half_angle: {angle}, clearance_factor: {clearance}}}}}]
 inputs: {{a: 1}}
 loads: {{b: 1 N m}}
 """)

@@ -132,7 +132,7 @@ def test_a_train_declared_to_turn_backwards_is_the_mirror_image_of_itself(name: 
 
 
 @pytest.mark.parametrize("load", ["-1 N mm", "1 N mm"])
-@pytest.mark.parametrize("play", [{}, {"clearance": "0.02 mm"}])
+@pytest.mark.parametrize("backlash", [{}, {"clearance": "0.02 mm"}])
 def test_a_pin_rubs_whichever_side_puts_the_power_in(load: str, backlash: dict[str, str]) -> None:
     pin = {"kind": "pin_and_slot", "pin": "a", "slot": "b", "pin_radius": "10 mm", "offset": "5 mm", "friction": 0.3}
     train = GearTrain.declare(

@@ -179,7 +179,7 @@ def test_faster_teeth_lose_less_where_friction_falls_with_speed_and_tend_to_the_
 
 
 def test_teeth_lock_where_the_coefficient_of_the_moment_locks_them() -> None:
-    transmission = Triangular.declared({"half_angle": "30 deg", "clearance": "1.01"}).transmission(96, 72)
+    transmission = Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.01"}).transmission(96, 72)
     limit = transmission.locking_friction
     given = {"law": "table", "speeds": ["0 m/s", "1 m/s"], "coefficients": [0.1, 2 * limit]}
     by = TabulatedFriction.model_validate(given)
@@ -237,8 +237,8 @@ def test_a_transmission_of_the_pitch_line_is_a_number_for_each_pair() -> None:
 @pytest.mark.parametrize(
     ("form", "radius"),
     [
-        ("{form: triangular, half_angle: 30 deg, clearance: 1.01}", 0.048 * 1.01),
-        ("{form: triangular, half_angle: 30 deg, clearance: 1.01, radii: [1, 2.01]}", 0.048),
+        ("{form: triangular, half_angle: 30 deg, clearance_factor: 1.01}", 0.048 * 1.01),
+        ("{form: triangular, half_angle: 30 deg, clearance_factor: 1.01, radii: [1, 2.01]}", 0.048),
         ("{form: triangular, half_angle: 30 deg, centre_distance: 145.5 mm, radii: [50 mm, 98.1 mm]}", 0.1455 / 3),
         ("{form: involute}", 0.048),
         ("{form: involute, centre_distance: 144.3 mm, addendum: [1, 1]}", 0.1443 / 3),

@@ -56,7 +56,7 @@ def angles(transmission: TransmissionFunction, count: int = 20_000, turns: float
     return np.random.default_rng(5).uniform(-turns * 2 * pi, turns * 2 * pi, count)
 
 
-@pytest.mark.parametrize("law", TRANSMISSIONS)
+@pytest.mark.parametrize("transmission", TRANSMISSIONS)
 def test_a_table_agrees_with_its_transmission_to_the_error_it_states(transmission: TriangularTransmission) -> None:
     table, S = TabulatedTransmission(transmission), angles(transmission)
     scales = {"error": transmission.sizes.p2, "speed": float(transmission.ratio), "efficiency": 1.0}
@@ -68,7 +68,7 @@ def test_a_table_agrees_with_its_transmission_to_the_error_it_states(transmissio
         assert np.nanmax(np.abs(direct - read)) <= made.uncertainty
 
 
-@pytest.mark.parametrize("law", DWELLS)
+@pytest.mark.parametrize("transmission", DWELLS)
 def test_a_standing_wheel_stands_in_the_table_too(transmission: TriangularTransmission) -> None:
     table, S = TabulatedTransmission(transmission), angles(transmission)
     standing = np.isnan(transmission.efficiency(S))
@@ -79,7 +79,7 @@ def test_a_standing_wheel_stands_in_the_table_too(transmission: TriangularTransm
 
 @pytest.mark.parametrize(("degree", "order"), [(2, 3), (3, 4), (4, 5)])
 @pytest.mark.parametrize(
-    "law", [transmission_of(48, 96, 30, 0.01), transmission_of(12, 12), transmission_of(15, 60, 30, 0.04)]
+    "transmission", [transmission_of(48, 96, 30, 0.01), transmission_of(12, 12), transmission_of(15, 60, 30, 0.04)]
 )
 def test_the_order_of_convergence_is_one_more_than_the_degree(
     transmission: TriangularTransmission, degree: int, order: int
@@ -96,7 +96,7 @@ def test_the_order_of_convergence_is_one_more_than_the_degree(
     assert order - 0.5 < slope < order + 0.5
 
 
-@pytest.mark.parametrize("law", TRANSMISSIONS[:4] + DWELLS)
+@pytest.mark.parametrize("transmission", TRANSMISSIONS[:4] + DWELLS)
 def test_a_table_repeats_over_many_turns(transmission: TriangularTransmission) -> None:
     table = TabulatedTransmission(transmission)
     S = angles(transmission, 1_000, 0.5)
@@ -112,7 +112,7 @@ def test_a_table_repeats_over_many_turns(transmission: TriangularTransmission) -
     assert table.ratio == Fraction(transmission.sizes.z1, transmission.sizes.z2)
 
 
-@pytest.mark.parametrize("law", TRANSMISSIONS)
+@pytest.mark.parametrize("transmission", TRANSMISSIONS)
 def test_the_driven_angle_never_falls(transmission: TriangularTransmission) -> None:
     table = TabulatedTransmission(transmission)
     S = np.linspace(-2 * transmission.period, 2 * transmission.period, 50_001)

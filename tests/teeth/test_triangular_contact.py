@@ -244,7 +244,7 @@ def test_moment_arms_are_distances_of_the_force_and_the_instant_centre_is_on_the
 
 
 def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_dwell() -> None:
-    transmission = Triangular.declared({"half_angle": "30 deg", "clearance": "1.032"}).transmission(15, 60, 0.2)
+    transmission = Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.032"}).transmission(15, 60, 0.2)
     course = contact_course(transmission, 3)
     assert course.phases == ("recess",) * 3 + ("dwell",) * 3
     assert list(course.alpha1[[0, 2, 3, 5]]) == [
@@ -257,6 +257,6 @@ def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_dwell() -> Non
     assert (course.speed_ratio[3:] == 0).all()
     assert course.to_dict()["driver_arm"][3:] == [None] * 3
     assert (
-        contact_course(Triangular.declared({"half_angle": "30 deg", "clearance": "1.2"}).transmission(15, 60)).phases
+        contact_course(Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.2"}).transmission(15, 60)).phases
         == ()
     )

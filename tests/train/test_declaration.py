@@ -342,7 +342,7 @@ def test_the_view_and_the_dial_never_change_a_sign() -> None:
 def test_teeth_and_loads_are_read_now_and_used_later() -> None:
     train = pair(
         """inputs: {a: 1}
-tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}
+tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}
 loads: {b: -3 N m}
 solve_for: a
 rate: 1 turn/s
@@ -360,9 +360,9 @@ errata: [{place: table 1, printed: 5, right: 6, why: arithmetic}]"""
     [
         ("{form: square}", "triangular"),
         ("{half_angle: 30 deg}", "form"),
-        ("{form: triangular, half_angle: 30, clearance: 1.01}", "no unit"),
-        ("{form: triangular, half_angle: 95 deg, clearance: 1.01}", "outside 0 to 90 deg"),
-        ("{form: triangular, half_angle: 30 deg, clearance: 1.01, window: 0.5}", "given 2 times"),
+        ("{form: triangular, half_angle: 30, clearance_factor: 1.01}", "no unit"),
+        ("{form: triangular, half_angle: 95 deg, clearance_factor: 1.01}", "outside 0 to 90 deg"),
+        ("{form: triangular, half_angle: 30 deg, clearance_factor: 1.01, window: 0.5}", "given 2 times"),
         ("{form: triangular, half_angle: 30 deg}", "given 0 times"),
     ],
 )

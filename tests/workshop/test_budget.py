@@ -259,7 +259,7 @@ def test_questions_without_meaning_are_refused(requested: dict[str, float]) -> N
 
 def cut(placement: str, trials: int = 64) -> PointerBudget:
     requested = BudgetQuestion(
-        outputs=("sun",), cutting=(f"placement={placement}",), trials=trials, clearances=(), **SHORT
+        outputs=("sun",), cutting=(f"pitch_deviation={placement}",), trials=trials, clearances=(), **SHORT
     )
     return find_budget(geartrain.load("moon-triangular"), requested)["sun"]
 
@@ -286,7 +286,7 @@ def test_cutting_of_one_pair_is_as_great_as_the_places_of_its_teeth() -> None:
 
 
 def test_jams_are_counted_over_clearance() -> None:
-    requested = BudgetQuestion(outputs=("sun",), cutting=("placement=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT)
+    requested = BudgetQuestion(outputs=("sun",), cutting=("pitch_deviation=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT)
     jams = find_budget(geartrain.load("moon-triangular"), requested).jams
     assert [each.clearance for each in jams] == [0.1, 0.9]
     assert jams[0].events["jam"].count > jams[1].events["jam"].count
@@ -294,7 +294,7 @@ def test_jams_are_counted_over_clearance() -> None:
 
 def test_cutting_that_is_requested_for_and_cannot_be_tried_is_refused() -> None:
     with pytest.raises(geartrain.GearTrainError, match="no triangular teeth"):
-        find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("placement=1 %",), **SHORT))
+        find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("pitch_deviation=1 %",), **SHORT))
 
 
 def test_the_cranks_torque_is_the_loads_over_the_efficiency() -> None:

@@ -389,7 +389,7 @@ inputs: {{a: 1}}
 
 
 def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
-    triangular = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+    triangular = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
     for form, said in ((triangular, "triangular teeth of pair 'G1'"), ("{form: involute, backlash: 0.1}", "pair 'G1'")):
         with pytest.raises(GearTrainError, match=said) as caught:
             _ = SolidModel(declared(form), ManufacturingSizes(backlash=0.1)).blanks
@@ -451,7 +451,7 @@ PLAIN = "{form: involute}"
     "second",
     ["{form: involute, backlash: 0.2}", "{form: cycloidal}", "{form: involute, addendum: [0.8, 1]}",
      "{form: involute, pressure_angle: 25 deg}", "{form: lantern, pins: 1}",
-     "{form: triangular, half_angle: 30 deg, clearance: 1.02}"],
+     "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"],
 )  # fmt: skip
 def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) -> None:
     work = SolidModel(GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second))), ManufacturingSizes())

@@ -334,7 +334,7 @@ gears: [{pair: [p, w]}]
 inputs: {a: 1}
 outputs: {b: {}}
 tooth_form: {form: FORM, backlash: 0.2}
-cutting: {placement: {normal: 1 %}}
+cutting: {pitch_deviation: {normal: 1 %}}
 fitting: {filing: {stroke: 1 %}}
 """
 
@@ -363,7 +363,7 @@ def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting
     text = PAIR.replace("FORM, backlash: 0.2", "cycloidal, backlash: 0.2, centre_distance: 30.55")
     (tmp_path / "pair.yaml").write_text(text)
     train = geartrain.load(tmp_path / "pair.yaml")
-    plan = find_trial_plan(train, read_error_overrides(["placement=0.0001 %"]))
+    plan = find_trial_plan(train, read_error_overrides(["pitch_deviation=0.0001 %"]))
     transmission, pitch, S = train.meshes[0].transmission, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
     lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).first_lag(np.zeros(50, int), S)[0]
     # to first order in 0.05 modules, the ripple of the outlines' own law
@@ -427,7 +427,7 @@ def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
 def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
     # 15 % of such pairs jam, as docs/cut-by-hand.md prints
     text = PAIR.replace("p: 24", "p: 64").replace("w: 37", "w: 38").replace("normal: 1 %", "normal: 5.16 %")
-    form = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+    form = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
     (tmp_path / "pair.yaml").write_text(text.replace("{form: FORM, backlash: 0.2}", form))
     plan = find_trial_plan(geartrain.load(tmp_path / "pair.yaml"))
     bare = replace(plan, pairs=tuple(replace(pair, stroke=0.0) for pair in plan.pairs))
@@ -443,7 +443,7 @@ def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
 
 
 def test_settings_and_wheels_of_other_forms() -> None:
-    settings = read_error_overrides(["placement=0.2 %", "eccentricity=1 %", "aperture=1 %", "tip=1 %", "centre=1 %"])
+    settings = read_error_overrides(["pitch_deviation=0.2 %", "eccentricity=1 %", "aperture_deviation=1 %", "tip=1 %", "centre=1 %"])
     for name in ("planetary-24-18-60-involute", "lantern-mill", "longcase-clock-cycloidal"):
         plan = find_trial_plan(geartrain.load(name), settings)
         found = run_trials(plan, 16)
@@ -563,10 +563,10 @@ def test_the_minimum_backlash_is_that_of_all_angles_and_below_nothing_the_outlin
 
 def test_a_clock_with_circular_arc_teeth_is_cut_by_hand() -> None:
     train = geartrain.load("longcase-clock-bs978")
-    found = run_trials(find_trial_plan(train, read_error_overrides(["placement=0.5 %", "eccentricity=2 %"])), 128, 1)
+    found = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.5 %", "eccentricity=2 %"])), 128, 1)
     assert found.train.events["stops"].value == 0
     # cut nearly true, pointers stray by the ripple of even teeth alone
-    sure = run_trials(find_trial_plan(train, read_error_overrides(["placement=0.001 %"])), 512, 1)
+    sure = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.001 %"])), 512, 1)
     run = MotionRun(train.motion(), 0.5, 20_001)
     run.go()
     for one, other, ripple in zip(found.pointers, sure.pointers, run.tallies, strict=True):

@@ -56,7 +56,7 @@ def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> Gea
         "gears": gears,
         "inputs": {"l0": 1},
         "outputs": {"end": {"of": f"l{len(counts)}"}},
-        "tooth_form": {"form": "triangular", "half_angle": "30 deg", "clearance": clearance},
+        "tooth_form": {"form": "triangular", "half_angle": "30 deg", "clearance_factor": clearance},
     }
     return GearTrain.declare(data | more)
 
@@ -65,7 +65,7 @@ def planned(train: GearTrain, *settings: str) -> TrialPlan:
     return find_trial_plan(train, read_error_overrides(settings))
 
 
-EVERY = ("placement=2 %", "eccentricity=6 %", "tip=3 %", "aperture=uniform 4 %", "centre=2 %")
+EVERY = ("pitch_deviation=2 %", "eccentricity=6 %", "tip=3 %", "aperture_deviation=uniform 4 %", "centre=2 %")
 
 # ------------------------------------------------------------------------------------------------------ printed figures
 
@@ -74,7 +74,7 @@ EVERY = ("placement=2 %", "eccentricity=6 %", "tip=3 %", "aperture=uniform 4 %",
 def test_64_and_38_teeth_jam_as_often_as_printed(trials: int) -> None:
     seen = []
     for sigma in ("4.13 %", "5.16 %", "6.61 %"):
-        found = run_trials(planned(chain((64, 38)), f"placement={sigma}"), trials)
+        found = run_trials(planned(chain((64, 38)), f"pitch_deviation={sigma}"), trials)
         jam = found.train.events["jam"]
         seen.append(jam.value)
         assert jam.of == trials
@@ -106,7 +106,7 @@ def test_the_probability_of_a_jam_is_its_integral(trials: int) -> None:
     A driven tooth that is late against the one before it by more than the least play jams. The least play comes from a
     scan of the source's equations.
     """
-    plan = planned(chain((64, 38), clearance=1.01), "w0.placement=uniform 10 %")
+    plan = planned(chain((64, 38), clearance=1.01), "w0.pitch_deviation=uniform 10 %")
     backlash = minimum_backlash(Pair.of(plan.pairs[0].sizes, np))
     coarse, fine = (chance_that_none_rises(38, backlash / (0.2 * 2 * pi / 38), nodes) for nodes in (400, 800))
     assert abs(fine - coarse) < 1e-3
@@ -142,7 +142,7 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
     data = train.declaration.model_dump(mode="json", exclude_unset=True)
     data["gears"][1]["pair"] = ["w0", "w1"]
     del data["links"]["l1"]["wheels"]["p1"]
-    plan = planned(GearTrain.declare(data), "placement=2 %", "tip=3 %")
+    plan = planned(GearTrain.declare(data), "pitch_deviation=2 %", "tip=3 %")
     assert [wheel.name for wheel in plan.wheels] == ["p0", "w0", "w1"]
     drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 30)
     first, second = drawn.pair(0), drawn.pair(1)
@@ -203,7 +203,7 @@ def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
 
     So the variance is that of even teeth, and the mean of tau squared times that of the one wheel, and of the other.
     """
-    plan = planned(chain((64, 38)), "placement=0.6 %")
+    plan = planned(chain((64, 38)), "pitch_deviation=0.6 %")
     transmission, S = even_teeth(plan)
     sigma1, sigma2 = 0.006 * 2 * pi / 64, 0.006 * 2 * pi / 38
     ripple = transmission.error_moments()[1]
@@ -211,7 +211,7 @@ def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
     pointer = run_trials(plan, 4096).pointers[0]
     # near a change of couples the lesser of two is taken: some hundredths of the variance
     assert pointer.deviation.value**2 == pytest.approx(true, rel=0.1)
-    fine = planned(chain((64, 38)), "placement=0.06 %")
+    fine = planned(chain((64, 38)), "pitch_deviation=0.06 %")
     small = draw_trial_wheels(fine, RandomStreams(1, 0))
     turns = np.random.default_rng(4).uniform(0, 19, 256)
     errors = trial_pointers(small, np.arange(256)).errors(turns)[0]
@@ -221,7 +221,7 @@ def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
 
 
 def test_the_first_order_is_right_to_the_second_away_from_changes_of_tooth_pairs() -> None:
-    plan = planned(chain((64, 38)), "placement=1 %")
+    plan = planned(chain((64, 38)), "pitch_deviation=1 %")
     transmission, _ = even_teeth(plan)
     pitch = transmission.period
     # the middle of the longest stretch without corners
@@ -243,8 +243,8 @@ def test_the_first_order_is_right_to_the_second_away_from_changes_of_tooth_pairs
 
 
 def test_a_fixed_error_of_the_distance_is_another_clearance() -> None:
-    plan = planned(chain((40, 27)), "placement=3 %", "centre=value 10 %")
-    bare = planned(chain((40, 27)), "placement=3 %")
+    plan = planned(chain((40, 27)), "pitch_deviation=3 %", "centre=value 10 %")
+    bare = planned(chain((40, 27)), "pitch_deviation=3 %")
     pair = bare.pairs[0]
     factor = (pair.sizes.D + 0.1 * min(pair.sizes.depths)) / pair.sizes.deepest_distance
     _, backlash = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), 50))
@@ -259,18 +259,18 @@ def test_errors_are_read_in_the_units_of_their_wheel() -> None:
         "teeth": 30,
         "module": "0.5 mm",
         "cutting": {
-            "placement": {"normal": "0.6 deg"},
+            "pitch_deviation": {"normal": "0.6 deg"},
             "eccentricity": {"value": "0.1 mm"},
-            "eccentric_at": "90 deg",
-            "aperture": {"uniform": "3 deg"},
+            "eccentricity_angle": "90 deg",
+            "aperture_deviation": {"uniform": "3 deg"},
         },
     }
     measured = [f"{at / 100:g} deg" for at in range(20)]
-    data["links"]["l1"]["wheels"]["w0"] = {"teeth": 20, "cutting": {"measured": {"placement": measured}}}
+    data["links"]["l1"]["wheels"]["w0"] = {"teeth": 20, "cutting": {"measured": {"pitch_deviation": measured}}}
     plan = find_trial_plan(GearTrain.declare(data))
     first, second = plan.wheels
-    assert first.errors["placement"].size == pytest.approx(0.6 / 12)
-    assert first.errors["aperture"].size == pytest.approx(3 / 60)
+    assert first.errors["pitch_deviation"].size == pytest.approx(0.6 / 12)
+    assert first.errors["aperture_deviation"].size == pytest.approx(3 / 60)
     # the pitch circle, 7.5 mm, lies in the middle of teeth whose flanks stand at 30 degrees to the radius
     outer = 7.5 / (1 - first.depth / 2)
     assert first.errors["eccentricity"].size * first.depth * outer == pytest.approx(0.1)
@@ -308,7 +308,7 @@ def same(one: Any, other: Any) -> bool:
 @cache
 def nine_hundred() -> tuple[TrialPlan, TrialResults]:
     """Trials in one go, against which all ways of sharing them out are held."""
-    plan = planned(chain((12, 10), (9, 8)), "placement=2 %", "tip=2 %")
+    plan = planned(chain((12, 10), (9, 8)), "pitch_deviation=2 %", "tip=2 %")
     return plan, run_trials(plan, 900, 7)
 
 
@@ -349,12 +349,12 @@ def test_tasks_are_every_trial_once_none_across_blocks_and_enough_for_eight_work
 
 
 def test_greater_errors_are_the_same_errors_and_other_clearances_meet_the_same_wheels() -> None:
-    plan, higher = (planned(chain((20, 15)), "placement=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4))
+    plan, higher = (planned(chain((20, 15)), "pitch_deviation=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4))
     one, twice = (draw_trial_wheels(each, RandomStreams(1, 0), 5).wheels[0] for each in (plan, higher))
     assert np.allclose(twice.place, one.place, atol=2e-3)
     placed = [
         draw_trial_wheels(each, RandomStreams(1, 0), 5)
-        for each in (planned(chain((20, 15)), f"placement={s} %") for s in (1, 2))
+        for each in (planned(chain((20, 15)), f"pitch_deviation={s} %") for s in (1, 2))
     ]
     assert placed[1].wheels[0].place == pytest.approx(2 * placed[0].wheels[0].place)
     assert (
@@ -381,7 +381,7 @@ def test_wilsons_interval_ends_where_the_deviation_is_z(count: int, of: int) -> 
 
 def test_total_indices_are_the_shares_of_the_closed_form() -> None:
     """Each wheel's total share is its part of the variance; where the input stands takes part in all of it."""
-    plan = planned(chain((64, 38)), "p0.placement=0.5 %", "w0.placement=0.9 %")
+    plan = planned(chain((64, 38)), "p0.pitch_deviation=0.5 %", "w0.pitch_deviation=0.9 %")
     transmission, S = even_teeth(plan)
     parts = np.array(
         [float(np.mean(transmission.speed(S) ** 2)) * (0.005 * 2 * pi / 64) ** 2, (0.009 * 2 * pi / 38) ** 2]
@@ -393,12 +393,12 @@ def test_total_indices_are_the_shares_of_the_closed_form() -> None:
     assert found["position"].total.value > 0.85
     assert all(each.first.value <= each.total.value + 0.1 for each in found.values())
     kinds = {each.name for each in find_sobol_indices(plan, 0, "kind", 64).indices}
-    assert kinds == {"placement", "position"}
+    assert kinds == {"pitch_deviation", "position"}
 
 
 def test_variance_shares_sum_to_one_and_follow_the_sensitivities() -> None:
     """Of two pairs, the share of each is its variance times the square of what stands behind it."""
-    plan = planned(chain((48, 40), (32, 60)), "placement=0.5 %")
+    plan = planned(chain((48, 40), (32, 60)), "pitch_deviation=0.5 %")
     found = run_trials(plan, 2048)
     shares = found.pointers[0].shares
     assert sum(shares.values()) == pytest.approx(1)
@@ -419,7 +419,7 @@ def test_variance_shares_sum_to_one_and_follow_the_sensitivities() -> None:
 
 
 def test_more_clearance_jams_less_and_every_clearance_meets_the_same_wheels() -> None:
-    plan = planned(chain((64, 38)), "placement=3 %")
+    plan = planned(chain((64, 38)), "pitch_deviation=3 %")
     found = run_clearances(plan, [1.008, 1.012, 1.016, 1.02], 256)
     jams = [each.events["jam"].count for each in found]
     assert jams == sorted(jams, reverse=True)
@@ -428,7 +428,7 @@ def test_more_clearance_jams_less_and_every_clearance_meets_the_same_wheels() ->
 
 
 def test_along_a_turn_the_bands_are_in_order_and_hold_the_trials() -> None:
-    plan = planned(chain((20, 15)), "placement=2 %")
+    plan = planned(chain((20, 15)), "pitch_deviation=2 %")
     course = run_course(plan, 0, 40, trials=60)
     bands = course.bands()
     assert (np.diff(bands, axis=0) >= 0).all()
@@ -442,7 +442,7 @@ def test_along_a_turn_the_bands_are_in_order_and_hold_the_trials() -> None:
 
 def test_a_cycle_of_teeth_is_no_longer_than_it_is() -> None:
     """Positions are drawn from all that the train can do before it repeats."""
-    plan = planned(chain((20, 15), (14, 21)), "placement=1 %")
+    plan = planned(chain((20, 15), (14, 21)), "pitch_deviation=1 %")
     # all teeth stand as at the start when both arbors of every pair have made whole turns
     speeds = (Fraction(1), Fraction(20, 15), Fraction(20, 15) * Fraction(14, 21))
     turns = next(n for n in range(1, 100) if all((n * speed).denominator == 1 for speed in speeds))

@@ -30,7 +30,7 @@ words, equation = _OWN.words, _OWN.equation
 
 def mesh(z1: int, z2: int, clearance: str, path: str) -> Command:
     """A value of a pair of the figures."""
-    return Command(f"mesh triangular --teeth {z1} {z2} --clearance {clearance} --friction 0.2", path)
+    return Command(f"mesh triangular --teeth {z1} {z2} --clearance-factor {clearance} --friction 0.2", path)
 
 
 # ------------------------------------------------------------------------------------------------------ II. geometry
@@ -98,7 +98,7 @@ def geometry() -> Iterator[Row]:
     yield outside(
         "II, Fig. 2",
         "a drawing of approach, matching and recess, z2/z1 = 2, beta = 30 deg",
-        "the copy has no pictures; `geartrain mesh triangular --teeth 48 96 --clearance 1.01 --at -3deg "
+        "the copy has no pictures; `geartrain mesh triangular --teeth 48 96 --clearance-factor 1.01 --at -3deg "
         "--teeth-plot contact.svg` draws any position",
     )
     yield words("Fig. 2 b", "profiles match where -alpha_2 = alpha_1; tau changes suddenly there", "matched()")
@@ -193,7 +193,7 @@ def eq_17() -> float:
     """alpha_2 in recess by the quotient, on figures and on leaning flanks of few teeth, over the whole ideal path."""
     worst = 0.0
     for z1, z2, half in ((48, 96, 30), (96, 96, 30), (5, 4, 40), (3, 8, 25), (8, 8, 60), (12, 30, 70)):
-        form = Triangular.model_validate({"form": "triangular", "half_angle": f"{half} deg", "clearance": "1.05"})
+        form = Triangular.model_validate({"form": "triangular", "half_angle": f"{half} deg", "clearance_factor": "1.05"})
         sizes = form.transmission(z1, z2).sizes
         s = sizes.at(sizes.maximum_excess / 2)
         x = np.linspace(s.exit, s.entry, 101)[1:-1]
@@ -654,7 +654,9 @@ def sub_phases() -> Finding:
 def narrowing() -> Finding:
     """Width of the left (recess) sub-region of 96/96 just before a third is born, in pitches."""
     pairs = {a: transmission(96, 96, a) for a in ("1.001", "1.0111")}
-    width = {a: next(each.width for each in pair.intervals if each.phase == R) / pair.period for a, pair in pairs.items()}
+    width = {
+        a: next(each.width for each in pair.intervals if each.phase == R) / pair.period for a, pair in pairs.items()
+    }
     text = ", ".join(f"{part:.3f} at {a}" for a, part in width.items())
     return Finding(width["1.0111"] < 0.5 * width["1.001"], f"recess apart, in pitches: {text}")
 
@@ -781,7 +783,7 @@ def conclusions() -> Iterator[Row]:
     yield outside(
         "VI, rattling",
         "a sensible rattling noise, lubrication of the ancients",
-        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance 1.01 "
+        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance-factor 1.01 "
         "--inertia '20 g cm2' --rate 1rpm`",
     )
     yield words(

@@ -109,7 +109,7 @@ class Contact:
 
 def transmission(z1: int, z2: int, clearance: float | str) -> TriangularTransmission:
     """A pair of the note: equilateral teeth of equal depth, friction 0.2."""
-    form = Triangular.model_validate({"form": "triangular", "half_angle": "30 deg", "clearance": str(clearance)})
+    form = Triangular.model_validate({"form": "triangular", "half_angle": "30 deg", "clearance_factor": str(clearance)})
     return form.transmission(z1, z2, FRICTION)
 
 

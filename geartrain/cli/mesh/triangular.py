@@ -99,7 +99,7 @@ class TriangularOptions:
             mesh = pair_in_mesh(form, wheels, None, self.driver)
         except GearTrainError as error:
             clearances = (name for name in self.own if name not in _KEPT and self.own[name] is not None)
-            given = next(clearances, "clearance")
+            given = next(clearances, "clearance_factor")
             raise at_option(error, "--teeth" if min(z1, z2) < FEWEST else option_name(given)) from None
         assert isinstance(mesh, TriangularMesh)
         mesh = rub.of(mesh, self.rate)
@@ -232,7 +232,7 @@ def _run(
     ] = None,
     set_: Annotated[
         list[str] | None,
-        typer.Option("--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'placement=1 %'."),
+        typer.Option("--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'pitch_deviation=1 %'."),
     ] = None,
     plot: Annotated[
         Path | None, typer.Option("--plot", help="Draw the law, the sweep, or the designs of --best to this file.")

@@ -74,7 +74,7 @@ def collect_time_report(
     >>> import geartrain
     >>> train = geartrain.load("moon-triangular-inertia")
     >>> found = collect_time_report(train, train.dynamics("1 turn/s", turns=0.01, skip=0, steps=2000))
-    >>> found.separation.pair, found.to_dict()["lead"]
+    >>> found.separation.pair, found.to_dict()["driving_link"]
     ('d2~e', 'crank')
     """
     from geartrain.simulation.contacts.link_inertia import find_link_inertias

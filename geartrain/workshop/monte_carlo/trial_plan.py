@@ -405,8 +405,8 @@ def find_trial_plan(
     --------
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
-    >>> [pair.name for pair in plan.pairs], plan.wheels[0].errors["placement"].size
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=0.1 %"]), ["sun"])
+    >>> [pair.name for pair in plan.pairs], plan.wheels[0].errors["pitch_deviation"].size
     (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
     motion = train.motion(state, outputs, without)
@@ -424,7 +424,7 @@ def find_trial_plan(
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
         why = "wheels cut true neither jam nor stray"
-        fix = "declare `cutting: {placement: {normal: 2 %}}`, or give --set placement='2 %'"
+        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set placement='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion.tallies())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))

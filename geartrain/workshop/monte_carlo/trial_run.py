@@ -137,7 +137,7 @@ def run_trials(
 
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=0.1 %"]), ["sun"])
     >>> jam = run_trials(plan, 64).train.events["jam"]
     >>> jam.count, [round(end, 4) for end in jam.interval]
     (0, [0.0, 0.0566])
@@ -288,12 +288,12 @@ def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
     found = {}
     for pair in plan.pairs:
         wheels = plan.wheels[pair.first], plan.wheels[pair.second]
-        plain = all(not each.tables and set(each.errors) <= {"placement"} for each in wheels)
+        plain = all(not each.tables and set(each.errors) <= {"pitch_deviation"} for each in wheels)
         plain = plain and not pair.fitting and not pair.stroke
         normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
         if plain and normal:
             # the bound is of one deviation for both wheels: the greater of the two
-            sizes = [each.errors["placement"].size for each in wheels if each.errors]
+            sizes = [each.errors["pitch_deviation"].size for each in wheels if each.errors]
             found[pair.name] = pair.jamming_bound(max(sizes, default=0.0))
     return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -323,7 +323,7 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     --------
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=0.1 %"]), ["sun"])
     >>> course = run_course(plan, 0, 5, trials=8)
     >>> course.errors.shape, course.bands().shape
     ((8, 5), (7, 5))

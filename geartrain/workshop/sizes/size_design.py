@@ -57,7 +57,7 @@ class ToothSizes(Result):
     """
 
     KEYS = (
-        *("radii", "window", "half_angles", Key("clearance", "clearance_factor")),
+        *("radii", "window", "half_angles", "clearance_factor"),
         *("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash", "window_width", "phases"),
     )
 

@@ -34,7 +34,7 @@ _BEYOND = 1e3  # above every figure: designs that turn but miss a limit
 _NOTHING = 1e6  # designs that do not turn
 _FRONT = 9  # bounds on the second aim
 _WORTH = 0.005  # of a front in its second aim: how far apart its designs are
-_CLEARANCES = ("clearance", "excess", "backlash", "centre_distance")  # as declarations may give it
+_CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance")  # as declarations may give it
 _WIDEST = {"radii": (0.1, 10.0), "window": (0.0, 1.0), "half_angle": (0.0, pi / 2)}
 _REQUESTED = 30  # designs that a costly limit refuses before it is given up
 _NEAR = 0.02  # of a range: designs this near to a refused one are not asked
@@ -187,7 +187,7 @@ class PairTrials:
     >>> from math import pi
     >>> from geartrain.workshop import ToothSizes
     >>> from geartrain.workshop import read_error_overrides
-    >>> trials = PairTrials(read_error_overrides(["placement=0.1 %"]), 64)
+    >>> trials = PairTrials(read_error_overrides(["pitch_deviation=0.1 %"]), 64)
     >>> trials.stops(ToothSizes((48, 96), 0.98, 0.5, (pi / 6, pi / 6), 0.2))
     0.0
     """

@@ -41,7 +41,7 @@ _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
 """About so many designs are looked at for so many free parameters, for each aim."""
 
-_OTHER = ("clearance", "excess", "backlash", "centre_distance")
+_OTHER = ("clearance_factor", "excess", "backlash", "centre_distance")
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 """Of limits; others are plain numbers."""
 
@@ -152,7 +152,7 @@ class SizeQuestion:
 
         given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
         if bool(given) != bool(self.errors):
-            what = "--within stops=5% and the errors, such as --set 'placement=1 %', go together"
+            what = "--within stops=5% and the errors, such as --set 'pitch_deviation=1 %', go together"
             raise typer.BadParameter(what, param_hint="--within" if given else "--set")
         if not given:
             return None

@@ -218,7 +218,9 @@ class WheelManufacture(Declared):
         "way the wheel turns, as of pitch_deviation; default anywhere",
     )
     tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Of each tip along its radius")
-    aperture_deviation: Annotated[AngleError, short_for("value")] | None = Field(None, description="Of each tooth's aperture")
+    aperture_deviation: Annotated[AngleError, short_for("value")] | None = Field(
+        None, description="Of each tooth's aperture"
+    )
     measured: MeasuredTeeth | None = Field(None, description="Tables of a real wheel, tooth by tooth")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")

@@ -15,7 +15,7 @@ from sampling import first_few
 from shapely.affinity import rotate, translate
 
 PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
-KEYS = {"teeth", "verdict", "clearance", "window", "sizes", "backlash", "speed_ratio", "transmission_error"}
+KEYS = {"teeth", "verdict", "clearance_factor", "window", "sizes", "backlash", "speed_ratio", "transmission_error"}
 KEYS |= {"efficiency", "intervals", "jumps", "course", "impacts", "outlines"}
 
 
@@ -132,7 +132,7 @@ def test_clearances_given_in_five_ways_are_one() -> None:
         ("--backlash", f"{arc * 1000:.15f} mm"),
     ):
         other = json.loads(call(*PAIR, name, value, *sized, "--json").output)
-        assert other["clearance"] == pytest.approx(1.015, rel=1e-12)
+        assert other["clearance_factor"] == pytest.approx(1.015, rel=1e-12)
 
 
 def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
@@ -168,7 +168,17 @@ def test_impacts_share_the_drivers_work() -> None:
 def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None:
     out = tmp_path / "s.csv"
     result = call(
-        "mesh", "triangular", "--teeth", 96, 96, "--friction", 0.2, "--vary", "clearance-factor=1.0005:1.028:24", "-o", out
+        "mesh",
+        "triangular",
+        "--teeth",
+        96,
+        96,
+        "--friction",
+        0.2,
+        "--vary",
+        "clearance-factor=1.0005:1.028:24",
+        "-o",
+        out,
     )
     assert result.exit_code == 0
     rows = list(csv.DictReader(io.StringIO(out.read_text(encoding="utf-8"))))
@@ -188,7 +198,7 @@ def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None
 def test_a_sweep_of_two_has_every_combination() -> None:
     result = call(*PAIR, "--vary", "clearance-factor=1.005:1.025:3", "--vary", "half-angle=20deg:40deg:2", "--json")
     rows = json.loads(result.stdout)
-    assert [(row["clearance"], row["half_angle"]) for row in rows] == [
+    assert [(row["clearance_factor"], row["half_angle"]) for row in rows] == [
         (a, b) for a in (1.005, 1.015, 1.025) for b in (20.0, 40.0)
     ]
 

@@ -109,7 +109,19 @@ def test_words_of_wheels_in_contact_can_be_read(tmp_path: Path) -> None:
 
 def test_a_sweep_says_what_is_swept(tmp_path: Path) -> None:
     target = tmp_path / "plot.svg"
-    call("mesh", "triangular", "--teeth", 60, 30, "--clearance-factor", "1.05", "--vary", "friction=0:0.5:3", "--plot", target)
+    call(
+        "mesh",
+        "triangular",
+        "--teeth",
+        60,
+        30,
+        "--clearance-factor",
+        "1.05",
+        "--vary",
+        "friction=0:0.5:3",
+        "--plot",
+        target,
+    )
     words = [text.words for text in read_picture(target.read_bytes()).texts]
     assert "triangular teeth, 60 and 30, wheel 1 drives: friction varied" in words
 

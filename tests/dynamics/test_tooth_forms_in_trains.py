@@ -525,7 +525,7 @@ def test_a_mixed_train_shows_each_family_in_its_own_table() -> None:
     reach = sum(sqrt((R + 1) ** 2 - (R * cos(ALPHA)) ** 2) - R * sin(ALPHA) for R in (10, 30))
     assert conjugate["contact_ratio"] == pytest.approx(reach / (pi * cos(ALPHA)), rel=1e-12)
     assert conjugate["efficiency"]["mean"] == pytest.approx(1 - mean_loss(20, 60, 0.1), abs=2e-6)
-    assert set(triangular) - set(conjugate) == {"clearance", "window", "sizes", "intervals", "jumps", "impacts"}
+    assert set(triangular) - set(conjugate) == {"clearance_factor", "window", "sizes", "intervals", "jumps", "impacts"}
     assert "Pairs that keep their ratio" in call("motion", "longcase-clock-cycloidal", "--samples", "10").output
 
 

@@ -257,6 +257,8 @@ def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_dwell() -> Non
     assert (course.speed_ratio[3:] == 0).all()
     assert course.to_dict()["driver_arm"][3:] == [None] * 3
     assert (
-        contact_course(Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.2"}).transmission(15, 60)).phases
+        contact_course(
+            Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.2"}).transmission(15, 60)
+        ).phases
         == ()
     )

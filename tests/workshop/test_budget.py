@@ -286,7 +286,9 @@ def test_cutting_of_one_pair_is_as_great_as_the_places_of_its_teeth() -> None:
 
 
 def test_jams_are_counted_over_clearance() -> None:
-    requested = BudgetQuestion(outputs=("sun",), cutting=("pitch_deviation=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT)
+    requested = BudgetQuestion(
+        outputs=("sun",), cutting=("pitch_deviation=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT
+    )
     jams = find_budget(geartrain.load("moon-triangular"), requested).jams
     assert [each.clearance for each in jams] == [0.1, 0.9]
     assert jams[0].events["jam"].count > jams[1].events["jam"].count

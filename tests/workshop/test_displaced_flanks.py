@@ -443,7 +443,9 @@ def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
 
 
 def test_settings_and_wheels_of_other_forms() -> None:
-    settings = read_error_overrides(["pitch_deviation=0.2 %", "eccentricity=1 %", "aperture_deviation=1 %", "tip=1 %", "centre=1 %"])
+    settings = read_error_overrides(
+        ["pitch_deviation=0.2 %", "eccentricity=1 %", "aperture_deviation=1 %", "tip=1 %", "centre=1 %"]
+    )
     for name in ("planetary-24-18-60-involute", "lantern-mill", "longcase-clock-cycloidal"):
         plan = find_trial_plan(geartrain.load(name), settings)
         found = run_trials(plan, 16)
@@ -563,7 +565,9 @@ def test_the_minimum_backlash_is_that_of_all_angles_and_below_nothing_the_outlin
 
 def test_a_clock_with_circular_arc_teeth_is_cut_by_hand() -> None:
     train = geartrain.load("longcase-clock-bs978")
-    found = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.5 %", "eccentricity=2 %"])), 128, 1)
+    found = run_trials(
+        find_trial_plan(train, read_error_overrides(["pitch_deviation=0.5 %", "eccentricity=2 %"])), 128, 1
+    )
     assert found.train.events["stops"].value == 0
     # cut nearly true, pointers stray by the ripple of even teeth alone
     sure = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.001 %"])), 512, 1)

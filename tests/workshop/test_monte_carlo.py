@@ -349,7 +349,9 @@ def test_tasks_are_every_trial_once_none_across_blocks_and_enough_for_eight_work
 
 
 def test_greater_errors_are_the_same_errors_and_other_clearances_meet_the_same_wheels() -> None:
-    plan, higher = (planned(chain((20, 15)), "pitch_deviation=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4))
+    plan, higher = (
+        planned(chain((20, 15)), "pitch_deviation=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4)
+    )
     one, twice = (draw_trial_wheels(each, RandomStreams(1, 0), 5).wheels[0] for each in (plan, higher))
     assert np.allclose(twice.place, one.place, atol=2e-3)
     placed = [

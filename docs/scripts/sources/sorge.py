@@ -193,7 +193,9 @@ def eq_17() -> float:
     """alpha_2 in recess by the quotient, on figures and on leaning flanks of few teeth, over the whole ideal path."""
     worst = 0.0
     for z1, z2, half in ((48, 96, 30), (96, 96, 30), (5, 4, 40), (3, 8, 25), (8, 8, 60), (12, 30, 70)):
-        form = Triangular.model_validate({"form": "triangular", "half_angle": f"{half} deg", "clearance_factor": "1.05"})
+        form = Triangular.model_validate(
+            {"form": "triangular", "half_angle": f"{half} deg", "clearance_factor": "1.05"}
+        )
         sizes = form.transmission(z1, z2).sizes
         s = sizes.at(sizes.maximum_excess / 2)
         x = np.linspace(s.exit, s.entry, 101)[1:-1]

@@ -232,7 +232,9 @@ def _run(
     ] = None,
     set_: Annotated[
         list[str] | None,
-        typer.Option("--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'pitch_deviation=1 %'."),
+        typer.Option(
+            "--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'pitch_deviation=1 %'."
+        ),
     ] = None,
     plot: Annotated[
         Path | None, typer.Option("--plot", help="Draw the law, the sweep, or the designs of --best to this file.")

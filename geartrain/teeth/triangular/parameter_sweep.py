@@ -27,7 +27,7 @@ COLUMNS = (
     "efficiency_mean",
     "efficiency_min",
     "maximum_jump",
-    "play_deg",
+    "backlash_deg",
     "lost_deg",
 )
 

@@ -32,7 +32,7 @@ _WORDS = (
     "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
     "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
 )
-_PLACE = ("pair", "drives", "clearance", "window", "verdict")
+_PLACE = ("pair", "drives", "clearance factor", "window", "verdict")
 _TRANSMISSION = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
 _WINDOW = (
     *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
@@ -206,7 +206,7 @@ class TriangularFigures(PairFigures):
 
     KEYS = (
         *PairFigures.KEYS,
-        *(Key("clearance", "sizes.clearance_factor"), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
+        *(Key("clearance_factor", "sizes.clearance_factor"), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
         *(Key("intervals", keys=("phase", "start", "end")), "jumps", "impacts"),
     )
 

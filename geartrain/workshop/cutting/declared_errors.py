@@ -21,7 +21,14 @@ ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "eccentricity", "tip", "aperture_deviation")
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
-MOST = {"pitch_deviation": 1.0, "aperture_deviation": 1.0, "tip": 2.0, "eccentricity": 2.0, "centre": 2.0, "bearing": 2.0}
+MOST = {
+    "pitch_deviation": 1.0,
+    "aperture_deviation": 1.0,
+    "tip": 2.0,
+    "eccentricity": 2.0,
+    "centre": 2.0,
+    "bearing": 2.0,
+}
 """Sizes beyond which there is no tooth left, as fractions of pitch, half angle and depth."""
 
 
@@ -234,7 +241,9 @@ class _Reader:
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
             if abs(off.size) >= MOST[kind]:
-                of = {"pitch_deviation": "its pitch", "aperture_deviation": "its aperture"}.get(kind, "the depth of its teeth")
+                of = {"pitch_deviation": "its pitch", "aperture_deviation": "its aperture"}.get(
+                    kind, "the depth of its teeth"
+                )
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} of {of}"
                 minimum = self.scales["pitch_deviation"] or 0
                 why = f"an error greater than the tooth leaves none; the pitch is {degrees(minimum):.3g} deg"

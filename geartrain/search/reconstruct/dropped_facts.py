@@ -1,4 +1,4 @@
-"""Sensitivity of the counts to each hard fact: the question is asked again without it."""
+"""Sensitivity of the counts to each hard fact: the search is repeated without it."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 from geartrain.search.reconstruct.reconstruction_search import Reconstructions, find_reconstructions
 
 Search = Callable[[ReconstructionProblem], Reconstructions]
-"""What finds all explanations of a question."""
+"""Function that finds all explanations of a question."""
 
 _MINIMUM_TEETH = 3
 
 
 @dataclass(frozen=True)
 class ChangedQuestion:
-    """A question in which one thing is otherwise, and the words for it."""
+    """Question with one change, and a description of the change."""
 
     change: str
     problem: ReconstructionProblem
@@ -36,36 +36,37 @@ class ChangedQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ChangedCount(Result):
-    """How many trains explain what one thing otherwise would leave."""
+    """Numbers of trains that explain a question with one change."""
 
     KEYS = ("change", "mechanisms", "complete", "refused")
 
     change: str
-    """What is otherwise."""
+    """Description of the change."""
     mechanisms: tuple[int, ...]
-    """Trains with just 0, 1, 2, ... added wheels."""
+    """Numbers of trains with exactly 0, 1, 2, ... added wheels."""
     complete: bool = True
-    """Whether all were looked at."""
+    """True if the search covered all candidates."""
     refused: str | None = None
-    """Why it could not be asked."""
+    """Reason why the changed question could not be searched."""
 
     @property
     def total(self) -> int:
-        """Trains in all."""
+        """Total number of trains."""
         return sum(self.mechanisms)
 
     @property
     def fewest(self) -> int | None:
-        """The fewest added wheels with which there is a train; None where there is none."""
+        """Minimum number of added wheels of a train; None if there is no train."""
         return next((added for added, count in enumerate(self.mechanisms) if count), None)
 
 
 def changed_counts(
     questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
 ) -> Iterator[ChangedCount]:
-    """The counts of questions in their order, each as it comes; `search` is a function at the top of a module.
+    """Yield the counts of changed questions in their order, as soon as each is complete.
 
-    An interrupted one is left out, so that no journal keeps half of it.
+    An interrupted search is omitted, so that no journal stores a partial result. `search` must be a function at module
+    level, because it is sent to other processes.
     """
     answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
     for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True):
@@ -84,12 +85,12 @@ def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool,
 
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """The question without each of its hard facts in turn."""
+    """Return the question without each of its hard facts in turn."""
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
 
 def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """The question without what each of its dials shows, where there are several."""
+    """Return the question without each of its dials in turn, if there are several."""
     if len(problem.dials) < 2:
         return []
     return [
@@ -155,7 +156,7 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
 
 
 def _unsigned(dial: SearchedDial) -> SearchedDial:
-    """The dial in either sense."""
+    """Return the dial with bounds of the magnitude of its speed."""
     ends = sorted(map(abs, (dial.minimum, dial.maximum)))
     minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
     return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
@@ -173,39 +174,42 @@ def _but(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[Searc
 
 
 MISREAD = 3
-"""By how many teeth a count is taken to be read wrongly, either way."""
+"""Maximum difference between a tooth count as read and the true count."""
 
 
 @dataclass(frozen=True, slots=True)
 class LoneDial(Result):
-    """A dial that is explained alone, by any of the surviving arbors."""
+    """Minimum number of added wheels that explain one dial without the others."""
 
     dial: str
-    """Its name."""
+    """Name of the dial."""
     fewest: int | None
-    """The fewest added wheels that explain it; None if none up to the most that may be added."""
+    """Minimum number of added wheels that explain the dial; None if the permitted number does not suffice."""
     refused: str | None = None
-    """Why it could not be asked."""
+    """Reason why the dial could not be searched."""
 
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Why there is no explanation."""
+    """Reasons why a question has no explanation."""
 
     dials: tuple[LoneDial, ...]
-    """Each dial alone."""
+    """Results for each dial without the others."""
     doubts: tuple[ChangedCount, ...]
-    """Single things that would leave an explanation if they were otherwise, the cheapest first."""
+    """Single changes that would leave an explanation, those with the fewest added wheels first."""
     requested: int
-    """How many were tried."""
+    """Number of changes that were tried."""
     refused: tuple[str, ...]
-    """Those that could not be asked."""
+    """Changes that could not be searched."""
 
 
 def explain_missing(
     problem: ReconstructionProblem, execution: Execution | None = None, search: Search = find_reconstructions
 ) -> MissingExplanation:
-    """Why a question has no answer; `search` stands at the top of a module."""
+    """Search for the reasons why a question has no explanation.
+
+    `search` must be a function at module level, because it is sent to other processes.
+    """
     dials = tuple(_alone(problem, at, search) for at in range(len(problem.dials)))
     changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread(problem)]
     counts = tuple(changed_counts(changed, execution, search))
@@ -215,7 +219,7 @@ def explain_missing(
 
 
 def _alone(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
-    """One dial without the others; survivors that do not lead to it are left out."""
+    """Search one dial without the others; surviving arbors that do not lead to it may be unused."""
     dial = problem.dials[at]
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
     for wheels in range(problem.additions.wheels + 1):
@@ -229,7 +233,7 @@ def _alone(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
 
 
 def _misread(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Every count of a surviving wheel read otherwise, small changes before great ones."""
+    """Yield a changed question for each other count of a surviving wheel, small differences first."""
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:
             counts = {count for count, _ in wheel.counts}

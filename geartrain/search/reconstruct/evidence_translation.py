@@ -1,4 +1,4 @@
-"""Translation of declared evidence into a question; what cannot be asked is refused by name."""
+"""Translation of declared evidence into a typed question. Unsupported declarations are refused with their place."""
 
 from __future__ import annotations
 
@@ -45,21 +45,24 @@ Limits = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True)
 class PointerBounds:
-    """Least and greatest speed, or magnitude where the sense is not known; and what is declared but bounds nothing."""
+    """Minimum and maximum speed of a pointer, and declared facts that do not bound it.
+
+    The bounds are bounds of the magnitude if `signed` is false.
+    """
 
     limits: Limits
     signed: bool
     unused: tuple[str, ...] = ()
 
     def allow(self, speed: Fraction) -> bool:
-        """Whether a speed is within them."""
+        """Return whether a speed is within the bounds."""
         return self.limits[0] <= (speed if self.signed else abs(speed)) <= self.limits[1]
 
 
 def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Bounds of an output of evidence, seen from the base; with a free sense those of its magnitude.
+    """Return the bounds of the speed of an output relative to the base; with `free_sense` bounds of its magnitude.
 
-    Raises `DeclarationError` where there is no one range of speeds.
+    Raise `DeclarationError` if the speed is not one range.
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     if output.relative_to not in (None, evidence.frame, base.name):
@@ -97,7 +100,7 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
 
 
 def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
-    """Bounds for a base that turns so fast."""
+    """Convert bounds relative to the frame to bounds relative to a base that turns at a given speed."""
     if not turning:
         return bounds
     if not bounds.signed:
@@ -109,7 +112,7 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """What is said of a speed, and whether with its sign."""
+    """Yield the declared ranges of a speed, and whether each has a sign."""
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)
@@ -150,7 +153,7 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
 
 
 def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) -> Limits:
-    """Speeds within limits whose magnitude is within limits too."""
+    """Intersect a range of speeds with a range of magnitudes."""
     low, high = magnitude
     if limits[0] >= 0:
         return _common([limits, (low, high)], name, place)
@@ -163,15 +166,15 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
 
 
 _NOT_TAKEN_UP = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
-"""Keys of a train that change what turns, or need arbors that a candidate may not have."""
+"""Keys of a train that a reconstruction does not support, because they change speeds or name arbors."""
 
 _MOST_COUNTS = 10_000
-"""That one wheel may have."""
+"""Maximum number of possible tooth counts of one wheel."""
 
 
 @dataclass(frozen=True)
 class EvidenceQuestion:
-    """The question that evidence asks.
+    """Typed question of declared evidence, with its base and the unused declarations.
 
     See Also
     --------
@@ -179,13 +182,13 @@ class EvidenceQuestion:
     """
 
     problem: ReconstructionProblem
-    """The typed question."""
+    """Typed question."""
     base: BaseLink
-    """What bears the arbors; speeds of the problem are seen from it."""
+    """Link that carries the arbors. Speeds of the problem are relative to it."""
     joined: Joined
-    """Links that given couplings join, by the arbor that stands for them."""
+    """Arbor -> links that given couplings join to it."""
     unused: tuple[str, ...]
-    """What is declared and plays no part in the answer, a line each."""
+    """Declarations that do not affect the answer, one line each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
@@ -194,11 +197,11 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Parameters
     ----------
     evidence : Train
-        A declaration with `reconstruct`.
+        Declaration with `reconstruct`.
     wheels : int, optional
-        The maximum number of added wheels, instead of what the evidence says.
+        Maximum number of added wheels. It replaces the number in the evidence.
     idlers : bool
-        Whether a driven wheel may drive, also where the evidence does not say so.
+        True if a driven wheel may also drive, even if the evidence does not allow it.
 
     Returns
     -------
@@ -207,7 +210,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Raises
     ------
     DeclarationError
-        With the place of everything that is not taken up yet, or gives no question.
+        For every declaration that is unsupported or does not define a question, with its place.
 
     Examples
     --------
@@ -278,7 +281,7 @@ def _arbor(evidence: Train, link: str) -> SurvivingArbor:
 
 
 def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
-    """Arbors that are declared on one axis, or on axes of one place."""
+    """Yield pairs of arbors that are declared on one axis, or on axes with equal positions."""
     on_axis: dict[str, set[str]] = {}
     for joint in evidence.revolutes:
         on_axis.setdefault(joint.axis, set()).update(joint.pair)
@@ -294,7 +297,7 @@ def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> It
 
 
 def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
-    """The counts that a wheel may have, with weights whose sum is 1."""
+    """Return the possible tooth counts of a wheel, with weights that sum to 1."""
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return ((teeth, Fraction(1)),)
@@ -349,7 +352,7 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
 
 
 def _unused(evidence: Train) -> Iterator[str]:
-    """Evidence that is declared and plays no part yet."""
+    """Yield one line for each declaration that the search does not use."""
     yield from unweighed_geometry(evidence)
     for gear in evidence.gears:
         if gear.driver is not None:

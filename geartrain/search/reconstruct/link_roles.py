@@ -1,4 +1,4 @@
-"""Roles of declared links in a question: what bears the arbors, and which links are joined to one arbor."""
+"""Roles of declared links in a question: the link that carries the arbors, and links that are joined to one arbor."""
 
 from __future__ import annotations
 
@@ -22,29 +22,29 @@ _ONLY = "seen from its carrier a train begins at one link, which is the frame un
 
 @dataclass(frozen=True)
 class BaseLink:
-    """What bears the arbors of a train, and what drives the first of them."""
+    """Link that carries the arbors of a train, and the link that drives the train."""
 
     name: str
-    """The frame, or a carrier."""
+    """Name of the frame or of a carrier."""
     speed: Fraction
-    """Of that link in the frame."""
+    """Speed of the base relative to the frame [turns per unit]."""
     source: str
-    """The link at which the train begins."""
+    """Link at which the train begins."""
     driven: Fraction
-    """Speed of that link, as seen from the base."""
+    """Speed of `source` relative to the base [turns per unit]."""
 
     @property
     def is_carrier(self) -> bool:
-        """Whether it turns."""
+        """True if the base turns."""
         return bool(self.speed)
 
     def seen(self, relative_to: str) -> Fraction:
-        """How fast the base turns, seen from a link: itself, or the frame."""
+        """Return the speed of the base relative to a link, which is the base itself or the frame."""
         return Fraction(0) if relative_to == self.name else self.speed
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """The base of evidence of which `base_problems` has nothing to say."""
+    """Return the base of evidence for which `base_problems` yields no problem."""
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
     if carrier is None:
@@ -55,7 +55,7 @@ def find_base(evidence: Train) -> BaseLink:
 
 
 def base_problems(evidence: Train) -> Iterator[Problem]:
-    """What leaves it open on what the arbors turn and what drives them, or cannot be asked yet."""
+    """Yield problems that leave the base or the input of the train undetermined, or are not supported."""
     carrier = _carrier(evidence)
     if not evidence.case(None).exact:
         place = evidence.place("inputs")
@@ -139,7 +139,7 @@ def _carrier_wheels(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def _on_the_carrier(evidence: Train, carrier: str) -> Iterator[Problem]:
-    """Arbors turn on the carrier, or in the frame about the axis of the carrier."""
+    """Yield problems of arbors that turn neither on the carrier nor in the frame about the axis of the carrier."""
     axis = carrier_axis(evidence, carrier)
     for at, joint in enumerate(evidence.revolutes):
         place = evidence.place("revolutes", at)
@@ -157,7 +157,7 @@ def _on_the_carrier(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:
-    """The label of the axis about which the carrier turns, where one is declared."""
+    """Return the label of the declared axis about which the carrier turns, or None."""
     pair = {evidence.frame, carrier}
     return next((joint.axis for joint in evidence.revolutes if set(joint.pair) == pair), None)
 
@@ -185,11 +185,14 @@ def _not_with_a_carrier(evidence: Train) -> Iterator[Problem]:
 
 
 Joined = Mapping[str, tuple[str, ...]]
-"""By the name of the arbor in the question, the links that it stands for, itself first."""
+"""Name of an arbor in the question -> links that it represents, itself first."""
 
 
 def joined_arbors(evidence: Train) -> Joined:
-    """What the given couplings of evidence join: called after the input, else the first link with wheels."""
+    """Group the links that given couplings join.
+
+    A group is named after the input if it is in the group, else after its first link with wheels.
+    """
     found = {}
     for links in joined_groups(evidence.links, (pair for pair, _ in _pairs(evidence))):
         if len(links) > 1:
@@ -199,7 +202,7 @@ def joined_arbors(evidence: Train) -> Joined:
 
 
 def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, Any]]:
-    """The couplings of joined links with the keys of a declaration."""
+    """Yield the couplings of joined links with the keys of a declaration."""
     requested = evidence.reconstruct
     for coupling in evidence.couplings:
         if coupling.pin in links:
@@ -210,7 +213,7 @@ def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, An
 
 
 def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
-    """Links that a coupling joins, and its place in the evidence."""
+    """Yield the pairs of links that a coupling joins, each with its place in the evidence."""
     assert evidence.reconstruct is not None, "no evidence"
     for at, coupling in enumerate(evidence.couplings):
         yield (coupling.pin, coupling.slot), ("couplings", at)
@@ -219,7 +222,7 @@ def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
 
 
 def join_arbors(problem: ReconstructionProblem, joined: Joined) -> ReconstructionProblem:
-    """The question in which the links of each group are one arbor."""
+    """Return the question in which the links of each group are one arbor."""
     if not joined:
         return problem
     names = {link: name for name, links in joined.items() for link in links}
@@ -245,7 +248,7 @@ def join_arbors(problem: ReconstructionProblem, joined: Joined) -> Reconstructio
 
 
 def coupling_problems(evidence: Train) -> Iterator[Problem]:
-    """Given couplings that hold something still, close a loop, or go over a carrier."""
+    """Yield problems of given couplings that lock an arbor, close a loop, or cross a carrier."""
     assert evidence.reconstruct is not None, "no evidence"
     bearing = {evidence.frame, evidence.reconstruct.carrier}
     for at, coupling in enumerate(evidence.couplings):
@@ -276,7 +279,7 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
 
 
 def _carried(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
-    """Joined arbors turn on what bears all: the frame, or the carrier."""
+    """Yield problems of joined arbors that do not turn on the base, which is the frame or the carrier."""
     assert evidence.reconstruct is not None, "no evidence"
     base = evidence.reconstruct.carrier or evidence.frame
     for link in pair:
@@ -299,9 +302,9 @@ def _carried(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Pro
 
 
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:
-    """Joined links that are on different axes, where that would say which of them meshes with what.
+    """Yield problems of joined links on different axes, because the axes restrict their meshes differently.
 
-    problem   with the links not yet joined
+    problem   question in which the links are not yet joined
     """
     for name, links in joined.items():
         places = {problem.geometry.places.get(link) for link in links}
@@ -316,7 +319,7 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
 
 
 def _beside(problem: ReconstructionProblem, link: str) -> Iterator[str]:
-    """Arbors on the axis of a link."""
+    """Yield the other arbors on the axis of a link."""
     for pair in problem.coaxial:
         if link in pair:
             yield from pair

@@ -1,4 +1,4 @@
-"""How `geartrain reconstruct` runs its search: progress, journals, interruptions; and its page."""
+"""Execution of `geartrain reconstruct`: progress bars, journals and interruptions; and its HTML page."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 _LARGE = 15  # decimal logarithm of choices of counts above which their number is printed first
 _STEPS = 1000
-"""Of a progress bar."""
+"""Number of steps of a progress bar."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 
 
 class CommandRun(ReconstructionRun):
-    """A run with progress bars on standard error and journals in a folder, whose parts Ctrl-C stops one by one."""
+    """Run with progress bars on standard error and journals in a folder. Ctrl-C interrupts one part at a time."""
 
     def __init__(self, folder: Path | None, options: RunOptions) -> None:
         self._folder, self._options = folder, options
@@ -37,13 +37,13 @@ class CommandRun(ReconstructionRun):
         self._is_taken_up_with_another = False
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Print what is asked."""
+        """Print the size of the question."""
         tell(f"asked: {RequestedQuestion.of(problem)}")
         if (size := count_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
 
     def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Print what it will cost."""
+        """Print the expected cost of the search."""
         tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in cost.paths.items())}")
         if seconds := rough(cost.whole):
             workers = self._options.workers
@@ -53,7 +53,7 @@ class CommandRun(ReconstructionRun):
 
     @contextmanager
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
-        """With a journal that is kept until all is searched."""
+        """Provide an executor whose journal is kept until all searches are complete."""
         requested = {"question": question_digest(problem)}  # how much is listed, and per what, changes no task
         with long_run("reconstruct", requested, self._folder, self._options) as given:
             self._journal = given.journal
@@ -63,7 +63,8 @@ class CommandRun(ReconstructionRun):
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> Iterator[Execution]:
-        """If it is stopped, what was counted is reported, and the rest can be taken up."""
+        """Provide an executor; after an interruption report what was counted, and keep the journal for a resumed run.
+        """
         requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
         with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
             try:
@@ -75,13 +76,13 @@ class CommandRun(ReconstructionRun):
             close_journal(given.journal, cut)
 
     def searched(self, complete: bool) -> None:
-        """The journal of the search goes, unless it is taken up with that of the assumptions."""
+        """Close the journal of the search unless the interrupted count of assumptions needs it."""
         if not self._is_taken_up_with_another:
             close_journal(self._journal, not complete)
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """With a progress bar; if it is stopped, the answer is given without it."""
+        """Provide an executor with a progress bar; an interruption omits the part from the answer."""
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
                 yield Execution(executor, tell=bar.reach)
@@ -90,7 +91,7 @@ class CommandRun(ReconstructionRun):
 
 
 def _weighted(execution: Execution, problem: ReconstructionProblem, expected: ExpectedCost) -> Execution:
-    """The same, whose progress is the share of the time that all is expected to take."""
+    """Return the executor with progress in proportion to the expected time of the tasks."""
     shares, said = done_shares(problem, expected), execution.tell
 
     def reach(done: int, _: int) -> None:
@@ -101,7 +102,7 @@ def _weighted(execution: Execution, problem: ReconstructionProblem, expected: Ex
 
 
 def _lasting(seconds: float) -> str:
-    """A rough time in the unit that fits."""
+    """Format a rough duration [s] in seconds, minutes, hours or days."""
     for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
         if seconds >= 2 * size:
             return f"{seconds / size:.0f} {unit}"
@@ -109,7 +110,7 @@ def _lasting(seconds: float) -> str:
 
 
 def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:
-    """The page, on which the first so many candidates turn."""
+    """Write the HTML page, in which the first `turning` candidates are animated."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.report.html_page import to_html
     from geartrain.scene import build_scene

@@ -1,4 +1,4 @@
-"""`geartrain reconstruct`: from what survives and what the pointers show to every train that explains it."""
+"""Command `geartrain reconstruct`: every train that explains surviving wheels and pointers."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ Evidence = Annotated[
 _EVIDENCE = "evidence.yaml"
 _FAMILY = "family.json"
 MOST_DRAWN = 100_000
-"""Trains that are drawn at most."""
+"""Maximum number of trains drawn at random."""
 MOST_TURNING = 200
 
 
@@ -165,7 +165,7 @@ def run(
 
 
 def _name_pair(text: str) -> tuple[str, str]:
-    """`E4=e3`."""
+    """Parse a pair of names such as `E4=e3`."""
     own, _, called = map(str.strip, text.partition("="))
     if not own or not called:
         raise typer.BadParameter(f"'{text}' is not like E4=e3", param_hint="--same")
@@ -173,7 +173,7 @@ def _name_pair(text: str) -> tuple[str, str]:
 
 
 def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
-    """Every listed candidate as a declaration of its own, the family tree, and the evidence where it was made."""
+    """Write each listed candidate as a declaration, the family tree, and with `with_evidence` the evidence."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.search.reconstruct.train_construction import candidate_text
     from geartrain.train.declaration_files import write_declaration
@@ -195,7 +195,7 @@ def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence
 
 
 def _family_text(found: ReconstructionAnswer) -> str:
-    """The family tree as JSON, with what was asked."""
+    """Return the family tree, the digest of the question and the counts as JSON."""
     from geartrain.search.reconstruct.reconstruction_problem import question_digest
 
     requested = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}

@@ -1,7 +1,7 @@
-"""Enumeration of topologies by recursion: every one with one given path a dial, each once.
+"""Recursive enumeration of all topologies that have one given path for each dial, each topology once.
 
-Where two paths have surviving arbors in common, these are above their branching. So what is open is little: how many
-added arbors stand on each chain, at which of them paths part, and how added driving wheels are shared.
+Surviving arbors that two paths share are above their branching. The remaining choices are the number of added arbors on
+each chain, the added arbors at which paths separate, and the shared added driving wheels.
 """
 
 from __future__ import annotations
@@ -22,14 +22,16 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branch
 HERE = "="
 IDLER = "~"
 BESIDE = "+"
-"""Ways on from an arbor, beside the names of its surviving wheels: its own dial, its driven wheel, an added one."""
+"""Exits of an arbor, besides the names of its surviving wheels: `HERE` for its own dial, `IDLER` for its driven wheel,
+`BESIDE` for an added wheel.
+"""
 
 Block = tuple[str, Dials]
-"""A way on from an arbor, and the dials to which it leads."""
+"""Exit of an arbor, and the dials to which it leads."""
 
 
 def way_on(each: ArborPass) -> str:
-    """The way on that a path takes from an arbor."""
+    """Return the exit by which a path leaves an arbor."""
     if each.driver is None:
         return HERE
     if each.idler:
@@ -40,9 +42,11 @@ def way_on(each: ArborPass) -> str:
 def shared_out(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Each way in which an arbor shows some of the dials and leads to the others; by added wheels to blocks of them.
+    """Yield each partition of dials into those that an arbor shows and those to which each of its wheels leads.
 
-    arbors   by dial bits of the surviving arbors on its path: dials with one in common stay together
+    Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
+
+    arbors   dial -> bit mask of the surviving arbors on its path; dials with a common arbor stay in one block
     """
     for chosen in product(*(ways[dial] for dial in dials)):
         by_way: dict[str, list[str]] = {}
@@ -54,7 +58,7 @@ def shared_out(
 
 
 def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
-    """Each way to part dials into blocks with no surviving arbor in common, the first of them in the first block."""
+    """Yield each partition of dials into blocks without common surviving arbors, the first dial in the first block."""
     place = {dial: at for at, dial in enumerate(dials)}
     for blocks in _parted(_together(dials, arbors)):
         yield tuple(
@@ -63,7 +67,7 @@ def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials,
 
 
 def _together(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
-    """Dials in groups, by what they and others between them have in common."""
+    """Group dials into connected components, where dials with a common surviving arbor are connected."""
     groups: list[tuple[int, Dials]] = []
     for dial in dials:
         joined = [group for group in groups if group[0] & arbors[dial]]
@@ -90,24 +94,24 @@ _ENDLESS = 1 << 20
 
 
 class DialPath(NamedTuple):
-    """A dial's path, and what of it is still below."""
+    """Remaining part of the path to a dial."""
 
     arbors: int
-    """Surviving ones, a bit each."""
+    """Bit mask of the surviving arbors."""
     passes: Mapping[int, ArborPass]
-    """By surviving arbor that it has, the input first, the way through it."""
+    """Index of a surviving arbor, 0 for the input -> wheels by which the path passes through it."""
     compounds: int
-    """Added arbors before the last."""
+    """Number of added arbors with two wheels before the last arbor."""
     idlers: int
-    """Added arbors before the last."""
+    """Number of added arbors with an idler before the last arbor."""
     wheels: int
-    """Added wheels."""
+    """Number of added wheels."""
     ends_new: bool
-    """Whether its last arbor is added."""
+    """True if the last arbor is added."""
 
     @property
     def is_at_end(self) -> bool:
-        """Whether nothing but an added last arbor is below."""
+        """True if no arbor is left except possibly an added last arbor."""
         return not (self.arbors or self.compounds or self.idlers)
 
     @property
@@ -117,11 +121,11 @@ class DialPath(NamedTuple):
 
 
 Paths = dict[str, DialPath]
-"""By dial, sorted by name."""
+"""Dials, sorted by name -> their paths."""
 
 
 class _Left(NamedTuple):
-    """Added wheels that must still be used, and added arbors that still may be."""
+    """Number of added wheels still to be used, and number of added arbors still permitted."""
 
     wheels: int
     new: int
@@ -135,9 +139,9 @@ class _Left(NamedTuple):
 
 
 class PathTrees:
-    """Topologies from paths.
+    """Enumeration of the topologies that have given paths.
 
-    lists   by dial, sorted by its name
+    lists   dials, sorted by name -> lists of their paths
     """
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList]) -> None:
@@ -146,14 +150,14 @@ class PathTrees:
         self._new = _ENDLESS if problem.additions.arbors is None else problem.additions.arbors
 
     def topologies(self, choice: Mapping[str, int], added: int) -> Iterator[Topology]:
-        """All with just so many added wheels and these rows of the lists."""
+        """Yield all topologies with exactly `added` added wheels and the chosen rows of the path lists."""
         roots = self.roots({dial: self._path(dial, choice[dial]) for dial in self.lists}, added)
         if roots:
             wanted = tuple((dial, self.lists[dial].wanted_quotients(choice[dial])) for dial in self.lists)
             yield from (Topology(root, wanted) for root in roots)
 
     def roots(self, paths: Paths, added: int) -> list[Branching]:
-        """The input arbor of each tree that has these paths and just so many added wheels."""
+        """Return the input arbor of each tree that has these paths and exactly `added` added wheels."""
         return [root for root, left in self._branching(0, paths, _Left(added, self._new)) if not left.wheels]
 
     def _path(self, dial: str, row: int) -> DialPath:
@@ -167,13 +171,13 @@ class PathTrees:
     # what hangs from a driving wheel
 
     def _forest(self, paths: Paths, left: _Left, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
-        """Chains that share out some dials; those that have an arbor in common stay together."""
+        """Yield sets of chains that lead to some dials; dials with a common surviving arbor share a chain."""
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= minimum:
                 yield from self._chains([_some(paths, block) for block in blocks], left)
 
     def _chains(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
-        """Chains to the dials of each block; what the later ones need at least is kept for them."""
+        """Yield one chain for each block of dials, reserving the added wheels that later blocks need."""
         if not blocks:
             yield (), left
             return
@@ -215,7 +219,7 @@ class PathTrees:
             yield from self._parted_by_added(paths, through, left)
 
     def _parted_by_added(self, paths: Paths, through: tuple[int, ...], left: _Left) -> Iterator[tuple[Chain, _Left]]:
-        """Chains that end at a surviving arbor which all leave by added wheels, by several ones."""
+        """Yield chains that end at a surviving arbor which all paths leave by several added wheels."""
         for end in through:
             if paths_first(paths).passes[end].driver != ADDED or paths_first(paths).passes[end].idler:
                 continue
@@ -245,7 +249,10 @@ class PathTrees:
             yield Chain(dials, named, compounds, idlers, end), after
 
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
-        """Surviving arbors that all paths pass in the same way, and the one where they part; None if that cannot be."""
+        """Return the surviving arbors that all paths pass in the same way, and the arbor at which they separate, or None.
+
+        The result is None if the paths separate at more than one surviving arbor.
+        """
         through, ends = [], []
         for at in _arbors(reduce(and_, (path.arbors for path in paths.values()))):
             passes = {path.passes[at] for path in paths.values()}
@@ -256,7 +263,7 @@ class PathTrees:
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
     def _leg(self, dial: str, path: DialPath, left: _Left) -> Iterator[tuple[Chain, _Left]]:
-        """The only chain that leads to one dial alone."""
+        """Yield the only chain that leads to a single dial."""
         after = left.without(path.wheels, path.new)
         if not after.is_possible:
             return
@@ -273,7 +280,9 @@ class PathTrees:
     # arbors at which paths end or part
 
     def _branching(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
-        """A surviving arbor that shows some of the dials, or leads to them by several wheels; or the input arbor."""
+        """Yield branchings at a surviving arbor, which shows dials or leads to them by several wheels, or at the input
+        arbor.
+        """
         first = paths_first(paths).passes[at]
         ways = {dial: (way_on(path.passes[at]),) for dial, path in paths.items()}
         paid = int(first.driven == ADDED)
@@ -290,7 +299,7 @@ class PathTrees:
                 yield from self._hung(self.names[at], first.driven, here, blocks, drivers, below, left.without(paid))
 
     def _new_branching(self, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
-        """An added arbor that shows some of the dials, or leads to them by several wheels."""
+        """Yield branchings at an added arbor, which shows dials or leads to them by several wheels."""
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):
@@ -320,7 +329,7 @@ class PathTrees:
         paths: Paths,
         left: _Left,
     ) -> Iterator[tuple[Branching, _Left]]:
-        """An arbor with what hangs from each of its wheels."""
+        """Yield a branching with each set of chains that its wheels can drive."""
         if not _are_parted([dials for _, dials in blocks], paths):
             return
         after = left.without(sum(way == BESIDE for way, _ in blocks))
@@ -344,7 +353,7 @@ class PathTrees:
 
 
 def paths_first(paths: Paths) -> DialPath:
-    """Any of some paths, for what all of them have."""
+    """Return any of the paths, to read properties that all of them share."""
     return next(iter(paths.values()))
 
 
@@ -357,18 +366,18 @@ def _own_arbors(paths: Paths) -> dict[str, int]:
 
 
 def _need(paths: Paths) -> int:
-    """Added wheels that are needed at least."""
+    """Return the minimum number of added wheels of a tree with these paths."""
     return max(path.wheels for path in paths.values())
 
 
 def _are_parted(blocks: Sequence[Dials], paths: Paths) -> bool:
-    """Whether dials of different blocks have no surviving arbor in common."""
+    """Return whether dials of different blocks have no surviving arbor in common."""
     masks = [reduce(lambda bits, dial: bits | paths[dial].arbors, block, 0) for block in blocks]
     return not any(one & other for one, other in combinations(masks, 2))
 
 
 def _below(paths: Paths, through: tuple[int, ...], compounds: int, idlers: int) -> Paths:
-    """What is left of paths after a chain."""
+    """Return the remaining parts of paths after a chain."""
     bits = sum(1 << (at - 1) for at in through)
     added = sum(paths_first(paths).passes[at].added for at in through) + 2 * compounds + idlers
     return {
@@ -392,7 +401,7 @@ def _ways_from_added(path: DialPath) -> Iterator[str]:
 
 
 def _arbors(bits: int) -> Iterator[int]:
-    """Numbers of surviving arbors, a bit each."""
+    """Yield the indices of the bits that are set, from 1."""
     at = 1
     while bits:
         if bits & 1:

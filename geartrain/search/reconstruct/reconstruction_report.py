@@ -1,6 +1,6 @@
-"""A reconstruction as a document: what was taken as known, how many trains explain it, and the best of them.
+"""Report of a reconstruction: the evidence, the numbers of trains that explain it, and the best trains.
 
-Further sections are on known trains, on what all candidates share, on facts to look for, and on the family tree.
+Further sections describe known trains, common facts, facts to look for, and the family tree.
 """
 
 from __future__ import annotations
@@ -81,16 +81,16 @@ _OF_KNOWN = (
 
 
 def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turning: int = 0) -> Document:
-    """The document of a reconstruction.
+    """Return the report of a reconstruction as a document.
 
     Parameters
     ----------
     found : ReconstructionAnswer
-        The answer to describe.
+        Answer to describe.
     viewer : str
-        A whole page of HTML that shows trains turning.
+        Complete HTML page that shows animated trains.
     turning : int
-        How many of the best it shows.
+        Number of the best trains that are animated.
 
     Returns
     -------
@@ -158,7 +158,7 @@ def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
 
 
 def _given(found: ReconstructionAnswer) -> Iterator[Section]:
-    """What was taken as known."""
+    """Yield the sections on surviving arbors, pointers and known meshes."""
     problem = found.problem
     rows = [
         (
@@ -183,7 +183,7 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
 
 
 def _begins(found: ReconstructionAnswer) -> str:
-    """What drives the train, and what bears it."""
+    """Return a sentence on the input of the train and the link that carries the arbors."""
     base, source = found.base, found.problem.input.name
     if base is None or not base.is_carrier:
         return f"{source} is the input."
@@ -221,7 +221,7 @@ def _drawn(found: ReconstructionAnswer) -> Section:
 
 
 def _rank(one: RankedTrain) -> str:
-    """The rank, with those of all that weigh the same."""
+    """Format a rank, with the range of ranks of equal weight."""
     return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
 
 
@@ -233,7 +233,7 @@ def _place(dial: SearchedDial) -> str:
 
 
 def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
-    """Where each stands; of one that is no explanation, which rules it breaks, and what it costs without them."""
+    """Yield sections on the ranks of known trains, the rules that they break, and their ranks without these rules."""
     if not known:
         return
     header = ("train", "added wheels", "arbors", "rank", "with as many", "weight", "outweighed")
@@ -250,7 +250,7 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
 
 
 def _telling(train: str, found: TellingFacts, trains: int) -> Section:
-    """Facts that single a train out, each alone and in the smallest sets."""
+    """Return the section on facts that distinguish a train, singly and in the smallest sets."""
     many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
     alone = [each for each in found.facts if each.mechanisms == 1]
     lines = ["Each fact that holds in it and not in all, and how many trains it would leave."]
@@ -271,7 +271,7 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
 
 
 def _left(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
-    """Facts that leave as many trains in one row."""
+    """Return table rows that group facts by the number of trains with them."""
     rows: dict[int, list[str]] = {}
     for fact in facts:
         rows.setdefault(fact.mechanisms, []).append(_said(fact))
@@ -311,7 +311,7 @@ def _noted(one: KnownRank) -> Iterator[str]:
 
 
 def _granted(one: KnownRank) -> Iterator[str]:
-    """What a train costs in each question that takes it."""
+    """Yield a sentence on the rank of a train in each question that admits it."""
     all_that = tuple(dict.fromkeys(each.change for each in one.broken))
     for admitted in one.admitted:
         changes = "all of this" if admitted.changes == all_that else "; ".join(admitted.changes)
@@ -339,7 +339,7 @@ def _cost(changes: str, admitted: AdmittingQuestion) -> str:
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
-    """What all candidates agree in, and the weight of each answer where they do not."""
+    """Yield sections on facts common to all candidates, and on the weights of answers that differ."""
     if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
@@ -400,7 +400,7 @@ def _told(answers: Sequence[FactAnswer]) -> str:
 
 
 def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
-    """Facts to look for, the most telling first."""
+    """Yield the section on facts to look for, in descending order of their entropy."""
     if not facts:
         return
     rows = [
@@ -427,7 +427,7 @@ def _alike(facts: Sequence[Fact]) -> str:
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
-    """How many trains there would be without each hard fact; `given` are the counts with all of them."""
+    """Yield the section on numbers of trains without each hard fact; `given` are the numbers with all facts."""
     if not changes:
         return
     header = ("assumption", *(f"{added} added" for added in range(len(given))), "trains")
@@ -441,7 +441,7 @@ def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
-    """Why nothing fits; `most` wheels may be added."""
+    """Yield sections on the reasons why nothing fits; `most` is the maximum number of added wheels."""
     if found is None:
         return
     line = "Each dial alone, by whatever of the surviving arbors leads to it; the others then need not be used."
@@ -478,7 +478,7 @@ def _first(rows: Sequence[tuple[str, ...]], most: int) -> list[tuple[str, ...]]:
 
 
 def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[Section]:
-    """The tree; the first so many trains turn on the page."""
+    """Yield the section on the family tree; the first `turning` trains are animated on the page."""
     if not tree:
         return
     shown = set(sorted(range(len(tree)), key=lambda at: -tree[at].share)[:_MOST_BRANCHES])
@@ -531,16 +531,16 @@ def _scene(text: str, rank: int, turning: int) -> str:
 
 
 def share_text(share: float) -> str:
-    """A share of the weight, as a page tells it."""
+    """Format a share of the weight in percent with three digits."""
     return f"{100 * share:.3g} %"
 
 
 def teeth_text(wheels: Mapping[str, int]) -> str:
-    """Wheels with their counts: `m1 96, n1 53`."""
+    """Format wheels with their counts, such as `m1 96, n1 53`."""
     return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
 
 
 def ranks_text(ranks: tuple[int, int]) -> str:
-    """`3`, or `1-4` of trains that weigh the same."""
+    """Format a rank as `3`, or as `1-4` for trains of equal weight."""
     first, last = ranks
     return str(first) if first == last else f"{first}-{last}"

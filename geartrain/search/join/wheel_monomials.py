@@ -1,4 +1,5 @@
-"""From wheels to items: which wheels the outputs see through one monomial only, and the demands written in items."""
+"""Conversion of wheels to items: wheels that outputs depend on through one monomial, and constraints in terms of items.
+"""
 
 from __future__ import annotations
 
@@ -22,9 +23,9 @@ from geartrain.search.join.product_lists import Domains, ItemRecipe, PartialAssi
 
 Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
-"""Closed, least to greatest; None for an infinite end."""
+"""Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
-"""Values of one item: half a gigabyte with all that belongs to them."""
+"""Maximum number of values of one item, which need half a gigabyte with all their arrays."""
 _MOST_QUOTIENTS = 1 << 22  # of an item with counts above and below
 _MOST_WORK = 2 * 10**8  # products made to list one item
 _LARGEST = 1 << 62  # products below this are exact in int64
@@ -32,62 +33,63 @@ _NOTHING = Fraction(1), Fraction(0)
 
 
 class Function(Protocol):
-    """A rational function of counts, such as a `Formula`; powers (0 or more) are parallel to the wheels."""
+    """Rational function of tooth counts, such as a `Formula`; its powers are not negative and parallel to the wheels.
+    """
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """The wheels it depends on."""
+        """Wheels that the function depends on."""
 
     @property
     def numerator(self) -> Sequence[WholeTerm]:
-        """Its terms above."""
+        """Terms of the numerator."""
 
     @property
     def denominator(self) -> Sequence[WholeTerm]:
-        """Its terms below."""
+        """Terms of the denominator."""
 
     def value(self, counts: Mapping[str, int], /) -> Fraction | None:
-        """Its exact value; None where the train is locked or free."""
+        """Return the exact value; None if the train is locked or free."""
 
 
 @dataclass(frozen=True, slots=True)
 class IntervalConstraint:
-    """A demand on a function: its value lies in one of the intervals, which do not touch."""
+    """Constraint that the value of a function is in one of several separate intervals."""
 
     name: str
-    """The demand in words."""
+    """Description of the constraint."""
     function: Function
     intervals: tuple[Interval, ...]
     strict: bool = False
-    """True: not on their ends either."""
+    """True if the ends of the intervals are excluded."""
     graded: bool = False
-    """True: it matters where within the intervals the value lies, so that all wheels of the function must be known."""
+    """True if the value within the intervals matters, so that all wheels of the function must be known."""
 
 
 @dataclass(frozen=True, slots=True)
 class WheelMonomial:
-    """Wheels that all functions see through one monomial, each with its power (never 0)."""
+    """Wheels that all functions depend on through one monomial, each with its power, which is not 0."""
 
     powers: Mapping[str, int]
 
     @property
     def top(self) -> tuple[tuple[str, int], ...]:
-        """The wheels with positive powers."""
+        """Wheels with positive powers."""
         return tuple((wheel, power) for wheel, power in self.powers.items() if power > 0)
 
     @property
     def bottom(self) -> tuple[tuple[str, int], ...]:
-        """The wheels with negative powers, the sign dropped."""
+        """Wheels with negative powers, with the sign removed."""
         return tuple((wheel, -power) for wheel, power in self.powers.items() if power < 0)
 
 
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """The coarsest bundles; wheels in `alone` stand by themselves, to the power 1.
+    """Return the largest possible monomials; wheels in `alone` are monomials of their own with power 1.
 
-    Wheels belong together if their powers, counted from the first term of each function and listed over all terms of
-    all functions, are multiples of one list.
+    Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
+    functions, are proportional.
     """
     lists: dict[str, list[int]] = {wheel: [] for wheel in wheels}
     for one in requested:
@@ -107,7 +109,7 @@ def _turned(powers: Mapping[str, int]) -> dict[str, int]:
 
 
 def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    """Ways to cut bundles into items that can be listed: quotients whole, or what is above and below apart."""
+    """Yield definitions of items for the monomials: whole quotients, or numerator and denominator as separate items."""
     choices = [list(_cuts(bundle, domains)) for bundle in bundles]
     if math.prod(map(len, choices)) > 8:
         yield from dict.fromkeys(tuple(recipe for choice in choices for recipe in choice[kind]) for kind in (0, -1))
@@ -124,12 +126,12 @@ def _cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe,
 
 
 def quotients(top: Factors, bottom: Factors, domains: Domains) -> int:
-    """How many values an item has, about."""
+    """Estimate the number of values of an item."""
     return forecast(top, domains)[0] * forecast(bottom, domains)[0]
 
 
 def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Some wheels in as few lots as can be listed, of about one size."""
+    """Split wheels into the minimum number of groups of similar size whose products can be listed."""
     if not wheels:
         return
     short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
@@ -150,7 +152,7 @@ def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
 def find_polynomial_constraints(
     requested: Sequence[IntervalConstraint], recipes: Sequence[ItemRecipe], domains: Domains
 ) -> list[PolynomialConstraint]:
-    """The demands in items."""
+    """Convert interval constraints to polynomial constraints in items."""
     extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
     constraints = []
     for one in requested:
@@ -166,12 +168,12 @@ def find_polynomial_constraints(
 
 
 def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
-    """True if a value lies in one of some closed intervals."""
+    """Return whether a value is in one of some closed intervals."""
     return any((low is None or value >= low) and (high is None or value <= high) for low, high in intervals)
 
 
 def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
-    """Least and greatest value of an item, in floats a few roundings off."""
+    """Return the minimum and maximum value of an item as floats, accurate to a few roundings."""
     above, below = ([domains[wheel] for wheel, _ in side] for side in (recipe.top, recipe.bottom))
     ends = []
     for up, down in ((0, -1), (-1, 0)):
@@ -182,7 +184,7 @@ def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
 
 
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
-    """The monomials in items of some terms, up to one common monomial."""
+    """Return the monomials in items of some terms, up to one common monomial."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe.top[0] if recipe.top else recipe.bottom[0]
@@ -214,7 +216,7 @@ def _cases(
 def _feasible(
     cases: Sequence[tuple[PolynomialInequality, ...]], extremes: Mapping[int, tuple[float, float]]
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Without the cases that no counts meet; the first is kept if none is left: the constraint keeps its items."""
+    """Drop the cases that no counts satisfy; keep the first if none is left, so that the constraint keeps its items."""
     nothing = PartialAssignments((), {}, 1)
     kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]
     return tuple(kept or cases[:1])

@@ -56,7 +56,7 @@ class ChangedCount(Result):
 
     @property
     def fewest(self) -> int | None:
-        """Minimum number of added wheels of a train; None if there is no train."""
+        """Minimum number of added wheels of a train; None if no train was found."""
         return next((added for added, count in enumerate(self.mechanisms) if count), None)
 
 

@@ -470,7 +470,7 @@ class CandidateFindings(Result):
     assumptions: tuple[ChangedCount, ...] = ()
     """Counts without each hard fact, if requested."""
     missing: MissingExplanation | None = None
-    """Reasons why there is no explanation."""
+    """Reasons why nothing explains the evidence; None if something does."""
 
 
 NO_FINDINGS = CandidateFindings()

@@ -332,7 +332,7 @@ def _findings(
     counts_only: bool,
     run: ReconstructionRun,
 ) -> CandidateFindings:
-    """Return the facts of the candidates, or the reasons why there are no candidates.
+    """Return the facts of the candidates, or the reasons why nothing fits.
 
     With `counts_only` the result has only the counts without each assumption.
     """

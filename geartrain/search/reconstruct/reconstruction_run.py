@@ -53,7 +53,7 @@ class CommandRun(ReconstructionRun):
 
     @contextmanager
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
-        """Provide an executor whose journal is kept until all searches are complete."""
+        """Yield an executor whose journal is kept until all searches are complete."""
         requested = {"question": question_digest(problem)}  # how much is listed, and per what, changes no task
         with long_run("reconstruct", requested, self._folder, self._options) as given:
             self._journal = given.journal
@@ -63,7 +63,7 @@ class CommandRun(ReconstructionRun):
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> Iterator[Execution]:
-        """Provide an executor; after an interruption report what was counted, and keep the journal for a resumed run.
+        """Yield an executor; after an interruption report the finished counts and keep the journal for a resumed run.
         """
         requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
         with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
@@ -82,7 +82,7 @@ class CommandRun(ReconstructionRun):
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """Provide an executor with a progress bar; an interruption omits the part from the answer."""
+        """Yield an executor with a progress bar; an interruption omits the part from the answer."""
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
                 yield Execution(executor, tell=bar.reach)

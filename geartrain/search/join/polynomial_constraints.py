@@ -377,7 +377,7 @@ class RelaxedInequality:
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """Relax an inequality over the items in `corners`; its other items are assigned."""
+    """Return an inequality relaxed over the items in `corners`; its other items are assigned."""
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))

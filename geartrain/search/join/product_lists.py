@@ -163,8 +163,7 @@ class CountProducts:
         return owner, found
 
     def last_step(self, indices: Ints) -> ProductStep | None:
-        """Return the last of the steps that lead from the empty product to some distinct products; None if there is no
-        wheel.
+        """Return the last of the steps that lead from the empty product to some distinct products; None without wheels.
         """
         return self._step(len(self.wheels) - 1, self.values[indices])
 

@@ -1,4 +1,4 @@
-"""The posterior of tooth counts as a picture: what is likely of each count, and of each two together."""
+"""Corner plot of the posterior of tooth counts: marginals of each wheel, and joint probabilities of each pair."""
 
 from __future__ import annotations
 
@@ -44,23 +44,22 @@ _DASHES: Any = (0, (3, 2))
 
 @dataclass(frozen=True, slots=True)
 class CountProbabilities:
-    """How likely tooth counts are."""
+    """Probabilities of tooth counts, for a corner plot."""
 
     single: Mapping[str, Chances]
     """Wheel -> count -> probability."""
     pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
-    """Two wheels, in the order of `single` -> their two counts -> probability."""
+    """Pair of wheels, in the order of `single` -> pair of counts -> joint probability."""
     before: Mapping[str, Chances] = field(default_factory=dict)
-    """As `single`, before the evidence was heard; empty where unknown."""
+    """Wheel -> count -> prior probability; empty if unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
-    """Wheel -> the count it is declared with."""
+    """Wheel -> declared count."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Each wheel's counts on the diagonal, each two wheels' together below it; darker is likelier.
+    """Draw marginal probabilities on the diagonal and joint probabilities of each pair below it; darker is more probable.
 
-    Outlines show what was thought before, dashed lines the declared counts. Raises `QuestionError` for no wheel, or
-    for more than 9.
+    Outlines show priors, dashed lines declared counts. Raises `QuestionError` for no wheel, or for more than 9.
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:
@@ -93,7 +92,7 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
 
 
 def _key(figure: Figure, likely: CountProbabilities) -> None:
-    """What outlines and dashed lines are, below."""
+    """Draw the legend of bars, outlines and dashed lines below the panels."""
     handles: list[Any] = [Patch(color=BLUE, label="likely")]
     if likely.before:
         handles.append(Patch(fill=False, edgecolor=GREY, label="before"))
@@ -104,7 +103,7 @@ def _key(figure: Figure, likely: CountProbabilities) -> None:
 
 
 def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
-    """Bars of one wheel's counts, and outlines of what was thought before."""
+    """Draw bars of the probabilities of one wheel, and outlines of its prior."""
     chances = likely.single[wheel]
     wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a gap would be a pixel, and often none
     axes.bar(list(chances), list(chances.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
@@ -121,7 +120,7 @@ def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, in
 
 
 def _outline(axes: Axes, chances: Chances) -> None:
-    """Bars without faces; of many counts, whose sides would be a grey block, the line along their tops."""
+    """Draw the outlines of bars; for many counts only the line along their tops, because the sides would merge."""
     if len(chances) <= _FEW:
         axes.bar(list(chances), list(chances.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0)
         return
@@ -131,7 +130,7 @@ def _outline(axes: Axes, chances: Chances) -> None:
 
 
 def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
-    """A square for each two counts, as dark as they are likely."""
+    """Draw a square for each pair of counts, darker for higher probability."""
     (a, first), (b, second) = ((wheel, spans[wheel]) for wheel in pair)
     table = np.zeros((second[1] - second[0] + 1, first[1] - first[0] + 1))
     for (one, other), chance in likely.pairs[pair].items():
@@ -157,14 +156,14 @@ def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
 
 
 def _ticks(axis: Any, span: tuple[int, int]) -> None:
-    """Some whole numbers within it, round ones where there are many counts."""
+    """Set ticks at a few integers within the range, at round numbers if the range is long."""
     low, high = span
     found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 3, 4, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
     axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 
 def _modes(chances: Chances) -> str:
-    """The mode and its probability; all modes where several counts are equally likely: "49-52: 10 % each"."""
+    """Format the mode and its probability; all modes if several counts are equally probable, "49-52: 10 % each"."""
     largest = max(chances.values())
     modes = sorted(count for count, chance in chances.items() if isclose(chance, largest))
     percent, span = f"{100 * largest:.3g} %", modes[-1] - modes[0] + 1
@@ -182,24 +181,24 @@ Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """A corner plot of counts in doubt: the posterior of each wheel beside its prior, and of each two wheels together.
+    """Draw a corner plot of uncertain tooth counts: posterior and prior of each wheel, and joint posteriors of each pair.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        What is known of the counts.
+        Posterior of the counts.
     pairs : mapping
-        Two wheels, in the order declared -> their counts -> probability; from `joint_posterior`.
+        Pair of wheels in the order of declaration -> pair of counts -> probability, from `joint_posterior`.
 
     Returns
     -------
     matplotlib.figure.Figure
-        A panel for each wheel and each two.
+        Figure with a panel for each wheel and each pair.
 
     Raises
     ------
     QuestionError
-        Where nothing fits, and where no wheel or more than a page holds is to be drawn.
+        If nothing fits, or if the figure would have no wheel or more wheels than fit on a page.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Counts in doubt as pages and tables: what fits, how likely each count is then, and which wheel decides what."""
+"""Report of uncertain tooth counts as documents and tables: combinations that fit, posteriors, variance shares."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _DECIDED = ("output", "mean speed", "standard deviation", "decided by")
 
 
 def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
-    """The combinations listed, as a flat table: counts, then the speed and the error of every output."""
+    """Return the listed combinations as a flat table of counts, then speed and error of every output."""
     return [
         {
             **one.teeth,
@@ -42,17 +42,17 @@ def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
 
 
 def describe_posterior(found: ToothCountPosterior) -> Document:
-    """What is known of counts in doubt: evidence, the posterior of each count, and what decides the outputs.
+    """Return the report of uncertain counts: evidence, posterior of each count, and variance shares of the outputs.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        From `geartrain.search.infer_counts`.
+        Result of `geartrain.search.infer_counts`.
 
     Returns
     -------
     Document
-        Assumptions first; probabilities with their intervals of 95 % where they are estimates.
+        Document that begins with the assumptions. Estimated probabilities have 95 % intervals.
 
     Examples
     --------
@@ -138,7 +138,7 @@ def _span(counts: Sequence[int]) -> str:
 
 
 def _likeliest(posterior: WheelPosterior) -> str:
-    """The likeliest counts with their chances; those that have none are not told."""
+    """Format the most probable counts with their probabilities; counts of probability 0 are omitted."""
     pairs = zip(posterior.doubt.counts, posterior.chances, strict=True)
     some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
     told = ", ".join(f"{count}: {_short(chance)}" for count, chance in some[:_LIKELIEST])

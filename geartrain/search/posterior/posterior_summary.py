@@ -1,6 +1,6 @@
-"""What both methods of a posterior end with: evidence, correlations, the best combinations, shares of variance.
+"""Results common to both methods of inference: evidence, correlations, best combinations, variance shares.
 
-The best are in an order that no rounding and no way of searching can change.
+The order of the best combinations does not depend on rounding or on the method.
 """
 
 from __future__ import annotations
@@ -32,15 +32,18 @@ from geartrain.search.posterior.sampled_posterior import KEPT, TIE, PosteriorTal
 _LISTED = 200_000  # combinations up to which a variance is taken over all of them
 _DRAWN = 1 << 14  # in each of two samples otherwise
 _CERTAIN = 1e-4
-"""Spread over range below which a count has no correlation to tell: other counts have a chance under 10^-8, and
-covariances in float64 would be rounding."""
+"""Ratio of standard deviation to range below which a count is treated as certain and has no correlations.
+
+All other counts then have a total probability below 1e-8, and covariances in float64 would be rounding errors.
+"""
 
 _NONE = 1e-13
-"""Correlation below which it is rounding, and none."""
+"""Magnitude of a correlation below which it is a rounding error, and reported as 0."""
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """The first `most` of an ascending list and all equals of the last; False if equals had to be left out."""
+    """Return the first `most` entries of an ascending list with all ties of the last, and False if ties were omitted.
+    """
     found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
@@ -54,9 +57,9 @@ def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[
 def rank_combinations(
     question: InferenceProblem, candidates: Iterable[GradedAssignment], most: int, evidence: CountProbability | None
 ) -> tuple[CountCombination, ...]:
-    """Exact figures of the candidates, best first: by misfit, then prior weight, then nearness to what is declared.
+    """Sort the candidates exactly by misfit, then by prior weight, then by the number of changed counts.
 
-    evidence   of all that fits; None where it is not known, and then no chances are given
+    evidence   total weight of all that fits; None if it is not known, and then no probabilities are computed
     """
     made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
     # exact misfits, then whole numbers: no two ways of searching can disagree on this order
@@ -99,7 +102,7 @@ def _chance(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and candidates for the best, by either method."""
+    """Evidence, posteriors, correlations and best candidates, by either method."""
 
     looked: int
     evidence: CountProbability
@@ -110,11 +113,11 @@ class PosteriorSummary:
     candidates: Sequence[GradedAssignment]
     ranked: bool
     effective: float
-    """Number of combinations that the figures rest on, where they are of a sample; infinite where they are not."""
+    """Effective sample size (Kish); infinite for the exact method."""
 
 
 def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> PosteriorSummary:
-    """What a sample of combinations comes to."""
+    """Compute the summary of a sample of combinations."""
     wheels = tally.batch.wheels
     candidates = [
         GradedAssignment(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
@@ -142,7 +145,7 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
 
 
 def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> CountProbability:
-    """A share with its interval: Wilson's for hits, the normal one for degrees of agreement."""
+    """Return a share with its 95 % interval: Wilson's for hits, the normal interval for graded agreement."""
     if not looked:
         return CountProbability(0.0, 0.0, 1.0)
     mean = float(weight) / looked
@@ -162,11 +165,11 @@ def _counted(tally: PosteriorTally) -> CountProbability:
 def wheel_posterior(
     doubt: ToothCountPrior, weights: Sequence[Any] | None, total: Any, trials: float | None
 ) -> WheelPosterior:
-    """The chances of one wheel's counts.
+    """Return the posterior of one wheel.
 
-    weights   of what fits with each count; None: nothing known depends on the wheel
-    total     their sum
-    trials    number of hits behind them, where they are of a sample
+    weights   total weight of what fits, for each count; None if no known output depends on the wheel
+    total     sum of the weights
+    trials    number of hits, if the weights are from a sample
     """
     if not total:
         return WheelPosterior(doubt, (), weights is None)
@@ -187,7 +190,7 @@ def wheel_posterior(
 
 
 def _of_sizes(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
-    """Correlations from sums of products of counts."""
+    """Return correlations from the sums of products of counts."""
     if not tally.weight:
         return {}
     wheels = tally.batch.wheels
@@ -206,7 +209,7 @@ def correlations_of(
     total: Any,
     covariances: Mapping[tuple[str, str], float],
 ) -> dict[tuple[str, str], float]:
-    """Correlations from covariances; wheels that no output and no condition joins have none."""
+    """Return correlations from covariances, only for wheels that an output or a condition connects."""
     scopes = [
         *(one.formula.wheels for one in question.witnesses),
         *(one.function.wheels for one in question.conditions),
@@ -221,7 +224,7 @@ def correlations_of(
 def _moments(
     question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Posterior mean and standard deviation of every wheel's count; 0 for one that is as good as certain."""
+    """Return posterior mean and standard deviation of each count; the deviation is 0 if the count is almost certain."""
     means, spreads = {}, {}
     for wheel, weights in by.items():
         counts, whole = question.doubts[wheel].counts, Fraction(plain_number(total))
@@ -256,13 +259,13 @@ def _correlated(
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
-"""Coefficients and powers (of either sign), in parallel to the wheels of a formula."""
+"""Pairs of a coefficient and powers of either sign, in parallel to the wheels of a formula."""
 
 
 def find_variance_shares(
     name: str, formula: Formula, doubts: Mapping[str, ToothCountPrior], seed: int = 0
 ) -> VarianceShares | None:
-    """The shares of one output; None where its speed has no value for some counts, or is the same for all."""
+    """Return the Sobol indices of an output; None if its speed is undefined for some counts, or constant."""
     own = [doubts[wheel] for wheel in formula.wheels]
     if not any(len(doubt.counts) > 1 for doubt in own):
         return None
@@ -279,7 +282,7 @@ def _monomials(formula: Formula) -> Monomials:
 
 
 class _Means:
-    """Means of powers of one count."""
+    """Cached means of powers of one count."""
 
     def __init__(self, doubt: ToothCountPrior) -> None:
         self._pairs = list(zip(doubt.counts, doubt.priors, strict=True))
@@ -294,7 +297,7 @@ class _Means:
 def _exactly(
     name: str, wheels: Sequence[str], terms: Monomials, doubts: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
-    """E[f g] of two sums of monomials is a sum over pairs of terms of products of means, wheel by wheel."""
+    """Compute the indices of a sum of monomials exactly, from products of means over all pairs of terms."""
     means = [_Means(doubt) for doubt in doubts]
     mean = sum((c * prod(m(e) for m, e in zip(means, powers, strict=True)) for c, powers in terms), Fraction(0))
     pairs = [(a * b, p, q) for a, p in terms for b, q in terms]
@@ -316,7 +319,7 @@ def _exactly(
 
 
 def _root(value: Fraction) -> Real:
-    """The square root of a positive Fraction of any size, to 53 bits."""
+    """Return the square root of a positive Fraction of any size, to 53 bits."""
     # an even power of two brings the value near 2^128, so that its whole root has 63 bits and more
     shift = (128 - value.numerator.bit_length() + value.denominator.bit_length()) // 2
     power = Fraction(2) ** shift
@@ -324,7 +327,7 @@ def _root(value: Fraction) -> Real:
 
 
 def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> VarianceShares | None:
-    """Over all combinations, as an array with one axis for each wheel; exact but for rounding."""
+    """Compute the indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
     shape = tuple(len(doubt.counts) for doubt in doubts)
     columns = {
         doubt.wheel: np.array(doubt.counts).reshape([-1 if at == axis else 1 for at in range(len(shape))])
@@ -353,7 +356,7 @@ def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> V
 
 
 def _has_pole(formula: Formula, doubts: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
-    """True if the speed has no value at one of some places, where floats cannot tell."""
+    """Return whether the speed is undefined at one of some places that floats cannot decide."""
     shape = [len(doubt.counts) for doubt in doubts]
     for place in places:
         at = np.unravel_index(int(place), shape)
@@ -364,7 +367,7 @@ def _has_pole(formula: Formula, doubts: Sequence[ToothCountPrior], places: NDArr
 
 
 def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> Floats:
-    """The mean over some axes, which stay with length 1."""
+    """Return the mean over some axes, which remain with length 1."""
     found: Floats = values
     for axis in axes:
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]
@@ -373,7 +376,7 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
 
 
 def _sampled(name: str, formula: Formula, doubts: Sequence[ToothCountPrior], seed: int) -> VarianceShares | None:
-    """By two independent samples A and B, and A with one column of B for each wheel."""
+    """Estimate the indices from two independent samples A and B, and from A with one column of B for each wheel."""
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(doubts)])))
     first, second = (
         {doubt.wheel: draw.choice(doubt.counts, _DRAWN, p=[float(prior) for prior in doubt.priors]) for doubt in doubts}

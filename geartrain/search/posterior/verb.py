@@ -1,4 +1,4 @@
-"""`geartrain posterior`: which tooth counts fit what the outputs show, where evidence leaves counts open."""
+"""Command `geartrain posterior`: tooth counts that fit the outputs, where evidence leaves counts uncertain."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
+    """Find the tooth counts that fit the outputs, and their probabilities; exit 0 if any fits, 1 if none."""
     from geartrain.numerics.files import ColumnTable
     from geartrain.search.posterior.inference import infer_counts
     from geartrain.train.declaration_files import read_declaration
@@ -131,7 +131,7 @@ def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
 
 
 def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """`m3=15:80`, `a1=45,48`, `b1=223`."""
+    """Parse options such as `m3=15:80`, `a1=45,48` and `b1=223`."""
     from geartrain.search.tooth_count_ranges import read_counts
 
     found: dict[str, tuple[int, ...]] = {}
@@ -149,7 +149,7 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
-    """One row group; nothing where nothing was found."""
+    """Write the rows as one row group; write no file if there are no rows."""
     from geartrain.numerics.files import ColumnTable
 
     assert to.path is not None
@@ -164,9 +164,9 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[s
 def _draw_counts(
     found: ToothCountPosterior, again: Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior], to: Sink
 ) -> None:
-    """Counts of the wheels of which the outputs tell most, each and two by two, to a file.
+    """Draw a corner plot of the wheels with the most information, to a file.
 
-    again   sweeps the same train for the same evidence, with some wheels held to the counts given
+    again   function that repeats the inference with the counts of some wheels fixed
     """
     from geartrain.search.posterior.corner_plot import counts_figure
     from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels

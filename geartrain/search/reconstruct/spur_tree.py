@@ -223,13 +223,13 @@ class SpurTree:
 
 
 def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
-    """Return all parts of a train that lead to pointers, first the part that begins at the input if there is one.
+    """Return all parts of a train that lead to pointers, the part that begins at the input first.
 
     A pointer is an output with a target whose speed is known by `expect` or by a target with a tolerance. If no pointer
     follows an arbor of known speed, that arbor is a pointer. Arbors that lead to no pointer belong to no part.
 
-    Raises `QuestionError` if there is no part, because the train has no single input, no pointer is reached, or meshes
-    close a loop.
+    Raises `QuestionError` if the train has no such part, because it has no single input, no pointer is reached, or its
+    meshes close a loop.
     """
     _check_input(train)
     parts = _Parts(train)
@@ -249,7 +249,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
 
     source   arbor at which the part begins; the default is any arbor
 
-    Raises `QuestionError` if there is no such part, for example if the arbors are in different parts.
+    Raises `QuestionError` if no part has all of them, for example if the arbors are in different parts.
     """
     trees = find_spur_trees(train)
     if source is not None:

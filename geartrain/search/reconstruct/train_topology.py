@@ -284,7 +284,7 @@ def _both(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
 
 
 def plain_topology(topology: Topology) -> list[Any]:
-    """Serialize a topology as nested lists of strings and numbers."""
+    """Convert a topology to nested lists of strings and numbers."""
     wanted = [[dial, str(low), str(high)] for dial, (low, high) in topology.wanted]
     return [_plain_branching(topology.root), wanted]
 

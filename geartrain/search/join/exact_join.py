@@ -143,8 +143,8 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
-        """Count the assignments of the subtree that satisfy all constraints, and those that each constraint rejects,
-        per row.
+        """Count, for each row, the assignments below it that satisfy all constraints, and those that each constraint
+        rejects.
         """
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
@@ -254,9 +254,7 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the rows extended by the item of a node that satisfy its constraints, with the index of the original
-        row.
-        """
+        """Yield the rows extended by the item of a node that satisfy its constraints, with their original rows."""
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total
         polynomial = node.guide >= len(self.question.rules)

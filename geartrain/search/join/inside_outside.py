@@ -30,9 +30,7 @@ from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlte
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Index of a graded constraint in `JoinProblem.requested` -> function that returns the misfit of its values, at least
-0.
-"""
+"""Index of a graded constraint in `JoinProblem.requested` -> function from its values to misfits."""
 CountWeights = Mapping[str, Tallies]
 """Wheel -> array of the weights of its counts, all of one dtype."""
 

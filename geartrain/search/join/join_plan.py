@@ -235,9 +235,7 @@ class _Planner:
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int], first: int, shared: bool) -> int:
-        """Select the next item: one that an equation determines, else one of the constraint that is cheapest to
-        complete.
-        """
+        """Select the next item: one that an equation determines, else one of the cheapest constraint."""
         for at in active:
             left = self.scopes[at] & open_
             if at < len(self.rules) and len(left) == 1 and isinstance(self.rules[at], CountEquation):
@@ -256,9 +254,7 @@ class _Planner:
         return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Select the equation that determines the item, else the most selective polynomial constraint with windows in
-        it.
-        """
+        """Select the equation that determines the item, else the most selective constraint with windows in it."""
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
                 return at
@@ -304,8 +300,9 @@ class SelectivitySample:
         return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
 
     def of_demand(self, requested: IntervalConstraint) -> float:
-        """Estimate the share of assignments that satisfy a constraint, from the density of nearby values if few hits
-        are drawn.
+        """Estimate the share of assignments that satisfy a constraint.
+
+        If few hits are drawn, the estimate is based on the density of nearby values.
         """
         speeds = self.speeds(requested.function)
         minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)

@@ -228,7 +228,9 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Return the window of sense * (A y + B) >= 0, where y is a power of the item after division by its lowest power.
+    """Return the window of sense * (A y + B) >= 0, where y is a power of the item.
+
+    The polynomial is divided by the lowest power of the item.
     """
     parts = inequality.polynomial.split(item)
     most = len(rows.items[item])
@@ -430,8 +432,7 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def steps(self, item: int) -> Iterator[int]:
-        """Yield the powers of an item in the terms of all polynomials, relative to the first term of each polynomial.
-        """
+        """Yield the powers of an item in all terms, relative to the first term of each polynomial."""
         sums = [inequality.polynomial.terms for inequality in self._inequalities]
         if self.function is not None:
             sums.append(self.function[0].terms + self.function[1].terms)

@@ -48,8 +48,7 @@ class ItemRecipe:
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """Return the number of distinct products, and the number of products formed to list them; estimated if it is large.
-    """
+    """Return the number of distinct products, and of products formed to list them; estimated if large."""
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
 
@@ -150,8 +149,9 @@ class CountProducts:
         self.values = self.levels[-1]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment that produces some products, as (owner, wheel -> counts); owner indexes `indices`,
-        ascending.
+        """Return every assignment that produces some products.
+
+        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
         """
         owner, rest = np.arange(len(indices)), self.values[indices]
         found: dict[str, Ints] = {}
@@ -163,8 +163,7 @@ class CountProducts:
         return owner, found
 
     def last_step(self, indices: Ints) -> ProductStep | None:
-        """Return the last of the steps that lead from the empty product to some distinct products; None without wheels.
-        """
+        """Return the last step from the empty product to some distinct products; None without wheels."""
         return self._step(len(self.wheels) - 1, self.values[indices])
 
     def _step(self, level: int, values: Ints) -> ProductStep | None:
@@ -215,8 +214,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
 
 
 def _made(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the result of `_divided` for distinct ascending products, by the cheaper of division and multiplication.
-    """
+    """Return the result of `_divided` for distinct ascending products, by the cheaper method."""
     if len(values) <= len(shorter):
         return _divided(values, factors, shorter)
     found = []
@@ -273,16 +271,15 @@ class Item:
         return self._rooms[power]
 
     def sides(self, indices: Ints) -> list[tuple[CountProducts, Ints]]:
-        """Return the products of the numerator, and of the denominator if there is one, with their indices at some
-        values.
-        """
+        """Return the products of numerator and denominator, each with their indices at some values."""
         if self._bottom is None or self._at is None:
             return [(self._top, indices)]
         return [(self._top, self._at[0][indices]), (self._bottom, self._at[1][indices])]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment that produces some values, as (owner, wheel -> counts); owner indexes `indices`,
-        ascending.
+        """Return every assignment that produces some values.
+
+        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
         """
         if self._bottom is None or self._at is None:
             return self._top.ways(indices)

@@ -1,5 +1,4 @@
-"""Conversion of wheels to items: wheels that outputs depend on through one monomial, and constraints in terms of items.
-"""
+"""Conversion of wheels to items: wheels in common monomials of all outputs, and constraints in terms of items."""
 
 from __future__ import annotations
 
@@ -33,8 +32,7 @@ _NOTHING = Fraction(1), Fraction(0)
 
 
 class Function(Protocol):
-    """Rational function of tooth counts, such as a `Formula`; its powers are not negative and parallel to the wheels.
-    """
+    """Rational function of tooth counts, such as a `Formula`, with non-negative powers in the order of `wheels`."""
 
     @property
     def wheels(self) -> tuple[str, ...]:

@@ -75,9 +75,7 @@ class InferenceProblem:
         return prod(doubt.total for doubt in self.doubts.values())
 
     def weight(self, teeth: Mapping[str, int]) -> int:
-        """Return the prior weight of a combination. Divided by `total`, it is the prior probability if all wheels are
-        given.
-        """
+        """Return the prior weight of a combination; over `total` it is the prior probability."""
         return prod(self.doubts[wheel].weight(count) for wheel, count in teeth.items())
 
 

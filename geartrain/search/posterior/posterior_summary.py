@@ -42,8 +42,7 @@ _NONE = 1e-13
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` entries of an ascending list with all ties of the last, and False if ties were omitted.
-    """
+    """Return the first `most` entries of an ascending list with ties of the last, and False if ties are omitted."""
     found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:

@@ -223,7 +223,7 @@ def origin_of(doubt: ToothCountPrior) -> int:
 
 
 def packed(question: InferenceProblem, most: int) -> bytes:
-    """Pickle the data that all tasks share."""
+    """Return the data that all tasks share, pickled."""
     return pickle.dumps((question, most))
 
 
@@ -357,9 +357,7 @@ class OutputLikelihood:
         self._misfit = misfit_of(witness)
 
     def judge(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Bools, Floats]:
-        """Test exactly which rows are accepted, and compute their misfits, the sums of (error / tolerance)^2, to
-        rounding.
-        """
+        """Test exactly which rows are accepted, and compute the misfits of their speeds to rounding."""
         value, room = self.value(rows, plan)
         met, doubtful = self._decided(value, room)
         unsure = np.flatnonzero(doubtful)
@@ -481,9 +479,7 @@ class MonomialColumns(PartialAssignments):
         return self._bottoms[item]
 
     def product(self, key: Key, plan: ProductPlan) -> Floats:
-        """Return a product of items in float64, with one rounding per multiplication or division besides those of the
-        items.
-        """
+        """Return a product of items in float64, with one further rounding per multiplication or division."""
         if key not in self._products:
             shorter, rest = plan.get(key, ((), key))
             found: Floats = self.product(shorter, plan) if shorter else np.ones(())

@@ -149,7 +149,7 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
-    """Write the rows as one row group; write no file if there are no rows."""
+    """Write the rows as one row group; without rows write no file."""
     from geartrain.numerics.files import ColumnTable
 
     assert to.path is not None

@@ -111,8 +111,7 @@ def factorings(number: int, wheels: int, counts: Range) -> tuple[tuple[int, ...]
 
 @dataclass(frozen=True)
 class QuotientTable:
-    """Sorted table of all quotients of products of tooth counts, in lowest terms, with the number of choices of each.
-    """
+    """Sorted table of quotients of products of tooth counts in lowest terms, with their numbers of choices."""
 
     tops: NDArray[np.int64]
     bottoms: NDArray[np.int64]

@@ -57,9 +57,7 @@ def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
 
 
 class CountTokens:
-    """Negative numbers (tokens) for the tooth counts of added wheels, so that the mates of each wheel can be
-    identified.
-    """
+    """Negative numbers (tokens) instead of the tooth counts of added wheels, which identify each wheel."""
 
     def __init__(self, added: AddedWheels) -> None:
         self._owners: list[tuple[Dials, bool]] = []
@@ -302,8 +300,7 @@ class AddedPlace(NamedTuple):
 
 
 class ChainStep(NamedTuple):
-    """Arbor at a place on a chain: index of a surviving arbor, -1 for an added arbor with two wheels, -2 for an idler.
-    """
+    """Arbor at a place on a chain: index of a surviving arbor, `COMPOUND` or `IDLER`."""
 
     chain: NamedChain
     place: int
@@ -312,8 +309,7 @@ class ChainStep(NamedTuple):
 
 @dataclass(frozen=True)
 class _Ahead:
-    """State of the dynamic programme: arbors not yet placed on a chain, driving wheel, and pairs that must mesh below.
-    """
+    """State of the dynamic programme: arbors not yet placed, driving wheel, pairs that must mesh below."""
 
     chain: NamedChain
     through: frozenset[int]

@@ -135,8 +135,9 @@ class _Naming:
         return NamedArbor(link, arbor.name is None, driven, arbor.dials, drives)
 
     def _drives(self, arbor: Arbor) -> Iterator[tuple[int, int, PlacedWheel, Arbor]]:
-        """Yield (first dial of the subtree, index of the driving wheel or -1 for the driven wheel, wheel, driven
-        arbor).
+        """Yield every driven arbor with its sorting key and its driving wheel.
+
+        The key is the first dial of the driven subtree, and the index of the driving wheel (-1 for the driven wheel).
         """
         for child in arbor.passes:
             assert arbor.driven is not None

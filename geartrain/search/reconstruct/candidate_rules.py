@@ -456,8 +456,7 @@ class _Reading:
 
     @cached_property
     def _driven(self) -> dict[str, DrivenArbor]:
-        """Link -> mesh that drives it, for all links reached from the input by spur wheels on the frame, breadth first.
-        """
+        """Link -> mesh that drives it, for all links reached from the input on the frame, breadth first."""
         rings = {own for own, name in self._survivors.items() if name in self.problem.rings}
         return walk_meshes(self.train, self._source, self._joined, rings)
 

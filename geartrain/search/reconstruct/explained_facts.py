@@ -199,8 +199,7 @@ class ExplainedFacts:
         self._tally = own if tally is None else tally
 
     def marginals(self) -> tuple[FactMarginal, ...]:
-        """Return the marginal of every fact except `pair`, grouped by kind, in descending order of the weight of yes.
-        """
+        """Return the marginal of every fact except `pair`, by kind and in descending order of weight."""
         found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
         return tuple(sorted(found, key=lambda one: (_KINDS.index(one.kind), -_affirmed(one), _natural(one.subject))))
 
@@ -218,8 +217,7 @@ class ExplainedFacts:
         )
 
     def _parts(self, one: FactMarginal) -> Hashable:
-        """Return the partition of the listed trains by a fact, with the weights and numbers of all trains in each set.
-        """
+        """Return the partition of the listed trains by a fact, with the sums over all trains of each set."""
         fact = Fact(one.kind, one.subject)
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
         rest = frozenset(range(len(self._weighed.trains))).difference(*parts)

@@ -229,8 +229,7 @@ def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
 
 
 class _Pull(NamedTuple):
-    """Minimum misfit of a part of a train: stiffness * (x - centre)^2 + misfit, where x is the logarithm of a module.
-    """
+    """Misfit of a part of a train: stiffness * (x - centre)^2 + misfit, x the logarithm of a module."""
 
     stiffness: float
     centre: float
@@ -250,8 +249,7 @@ class _Modules:
         return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 
     def _around(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
-        """Return the misfit as a function of the module of a wheel, from its measurement and the wheels that it drives.
-        """
+        """Return the misfit as a function of the module of a wheel, from its own and its driven wheels."""
         pulls = [self._through_mesh(child) for child in children]
         module = self.geometry.module_of(_size(wheel))
         stiffness = 0.0 if module is None else self._stiffness(module * wheel.teeth / 2)

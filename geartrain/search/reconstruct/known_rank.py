@@ -192,8 +192,7 @@ class AdmittingQuestion(Result):
     arbors: int
     """Number of arbors that the train adds."""
     requested: int
-    """Maximum number of added wheels of the search: the number that the train adds, or the permitted number if smaller.
-    """
+    """Maximum number of added wheels of the search: as many as the train adds, if permitted."""
     mechanisms: tuple[int, ...]
     """Numbers of explanations with exactly 0, 1, 2, ... added wheels."""
     place: TrainPlace | None
@@ -219,8 +218,7 @@ class KnownRank(Result):
     place: TrainPlace | None = None
     """Rank of the train; None if it breaks rules or adds more wheels than permitted."""
     admitted: tuple[AdmittingQuestion, ...] = ()
-    """Ranks in questions without the broken rules: with the dials at the speeds of the train, and without dials of
-    other speed.
+    """Ranks in questions without the broken rules, first with the dial speeds of the train, then without those dials.
     """
     telling: TellingFacts | None = None
     """Facts that distinguish the train, if all explanations are listed."""

@@ -143,8 +143,7 @@ class PathColumns:
         return good & (parted <= 1)
 
     def differing_primes(self, rows: Rows, other: PathColumns, row: int) -> NDArray[np.int8]:
-        """Return a lower bound of the number of wheels with a large prime on exactly one of each path and another path.
-        """
+        """Return a lower bound of the number of wheels with a large prime that only one of two paths has."""
         found = np.zeros(len(rows), dtype=np.int16)
         for prime in self.powers.keys() | other.powers.keys():
             own = self.powers[prime][rows] if prime in self.powers else np.int8(0)
@@ -372,9 +371,7 @@ class PathChoice:
 
     @cache  # noqa: B019 -- lives as long as the lists
     def _with_one(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
-        """Return for each path to another dial whether it is compatible with a chosen path, and a lower bound of the
-        distance.
-        """
+        """Return the compatibility and minimum distance of all paths to another dial with a chosen path."""
         every = np.arange(len(self.lists[other]))
         return self._columns[other].fit(every, self._columns[dial], row), self._apart(dial, row, other, every)
 
@@ -479,8 +476,7 @@ class _Near:
 
 
 def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
-    """Return all pairs of indices into `wanted` and into the sorted `keys` whose entries are equal, by the first index.
-    """
+    """Return all pairs of indices of equal entries of `wanted` and of the sorted `keys`, by the first index."""
     start, end = np.searchsorted(keys, wanted), np.searchsorted(keys, wanted, side="right")
     number = end - start
     at = np.repeat(np.arange(len(wanted)), number)

@@ -236,9 +236,7 @@ _PIECE = 1 << 19
 
 @dataclass(frozen=True)
 class AddedArbors:
-    """Numbers of added arbors on a path: `compounds` have a driven and a driving wheel, `idlers` have one wheel for
-    both.
-    """
+    """Numbers of added arbors on a path: `compounds` have two wheels, `idlers` one that is driven and drives."""
 
     compounds: int
     idlers: int
@@ -354,8 +352,7 @@ class PathList:
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
     def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
-        """Return the paths extended by one arbor or avoiding it; `closing` are columns of primes without later arbors.
-        """
+        """Return the paths extended by one arbor or avoiding it; primes in `closing` have no later arbor."""
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
         parts = []
@@ -460,9 +457,7 @@ class PathList:
         return self._magnitudes(turned)[1] > 0
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
-        """Return the minimum and maximum magnitude of the speed of the dial in one sense; maximum 0 if the sense is
-        excluded.
-        """
+        """Return the minimum and maximum speed magnitude of the dial in one sense; maximum 0 if it is excluded."""
         low, high = self.dial.minimum, self.dial.maximum
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
             low, high = -high, -low
@@ -499,8 +494,7 @@ class PathList:
         return minimum / known, np.where(turned, float(turned_high), float(high)) / known
 
     def known_ratio(self, row: int) -> Fraction:
-        """Return the product of the surviving driving counts over the product of the surviving driven counts on a path.
-        """
+        """Return the product of surviving driving counts over surviving driven counts on a path."""
         taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
         taken = [each for each in taken if not each.idler]
         return Fraction(prod(_sure(each.driver) for each in taken), prod(_sure(each.driven) for each in taken))

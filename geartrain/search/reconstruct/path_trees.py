@@ -22,9 +22,7 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branch
 HERE = "="
 IDLER = "~"
 BESIDE = "+"
-"""Exits of an arbor, besides the names of its surviving wheels: `HERE` for its own dial, `IDLER` for its driven wheel,
-`BESIDE` for an added wheel.
-"""
+"""Exits of an arbor besides its surviving wheels: its own dial, its driven wheel, an added wheel."""
 
 Block = tuple[str, Dials]
 """Exit of an arbor, and the dials to which it leads."""
@@ -280,9 +278,7 @@ class PathTrees:
     # arbors at which paths end or part
 
     def _branching(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
-        """Yield branchings at a surviving arbor, which shows dials or leads to them by several wheels, or at the input
-        arbor.
-        """
+        """Yield branchings at a surviving arbor that shows dials or has several exits, or at the input arbor."""
         first = paths_first(paths).passes[at]
         ways = {dial: (way_on(path.passes[at]),) for dial, path in paths.items()}
         paid = int(first.driven == ADDED)
@@ -299,7 +295,7 @@ class PathTrees:
                 yield from self._hung(self.names[at], first.driven, here, blocks, drivers, below, left.without(paid))
 
     def _new_branching(self, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
-        """Yield branchings at an added arbor, which shows dials or leads to them by several wheels."""
+        """Yield branchings at an added arbor that shows dials or has several exits."""
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):

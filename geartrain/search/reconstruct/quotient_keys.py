@@ -75,18 +75,14 @@ class QuotientKeys:
         return np.ones(keys.shape, dtype=bool) if few is None else _are_in(few, keys)
 
     def fewest(self, keys: Keys, most: int) -> NDArray[np.int8]:
-        """Return a lower bound of the number of added wheels for each quotient; `most` + 1 if more than `most` are
-        needed.
-        """
+        """Return a lower bound, at most `most` + 1, of the number of added wheels for each quotient."""
         found = np.full(keys.shape, most + 1, dtype=np.int8)
         for wheels in range(most, -1, -1):
             found[self.need_few(keys, wheels)] = wheels
         return found
 
     def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Test which keys of each array have a partner in the other one, at a quotient of at most `wheels` added
-        counts.
-        """
+        """Test which keys of each array have a partner whose quotient needs at most `wheels` added wheels."""
         if wheels < 0 or not len(keys) or not len(others):
             return np.zeros(keys.shape, dtype=bool), np.zeros(others.shape, dtype=bool)
         few = self.few(wheels) if wheels <= _FEW else None
@@ -103,9 +99,7 @@ class QuotientKeys:
         return np.asarray(_are_in(_unique(others), reached).any(axis=1)), _are_in(_unique(reached), others)
 
     def few(self, wheels: int) -> Keys | None:
-        """Return the sorted keys of all quotients of at most `wheels` added counts; None if the table would be too
-        long.
-        """
+        """Return the sorted keys of all quotients of at most `wheels` added counts, or None if too many."""
         if wheels not in self._fewer:
             tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
             known = [table for table in tables if table is not None]
@@ -193,9 +187,7 @@ class QuotientRanges:
         return _are_held(quotient_table(drivers, driven, self.counts).values, bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
-        """Return a lower bound of the number of added wheels whose quotient is within each bounds; 3 if more than 2 are
-        needed.
-        """
+        """Return a lower bound, at most 3, of the number of added wheels with a quotient within each bounds."""
         found = np.full(bounds[0].shape, _LISTED + 1, dtype=np.int8)
         for wheels in range(_LISTED, -1, -1):
             held = _are_held(self._few(wheels), bounds) if self._is_listed(wheels) else np.True_

@@ -63,9 +63,7 @@ class SurvivingGeometry:
     distance: Fraction = Fraction(3, 100)
     """Standard deviation of the logarithm of the sum of two pitch radii over the distance of the axes."""
     reach: Fraction | None = None
-    """Maximum possible difference between the sum of two pitch radii and the distance of the axes [mm]; None if
-    unlimited.
-    """
+    """Maximum possible difference between sum of pitch radii and axis distance [mm]; None if unlimited."""
     radius: Fraction | None = None
     """Error of every measured pitch radius [mm]; None if it is part of the spread of modules."""
 
@@ -107,8 +105,7 @@ class SurvivingGeometry:
         return (module * first[1] + other * second[1]) / 2
 
     def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
-        """Return the minimum and maximum distance of the axes of two meshing wheels [mm], or None if it is unlimited.
-        """
+        """Return the minimum and maximum axis distance of two meshing wheels [mm], or None if unlimited."""
         own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
         if own is None or mate is None or self.reach is None:
             return None
@@ -267,9 +264,7 @@ class ReconstructionProblem:
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
     """Pairs of names of arbors on one axis. Wheels of such a pair, including added ones, do not mesh."""
     use: Literal["wheels", "arbors", "some"] = "wheels"
-    """Rule of use: "wheels" if every surviving wheel meshes, "arbors" if every surviving arbor is in the train, "some" if
-    neither is required.
-    """
+    """Use of survivors: "wheels": every wheel meshes; "arbors": every arbor is in the train; "some": neither."""
     idlers: bool = False
     """True if a driven wheel may also drive."""
     factors: PriorFactors = PriorFactors()

@@ -63,8 +63,7 @@ class CommandRun(ReconstructionRun):
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> Iterator[Execution]:
-        """Yield an executor; after an interruption report the finished counts and keep the journal for a resumed run.
-        """
+        """Yield an executor; an interruption keeps the finished counts and the journal."""
         requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
         with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
             try:

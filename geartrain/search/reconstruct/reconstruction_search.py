@@ -51,10 +51,9 @@ class ExplanationCount(Result):
     mechanisms: int
     """Number of different trains."""
     bags: int | None
-    """Number of equivalence classes of trains up to the order of arbors on paths; None if there are too many to count.
-    """
+    """Number of multisets of arbors on paths (equivalence classes up to order); None if too many trains."""
     classes: int | None
-    """Number of equivalence classes of trains with equal driving and driven wheels on each path; None if too many."""
+    """Number of ratio classes: equal driving and driven wheels on each path; None if too many trains."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,8 +56,7 @@ _SAMPLES = {4096: 3, 512: 4, 64: 5}
 _ENOUGH = 0.3
 """Minimum time [s] of a sample for each number of added wheels."""
 _MOST_CHOICES = 40
-"""Maximum decimal logarithm of the number of choices of added tooth counts. Searches of hours have about 1e20 choices.
-"""
+"""Maximum decimal logarithm of the number of choices of added tooth counts; searches of hours have about 20."""
 _YEAR = 3.2e7  # s
 _LONGEST = 100 * _YEAR
 """Maximum expected time in one process [s]. Longer searches are refused."""
@@ -217,8 +216,7 @@ class TopologySearch:
         return PathChoice(self.problem, self.paths, self._keys), PathTrees(self.problem, self.paths)
 
     def topologies(self, added: int, part: int = 0, parts: int = 1) -> Iterator[tuple[Topology, int]]:
-        """Yield topologies with exactly `added` added wheels and their positive numbers of choices; only part `part` of
-        `parts`.
+        """Yield topologies with exactly `added` added wheels and their numbers of choices, in one part of the search.
         """
         choice, trees = self._by_paths
         for chosen in choice.choices(added, part, parts):

@@ -34,9 +34,9 @@ def find_item_monomials(
 ) -> Iterator[ItemMonomial]:
     """Yield the minimum number of monomials of some items that determine the constraints, each exact in int64.
 
-    Items that no constraint depends on are in no monomial. Items are combined if their powers, relative to the first term
-    of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of rules on counts are not
-    combined.
+    Items that no constraint depends on are in no monomial. Items are combined if their powers, relative to the first
+    term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of rules on counts
+    are not combined.
 
     items   assigned items of the constraints
     lists   all items
@@ -143,9 +143,7 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
-        """Count, for each row, the assignments below it that satisfy all constraints, and those that each constraint
-        rejects.
-        """
+        """Return, for each row, the number of accepted assignments below it, and of those each constraint rejects."""
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
         at, alive = self.pruned(node, rows, removed)

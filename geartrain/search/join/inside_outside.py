@@ -176,7 +176,8 @@ class AssignmentSums:
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
         """Return the rows of a table as alternatives.
 
-        A row of a node continues with a value of its item and a row of each child, a value or a product with its factors.
+        A row of a node continues with a value of its item and a row of each child, a value or a product with its
+        factors.
         """
         if isinstance(table, RecordedNode):
             grade = 1 if not self.graded or table.misfit is None else np.exp(-table.misfit / 2)

@@ -1,8 +1,8 @@
 """Items of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
 
-An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns items instead
-of wheels: a list of products of counts, or of quotients of two such products. A wheel in a constraint on counts is an
-item of its own.
+An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns items
+instead of wheels: a list of products of counts, or of quotients of two such products. A wheel in a constraint on counts
+is an item of its own.
 """
 
 from __future__ import annotations
@@ -232,8 +232,8 @@ class Item:
     """Values of a recipe, numerator over denominator, ascending, with the total weight of each.
 
     x               values, (m,) float64, ascending, accurate to a few roundings
-    tops, bottoms   exact numerators and denominators, (m,) int64; `bottoms` is None if all are 1. Equal quotients may be
-                    repeated
+    tops, bottoms   exact numerators and denominators, (m,) int64; `bottoms` is None if all are 1. Equal quotients may
+                    be repeated
     times           weights, (m,)
     sums            cumulative weights, (m + 1,), from 0
     """

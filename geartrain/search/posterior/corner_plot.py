@@ -57,9 +57,10 @@ class CountProbabilities:
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Draw marginal probabilities on the diagonal and joint probabilities of each pair below it; darker is more probable.
+    """Draw marginal probabilities on the diagonal and joint probabilities of each pair below it.
 
-    Outlines show priors, dashed lines declared counts. Raises `QuestionError` for no wheel, or for more than 9.
+    Darker panels are more probable. Outlines show priors, dashed lines declared counts. Raises `QuestionError` for no
+    wheel, or for more than 9.
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:
@@ -181,7 +182,7 @@ Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Draw a corner plot of uncertain tooth counts: posterior and prior of each wheel, and joint posteriors of each pair.
+    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair.
 
     Parameters
     ----------

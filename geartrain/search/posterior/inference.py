@@ -79,8 +79,8 @@ def infer_counts(
 ) -> ToothCountPosterior:
     """Compute the posterior of uncertain tooth counts, given what is known of the outputs.
 
-    After an interruption (Ctrl-C) the result has `cut` True. It covers the combinations drawn so far. The exact join has
-    no partial result; a short sample is drawn instead, and a remark says so.
+    After an interruption (Ctrl-C) the result has `cut` True. It covers the combinations drawn so far. The exact join
+    has no partial result; a short sample is drawn instead, and a remark says so.
 
     Parameters
     ----------
@@ -112,7 +112,8 @@ def infer_counts(
     seed : int
         Random seed of the sample, and of estimated Sobol indices; at least 0.
     executor : Executor, optional
-        By default work runs in this process; see `geartrain.numerics.work.open_executor`. It does not change the result.
+        By default work runs in this process; see `geartrain.numerics.work.open_executor`. It does not change the
+        result.
     journal : Journal, optional
         Journal of completed work, for a run that may be interrupted.
     tell : callable, optional

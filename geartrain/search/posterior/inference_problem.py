@@ -97,8 +97,8 @@ def build_inference_problem(
     against     kinds of claims that are used: "targets", "figures" (`expect` and `published`), or "all"
     scale       factor of every tolerance
 
-    Raises `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if nothing is known
-    of any output that moves, and for trains that never turn.
+    Raises `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if nothing is
+    known of any output that moves, and for trains that never turn.
     """
     _check(train, state, against, tolerance, scale)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
@@ -225,8 +225,8 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
     free   wheel -> possible counts, which replace the declared ones; a single count makes the wheel certain
 
     A wheel with `range` or `choices` has its `weights` (uniform if none are declared), a wheel with `search` a uniform
-    prior. Raises `QuestionError` for unknown wheels, invalid tooth counts, weights that are not probabilities, and if no
-    count is uncertain; `RangeError` for a wheel with too many counts to list.
+    prior. Raises `QuestionError` for unknown wheels, invalid tooth counts, weights that are not probabilities, and if
+    no count is uncertain; `RangeError` for a wheel with too many counts to list.
     """
     given = dict(free or {})
     for name in given:

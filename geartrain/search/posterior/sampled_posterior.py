@@ -61,8 +61,8 @@ class LikelihoodBatch:
     """Vectorised evaluation of an inference problem over arrays of counts.
 
     every    True if the speeds of all outputs are also required
-    wheels   wheels that an observed output or a condition depends on, with `every` also those of all outputs, in the order
-             of declaration
+    wheels   wheels that an observed output or a condition depends on, with `every` also those of all outputs, in the
+             order of declaration
     """
 
     def __init__(self, question: InferenceProblem, every: bool = False) -> None:
@@ -99,7 +99,7 @@ class LikelihoodBatch:
         return found
 
     def judged(self, rows: MonomialColumns) -> tuple[Bools, Floats]:
-        """Test exactly which combinations fit, and compute their misfits to rounding; infinite for those that do not fit.
+        """Test exactly which combinations fit, and compute their misfits to rounding, infinite for the others.
 
         Combinations that one output rejects are removed before the next output when this saves work.
         """
@@ -295,7 +295,9 @@ class FormulaValues:
         return None if self.quotient is None else self.quotient.relative
 
     def __call__(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats | None]:
-        """Return the values at some rows, and bounds of their errors if `relative` is None; infinite if no digit is certain.
+        """Return the values at some rows, and bounds of their errors if `relative` is None.
+
+        A bound is infinite if no digit is certain.
 
         plan   plan of many formulas at once; default the plan of this formula
         """

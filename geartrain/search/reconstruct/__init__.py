@@ -24,7 +24,7 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `arbor_orders`: orders of arbors on chains, by dynamic programming over subsets
 - `search_tasks`: independent tasks for any number of processes; their time, extrapolated from a sample
 - `geometry_likelihood`: agreement with measurements; closed polygons, and layers by dynamic programming over bit masks
-- `reconstruction_search`: the counts, the candidates of maximum weight, random draws; equality up to the order of arbors
+- `reconstruction_search`: the counts, the candidates of maximum weight, random draws; equality up to order
 
 The answer
 

@@ -218,8 +218,7 @@ class KnownRank(Result):
     place: TrainPlace | None = None
     """Rank of the train; None if it breaks rules or adds more wheels than permitted."""
     admitted: tuple[AdmittingQuestion, ...] = ()
-    """Ranks in questions without the broken rules, first with the dial speeds of the train, then without those dials.
-    """
+    """Ranks in questions without the broken rules: with the dial speeds of the train, then without these dials."""
     telling: TellingFacts | None = None
     """Facts that distinguish the train, if all explanations are listed."""
 
@@ -264,8 +263,9 @@ def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
     """Return the rank and weight of one explanation among all.
 
-    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the weight
-    depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is listed.
+    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the
+    weight depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is
+    listed.
     """
     added = candidate.added_wheels
     counts = {count.added: count.mechanisms for count in found.counts}

@@ -85,12 +85,13 @@ _NEVER = 100
 class PathColumns:
     """Columns of a path list for fast comparison of many paths with a path to another dial.
 
-    powers           large prime -> its power in the quotient of the added wheels, for each row
-    codes            code of the pass, 0 if the arbor is avoided; (arbors, rows)
-    driven, driver   numbers of the driven wheel with its count, and of the driving wheel by name, 0 if absent; (arbors, rows)
-    ends             bit of the surviving arbor that shows the dial, for each row
-    passes_added     True if the path has an added idler
-    used             bit mask of the used surviving arbors, then wheels, for each row
+    powers         large prime -> its power in the quotient of the added wheels, for each row
+    codes          code of the pass, 0 if the arbor is avoided; (arbors, rows)
+    driven         number of the driven wheel with its count, 0 if absent; (arbors, rows)
+    driver         number of the driving wheel by name, 0 if absent; (arbors, rows)
+    ends           bit of the surviving arbor that shows the dial, for each row
+    passes_added   True if the path has an added idler
+    used           bit mask of the used surviving arbors, then wheels, for each row
     """
 
     def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
@@ -119,8 +120,8 @@ class PathColumns:
     def fit(self, rows: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
         """Test which paths can be in one tree with a path to another dial, or each with one of several paths.
 
-        Two paths may leave only the arbor at which they separate by different wheels, and enter every shared arbor by the same
-        wheel. A wheel has one count. Paths that separate at the input share no other arbor.
+        Two paths may leave only the arbor at which they separate by different wheels, and enter every shared arbor by
+        the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)

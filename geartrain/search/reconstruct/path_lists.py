@@ -187,7 +187,7 @@ class PathGrowth:
         powers: NDArray[np.int8],
         limits: tuple[int, int | None],
     ) -> PathGrowth:
-        """Return the paths that may take a pass of one more arbor, or avoid it, with the updated number of needed wheels.
+        """Return the paths that may take a pass of one more arbor, or avoid it, with updated `need`.
 
         closing   columns of large primes that no later arbor contains
         lost      mask of the columns whose prime is larger than the maximum tooth count
@@ -252,7 +252,8 @@ class PathList:
 
     along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
 
-    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; (rows, arbors)
+    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided;
+                         (rows, arbors)
     arbors               bit mask of the surviving arbors on the path, bit i - 1 for arbor i
     idle                 bit mask of the arbors with unused surviving wheels that must mesh
     ends_new             True if the arbor of the dial is added

@@ -247,9 +247,9 @@ class PathTrees:
             yield Chain(dials, named, compounds, idlers, end), after
 
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
-        """Return the surviving arbors that all paths pass in the same way, and the arbor at which they separate, or None.
+        """Return the surviving arbors that all paths pass in the same way, and the arbor at which they separate.
 
-        The result is None if the paths separate at more than one surviving arbor.
+        The second entry is None without such an arbor. The result is None if paths separate at more than one arbor.
         """
         through, ends = [], []
         for at in _arbors(reduce(and_, (path.arbors for path in paths.values()))):

@@ -216,8 +216,7 @@ class TopologySearch:
         return PathChoice(self.problem, self.paths, self._keys), PathTrees(self.problem, self.paths)
 
     def topologies(self, added: int, part: int = 0, parts: int = 1) -> Iterator[tuple[Topology, int]]:
-        """Yield topologies with exactly `added` added wheels and their numbers of choices, in one part of the search.
-        """
+        """Yield topologies with exactly `added` added wheels in one part of the search, with their choices."""
         choice, trees = self._by_paths
         for chosen in choice.choices(added, part, parts):
             for topology in trees.topologies(chosen, added):

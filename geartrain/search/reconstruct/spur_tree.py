@@ -479,9 +479,9 @@ def _joined(parts: Sequence[str]) -> str:
 def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Train:
     """Return the evidence that remains of a tree if some arbors are lost.
 
-    The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between them. Every
-    pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost. Their tooth counts have
-    the range of the first part, or for a later part the range of all parts.
+    The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between them.
+    Every pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost. Their tooth
+    counts have the range of the first part, or for a later part the range of all parts.
 
     lost   links; `QuestionError` for the first arbor, for a link that is not in the tree, and for an arbor with a ring
     seen   True if meshes of surviving wheels are known and no more arbors may be added than are lost; else meshes are

@@ -63,8 +63,8 @@ class ArborPass:
 def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Iterator[ArborPass]:
     """Yield all pairs of wheels by which a path can pass through a surviving arbor or end at it.
 
-    An added wheel on an arbor with surviving wheels can only drive. On an arbor without surviving wheels the driven wheel
-    is added.
+    An added wheel on an arbor with surviving wheels can only drive. On an arbor without surviving wheels the driven
+    wheel is added.
     """
     beside = problem.additions.on == "any" and problem.additions.wheels > 0
     is_input = arbor is problem.input

@@ -21,9 +21,9 @@ from geartrain.search.join.polynomial_constraints import (
 )
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
 
-# Through which monomials of items some constraints see them: settings that agree in all of these are one. Once x
-# and y are set, an output that sees x y alone cannot tell 2 x 6 from 3 x 4; nor can all that is set below. The rows
-# of a join are merged so as soon as they may be (bucket elimination, Dechter 1999).
+# Monomials through which some constraints depend on items: assignments with equal values of all these monomials are
+# equivalent. Once x and y are assigned, an output that depends only on x y cannot distinguish 2 x 6 from 3 x 4. Rows
+# are merged accordingly as soon as possible (bucket elimination, Dechter 1999).
 
 
 _LARGEST = 1 << 62  # products below this are exact in int64
@@ -57,7 +57,7 @@ def find_item_monomials(
 
 def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[ItemMonomial]:
     """Split a monomial into parts whose values fit into int64."""
-    # cut greedily: what fits 2^62 above and below stays one monomial
+    # greedy: combine factors as long as numerator and denominator stay below 2^62
     held: list[tuple[int, int]] = []
     largest = [1, 1]
     for item, power in group:
@@ -95,7 +95,7 @@ class RefusalCounts:
         """Add numbers to the given rows of a constraint; rows may be repeated."""
         if constraint not in self.by:
             self.by[constraint] = np.zeros(self.size, dtype=self.dtype)
-        # not `+=`: of rows that repeat that would add one number only
+        # `+=` would add only one number to a repeated row
         np.add.at(self.by[constraint], rows, numbers)
 
 
@@ -108,7 +108,7 @@ class ExactJoin:
 
     def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
         self.question = question
-        # no tally is larger than the total, so that int64 cannot overflow below 2^62
+        # no tally exceeds the total, so that int64 cannot overflow below 2^62
         self.dtype: Any = np.int64 if question.total < 1 << 62 else object
         self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
         self.extents = extents(question)
@@ -143,11 +143,11 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
-        """Return, for each row, the number of accepted assignments below it, and of those each constraint rejects."""
+        """Return the numbers of accepted assignments below each row, and of those that each constraint rejects."""
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
         at, alive = self.pruned(node, rows, removed)
-        # a last item with nothing but its guide is counted by the ends of windows, without a row for each value
+        # a last item with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
             total[at] = self._windowed(node, at, alive, removed)
             return total, removed.by
@@ -164,7 +164,7 @@ class ExactJoin:
         node = nodes[0]
         _, alive = self.pruned(node, rows, None)
         for _, grown in self.grown(node, alive, np.arange(alive.size), None):
-            # of several children the later ones may have nothing, and rows of the first would be listed for nothing
+            # rows without solutions in a later child would be enumerated in vain for the first child
             if len(node.children) > 1:
                 grown = self._promising(node, grown)
             yield from self.stream((*node.children, *nodes[1:]), grown)
@@ -180,7 +180,7 @@ class ExactJoin:
             columns: AssignmentColumns = {}
             owner = np.arange(part.size)
             for item, column in part.columns.items():
-                # the ways to one value are found once, however many rows have it
+                # decompose each distinct value once, however many rows have it
                 values, which = np.unique(column, return_inverse=True)
                 ways, more = self.items[item].ways(values)
                 starts = np.searchsorted(ways, np.arange(len(values) + 1))
@@ -256,7 +256,7 @@ class ExactJoin:
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total
         polynomial = node.guide >= len(self.question.rules)
-        # charged in full here; what the guide leaves is taken back below
+        # all assignments are charged here; those that the guide accepts are subtracted below
         if node.guide >= 0 and removed is not None:
             removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
         for parents, indices in self._candidates(node, rows):
@@ -288,7 +288,7 @@ class ExactJoin:
             for window in guide.windows(rows, node.item):
                 window = window.clipped(first, last)
                 for parents, indices in spread_in_blocks(window.start, window.end, BLOCK):
-                    # cases exclude each other, but where bounds are nearer than rounding their windows overlap
+                    # cases are mutually exclusive, but their windows overlap if bounds are closer than rounding
                     for other in looked_at:
                         new = (indices < other.start[parents]) | (indices >= other.end[parents])
                         parents, indices = parents[new], indices[new]

@@ -24,9 +24,9 @@ from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import Item, PartialAssignments, ProductStep, Tallies
 from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
 
-# A join that is kept: which values of each item go with what is set above, and which counts make up each value.
-# Every transition leads to at least one whole assignment. Sums over all assignments are then sums over the tree,
-# taken again and again with other weights; see `inside_outside`.
+# Recorded join: the values of each item that are compatible with the assignments above, and the counts that produce
+# each value. Every transition leads to at least one complete assignment. Sums over all assignments are then sums over
+# the tree, which can be repeated with other weights.
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
@@ -107,10 +107,10 @@ class _Recorder:
         """Record a node and its subtree for some distinct rows."""
         at, alive = self.join.pruned(node, rows, None)
         blocks = list(self.join.grown(node, alive, at, None))
-        # rows without any block still have columns
+        # rows without any block still need columns
         nothing = [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
         parents = np.concatenate([owners for owners, _ in blocks or nothing])
-        # transitions of one row stand together: `BestFirst` finds them by bisection
+        # transitions of one row are adjacent: `BestFirst` finds them by bisection
         order = np.argsort(parents, kind="stable")
         parents, grown = parents[order], _joined([block for _, block in blocks or nothing]).pick(order)
         misfit = self._misfit(node, grown)
@@ -199,7 +199,7 @@ class AssignmentSums:
         steps, found = {}, {}
         for wheel in wheels:
             sizes = np.array(counts[wheel], dtype=np.float64)
-            # about the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
+            # relative to the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
             steps[wheel] = sizes - float((marginals[wheel] * sizes).sum()) / total
         for at, first in enumerate(wheels):
             tilted = self.marginals({**weights, first: weights[first] * steps[first]})
@@ -260,8 +260,8 @@ class BestFirst:
                 below = zip(self._below[number], node.children, strict=True)
                 then = (*((child, int(to[at])) for child, (_, to) in below), *later)
                 ahead = so_far + sum(float(self._ahead[one][its]) for one, its in then)
-                # depth falls: of equal bounds the one farthest on comes first, and assignments are whole soon
-                # rounding must not let a child come before its parent
+                # the depth decreases, so that for equal bounds the deepest entry comes first and completes soon; `max`
+                # prevents rounding from sorting a child before its parent
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:

@@ -146,7 +146,7 @@ def _lateness(
     """Yield partitions of the rules into those evaluated as soon as possible and those evaluated last."""
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
-    # a rule asked while wheels are set makes them items of their own, which may cost more than it saves
+    # a rule evaluated early makes its wheels separate items, which may cost more than it saves
     yield tuple(rules), ()
     if conditions:
         yield equations, conditions
@@ -196,13 +196,13 @@ class _Planner:
     def ways(self) -> Iterator[tuple[int, bool]]:
         """Yield pairs (constraint to complete first, True if items in many constraints come before small items)."""
         order = sorted(range(len(self.scopes)), key=lambda one: (len(self.scopes[one]), one))
-        # six first constraints and two orders of items are tried: planning stays at milliseconds
+        # six first constraints and two orders of items are tried, so that planning takes milliseconds
         yield from product(order[:6] or [-1], (True, False))
 
     def plan(self, first: int, shared: bool) -> tuple[PlanNode, float]:
         """Return the plan over all items, and its expected cost."""
         node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0, first, shared)
-        # demands that came down to numbers are asked at the root
+        # constraints without items are evaluated at the root
         converged = tuple(at for at, scope in enumerate(self.scopes) if not scope)
         return replace(node, checks=converged + node.checks, reach=converged + node.reach), cost
 
@@ -219,7 +219,7 @@ class _Planner:
         rest = open_ - {item}
         children, cost = [], rows + (looked if rest or checks or guide < 0 else 0)
         for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
-            # less than one row is expected where guesses are rough: never so few that what follows looks free
+            # a lower limit of the expected rows, because rough estimates would make later nodes appear free
             child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
             children.append(child)
             cost += more
@@ -271,12 +271,12 @@ def extents(question: JoinProblem) -> list[tuple[float, float]]:
     return [extent(recipe, question.domains) for recipe in question.recipes]
 
 
-# Which part of all assignments meets a demand or a rule, about: it steers a search, and decides nothing.
+# Approximate share of the assignments that satisfy a constraint or rule. It affects the speed of a search only.
 
 
-_DRAWN = 4096  # assignments
-_NEIGHBOURS = 40  # values; a share of fewer hits than these is too rough to steer by
-_EXACT = 1e-7  # the width, in logarithms, that one exact value stands for
+_DRAWN = 4096  # number of sampled assignments
+_NEIGHBOURS = 40  # number of nearest values for a density; fewer hits give too rough an estimate
+_EXACT = 1e-7  # width of an exact value in logarithms
 
 
 @dataclass(frozen=True, slots=True)
@@ -330,12 +330,12 @@ def _part(speeds: Floats, interval: Interval) -> float:
     within = float(((speeds >= low) & (speeds <= high)).mean()) if len(speeds) else 1.0
     if within * len(speeds) >= _NEIGHBOURS or low <= 0 <= high or not len(speeds):
         return within
-    # by the distance to the nearest few, in logarithms: ratios are spread evenly there, more or less
+    # from the distance to the nearest values in logarithms, where ratios are roughly uniform
     side = np.log(speeds[speeds > 0] if low > 0 else -speeds[speeds < 0])
     if len(side) < _NEIGHBOURS or isinf(low) or isinf(high):
         return within
     ends = sorted((log(abs(low)), log(abs(high))))
     near = np.sort(np.abs(side - sum(ends) / 2))[_NEIGHBOURS - 1]
-    # of many equal values the nearest few may be no distance away
+    # for many equal values the distance of the nearest ones may be 0
     density = _NEIGHBOURS / _DRAWN / (2 * max(near, 1e-12))
     return float(min(density * max(ends[1] - ends[0], _EXACT), 1.0))

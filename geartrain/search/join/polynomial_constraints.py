@@ -28,15 +28,15 @@ from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.integer_columns import spread
 from geartrain.search.join.product_lists import Item, PartialAssignments
 
-# Signs of polynomials at very many points, exact: floats decide where they can, integers where they cannot. Every
-# bound on an output is the sign of a polynomial in the items: N/D <= v is N - v D <= 0 where D > 0. A float64 value
-# with a bound on its rounding settles nearly all points. Where it does not, the value is small against its terms,
-# and arithmetic modulo 2^64 gives it exactly as long as it is surely less than 2^63; beyond, Python's integers.
+# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the items: N/D
+# <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all points. At the
+# others the value is small compared with its terms. Arithmetic modulo 2^64 is then exact if the magnitude is certainly
+# below 2^63; Python integers decide the rest.
 
 
 Signs = NDArray[np.int8]
 
-ROUNDING = 2 * UNIT_ROUNDOFF  # twice, so that squares of it need no bound of their own
+ROUNDING = 2 * UNIT_ROUNDOFF  # doubled, so that second-order terms are covered
 _WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 
@@ -68,7 +68,8 @@ class SignPolynomial:
     def rounding(self) -> float:
         """Bound of the rounding error of `values`, relative to their `sizes`."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
-        # an item has three roundings at most and each product one; twice the unit covers squares and the bound itself
+        # an item has at most three roundings and each product one; the factor of two covers squares and the bound
+        # itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
 
     def degree(self, item: int) -> int:
@@ -120,7 +121,7 @@ class SignPolynomial:
 
     def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
         """Return the exact signs of values whose magnitude is at most twice `bounds`, relative to the scale."""
-        # times all denominators: a bound on the whole number that is worked out below
+        # times all denominators: a bound of the integer computed below
         minimum: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
         for item in self.items:
             bottom = rows.bottom(item)
@@ -128,7 +129,7 @@ class SignPolynomial:
                 for _ in range(self.degree(item)):
                     minimum = minimum * bottom
         found: Signs = np.zeros(rows.size, dtype=np.int8)
-        # a factor of two below what int64 holds, for the bound itself is rounded
+        # a factor of two below the range of int64, because the bound itself is rounded
         short = minimum < 2.0**62
         found[short] = np.sign(self._wrapped(rows.pick(short))).astype(np.int8)
         for at in np.flatnonzero(~short):
@@ -137,7 +138,7 @@ class SignPolynomial:
 
     def _wrapped(self, rows: PartialAssignments) -> Ints:
         """Return the values times all denominators, modulo 2^64, as signed integers."""
-        # numpy's unsigned integers wrap without a warning; the true value is below 2^63 in size, so the sign is right
+        # numpy's unsigned integers wrap without a warning; the true magnitude is below 2^63, so the sign is correct
         total = np.zeros(rows.size, dtype=np.uint64)
         for coefficient, monomial in self.terms:
             term = np.full(rows.size, coefficient & _WRAP, dtype=np.uint64)
@@ -175,10 +176,10 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
     return term
 
 
-# Where a polynomial in one open item keeps its sign: a ray of the item's sorted values, found by binary search.
-# Divided by the item's lowest power it is A y + B, with y a power of the item, and changes its sign at -B/A.
-# Rounding leaves a doubt about values next to that: a window says which values surely meet its inequalities, and
-# which may.
+# The values of the free item for which a polynomial keeps its sign are a ray of the sorted values, found by binary
+# search. After division by the lowest power of the item the polynomial is A y + B, where y is a power of the item, and
+# changes its sign at -B/A. Rounding makes values close to -B/A uncertain: a window separates the values that certainly
+# satisfy the inequalities from those that may.
 
 
 @dataclass(frozen=True)
@@ -240,7 +241,7 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
     (low, B), (high, A) = parts.items()
     scale = inequality.polynomial.scale
     a, size = A.values(rows, scale)
-    # four times the rounding: then |a| less its error is at least three quarters of |a|, and its sign is sure
+    # four times the rounding error: then |a| minus its error is at least three quarters of |a|, and its sign is certain
     known = np.abs(a) > 4 * A.rounding * size
     if known.all():
         return _bounded(inequality, rows, rows.items[item], high - low, (a, A.rounding * size), B)
@@ -259,7 +260,7 @@ def _bounded(
     a, off_a = slope
     b, size = rest.values(rows, inequality.polynomial.scale)
     end = -b / a
-    # first-order bound on the error of -b/a, and what rounding does to the item's power itself
+    # first-order bound of the error of -b/a, and the rounding error of the power of the item
     off = (rest.rounding * size + np.abs(end) * off_a) / (np.abs(a) - off_a)
     off += np.abs(end) * (8 * power + 8) * ROUNDING
     minimum, maximum, y = end - off, end + off, item.powers(power)
@@ -332,7 +333,7 @@ def _in_doubt(
 Corners = Mapping[int, tuple[float, float]]
 """Free item -> its minimum and maximum value."""
 
-_MOST_CORNERS = 64  # of a box; beyond, each term is bounded by itself
+_MOST_CORNERS = 64  # maximum number of corners of a box; beyond it, terms are bounded separately
 _SHORT = 4096
 """Maximum number of rows for which a matrix product is faster than a loop over terms."""
 

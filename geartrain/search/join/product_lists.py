@@ -27,9 +27,9 @@ Weights = Mapping[str, tuple[int, ...]]
 
 BLOCK = 1 << 18
 """Number of rows in a block, which limits the memory of a join to about 50 MB besides its lists."""
-_LONGEST = 1 << 23  # products in a table made at once: 64 MB of int64
-_TRIED = 4_000_000  # products made for a forecast; beyond, it is a guess
-_REMEMBERED = 20_000_000  # values in all lists that are kept
+_LONGEST = 1 << 23  # maximum number of products in one table: 64 MB of int64
+_TRIED = 4_000_000  # maximum number of products formed for a forecast, which is extrapolated beyond it
+_REMEMBERED = 20_000_000  # maximum number of values in all cached lists
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,8 +62,8 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
             values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
             sizes.append(len(values))
         else:
-            # a guess from here on
-            # every further wheel finds more of its products known: the growth falls, by a fifth at least
+            # extrapolation: each further wheel repeats more products, so the growth factor decreases, at least by a
+            # fifth
             growth = 0.8 * sizes[-1] / sizes[-2] * len(some) / len(factors[at - 1]) if at else len(some)
             sizes.append(max(sizes[-1], int(sizes[-1] * min(growth, len(some)))))
     return sizes[-1], cost
@@ -185,7 +185,7 @@ def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tup
         products = np.multiply.outer(block, values).ravel()
         found.append(_distinct(products, np.multiply.outer(weights[at : at + step], times).ravel()))
         last = at + step >= len(factors)
-        # lists of about one length are merged, as digits are carried: each value is moved a few times only
+        # merge lists of similar length (binary counter), so that each value is moved only a few times
         while len(found) > 1 and (last or len(found[-2][0]) <= 2 * len(found[-1][0])):
             (left, p), (right, q) = found.pop(), found.pop()
             found.append(_distinct(np.concatenate([left, right]), np.concatenate([p, q])))
@@ -193,7 +193,7 @@ def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tup
 
 
 def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
-    # sorted and added up by `reduceat`: np.unique would not add weights, which may be Python integers
+    # sorting and `reduceat` instead of np.unique, which cannot sum weights that are Python integers
     order = np.argsort(values, kind="stable")
     values = values[order]
     first = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1]]))
@@ -258,7 +258,7 @@ class Item:
         above = np.repeat(np.arange(len(self._top.values)), len(bottom.values))
         below = np.tile(np.arange(len(bottom.values)), len(self._top.values))
         tops, bottoms = self._top.values[above], bottom.values[below]
-        # rounding may exchange quotients that are nearly equal: windows allow for that
+        # rounding may exchange almost equal quotients, which windows allow for
         order = np.argsort(tops / bottoms, kind="stable")
         self._at = above[order], below[order]
         self.tops, self.bottoms = tops[order], bottoms[order]
@@ -298,7 +298,7 @@ def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any
     return _ITEMS.get(key, lambda: Item(recipe, domains, weights, dtype))
 
 
-# -------------------------------------------------------------- rows over some items, each with the index of its value
+# --------------------------------------------------------------- rows over some items, each with the index of its value
 
 
 ItemMonomial = tuple[tuple[int, int], ...]
@@ -352,7 +352,7 @@ class PartialAssignments:
             return self, None
         key, most = np.zeros(self.size, dtype=np.int64), 1
         for code, codes in (pair for monomial in seen for pair in self._codes(monomial)):
-            if most * codes >= 1 << 62:  # renumbered, so that it never overflows
+            if most * codes >= 1 << 62:  # renumber the codes before they overflow
                 _, key = np.unique(key, return_inverse=True)
                 most = self.size
             key = key * codes + code
@@ -374,7 +374,7 @@ class PartialAssignments:
                 top *= self.top(item)
                 if bottom is not None:
                     under *= bottom
-        # in lowest terms, so that 2/4 and 3/6 are one; with both sides in int64 that is exact
+        # in lowest terms, so that 2/4 and 3/6 are equal; exact if both sides are in int64
         common = np.gcd(above, below)
         for side in (above, below):
             values, code = np.unique(side // common, return_inverse=True)

@@ -25,8 +25,8 @@ Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
 """Maximum number of values of one item, which need half a gigabyte with all their arrays."""
-_MOST_QUOTIENTS = 1 << 22  # of an item with counts above and below
-_MOST_WORK = 2 * 10**8  # products made to list one item
+_MOST_QUOTIENTS = 1 << 22  # maximum number of values of an item with numerator and denominator
+_MOST_WORK = 2 * 10**8  # maximum number of products formed to list one item
 _LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
 

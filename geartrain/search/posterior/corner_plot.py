@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 Chances = Mapping[int, float]
 Pair = tuple[str, str]
 MOST = 9
-_CELL = 1.35  # inches of a panel
-_TICKS = 3  # steps between numbers at an axis, at most
-_FEW = 20  # counts whose bars have outlines of their own
+_CELL = 1.35  # side of a panel [inch]
+_TICKS = 3  # maximum number of tick intervals
+_FEW = 20  # maximum number of counts whose bars have separate outlines
 _DASHES: Any = (0, (3, 2))
 
 
@@ -106,7 +106,7 @@ def _key(figure: Figure, likely: CountProbabilities) -> None:
 def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
     """Draw bars of the probabilities of one wheel, and outlines of its prior."""
     chances = likely.single[wheel]
-    wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a gap would be a pixel, and often none
+    wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
     axes.bar(list(chances), list(chances.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
     before = likely.before.get(wheel, {})
     if before:
@@ -137,7 +137,7 @@ def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str,
     for (one, other), chance in likely.pairs[pair].items():
         table[other - second[0], one - first[0]] = chance
     edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
-    # a scale needs two ends, even where no two counts are likely together
+    # the colour scale needs two different ends, even if all probabilities are 0
     mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300))
     mesh.set_gid(f"{a}, {b}")
     _ticks(axes.yaxis, second)

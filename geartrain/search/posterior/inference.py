@@ -47,9 +47,9 @@ from geartrain.train import Train
 LIMIT = 2_000_000
 """Default maximum number of steps of the exact join, which take a few seconds."""
 SAMPLES = 1_000_000
-_ALONE = 200_000  # steps for one output by itself: a fraction of a second
-_DRAWN = 1 << 16  # combinations where that is too much, or where the exact join is interrupted
-_ENOUGH = 100  # effective combinations: below, an interval is as wide as a tenth of what it is about
+_ALONE = 200_000  # maximum steps for a single output: a fraction of a second
+_DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exact join is interrupted
+_ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
 METHODS: tuple[Method, ...] = ("exact", "sample")
 _NOTHING_YET = (
     "interrupted: the exact method knows nothing before its end, so the figures are of {} combinations drawn at "
@@ -234,8 +234,8 @@ def _find(
         try:
             return _Outcome("exact", find_exact_posterior(question, most, inf if few else limit))
         except KeyboardInterrupt:
-            # the exact join has no partial answer: a moment's sample says more than nothing, and it is not journalled,
-            # since the exact join would begin anew
+            # an interrupted exact join has no partial result: a short sample is returned instead, without a journal,
+            # because the exact join would begin again
             found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
             return _Outcome("sample", found, True, (_NOTHING_YET.format(found.looked),))
         except BudgetSpentError:
@@ -249,7 +249,7 @@ def _sampled(
     question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
 ) -> tuple[PosteriorSummary, bool]:
     """Return the summary of a sample, and whether it was interrupted."""
-    # at most 1000 tasks; from the samples alone, so that any number of workers draws the same
+    # at most 1000 tasks, which depend only on the number of samples, so that any number of workers draws the same
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
     tally, cut = PosteriorTally(LikelihoodBatch(question), most), False
@@ -275,7 +275,7 @@ def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]
     return found
 
 
-# ---------------------------------------------------------------- the weighted join of `search.join`, in whole numbers
+# ---------------------------------------------------------------------- the weighted join of `search.join`, in integers
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
@@ -366,7 +366,7 @@ def _probability(
     return CountProbability(Fraction(int(share), prod(doubt.total for doubt in doubts.values())))
 
 
-# ------------------------------------------------------------------------------------------------- two wheels at a time
+# ------------------------------------------------------------------------------------------------------ pairs of wheels
 
 
 Again = Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior]

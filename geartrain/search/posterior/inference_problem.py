@@ -184,7 +184,7 @@ def _nothing_known(what: str) -> QuestionError:
     return QuestionError(Problem(what, "counts can only be weighed against something with a tolerance", fix))
 
 
-# --------------------------------------------------------------------------- priors: the counts of each wheel in doubt
+# ------------------------------------------------------------------ priors: the possible counts of each uncertain wheel
 
 
 @dataclass(frozen=True, slots=True)
@@ -297,7 +297,7 @@ def _too_wide(name: str, count: int, place: str) -> RangeError:
     return RangeError(Problem(what, f"{count} counts, and at most {MOST_COUNTS} can be listed", "narrow it", place))
 
 
-# ------------------------------------------------------------- observations: claims on speeds, each with its tolerance
+# --------------------------------------------------------------------- observations: known speeds with their tolerances
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
         WheelPosterior,
     )
 
-_LIKELIEST = 4  # counts told of one wheel; the JSON has all
+_LIKELIEST = 4  # most probable counts that are printed; the JSON has all
 _STRONGEST = 12
 _DECIDING = 4
 _OUTPUTS = 4
@@ -170,7 +170,8 @@ def _percent(share: Fraction | float) -> str:
 
 def _correlated(found: ToothCountPosterior) -> Section:
     strongest = list(found.correlations.items())[:_STRONGEST]
-    rows = [(" and ".join(pair), f"{value:+.3f}") for pair, value in strongest if abs(value) >= 0.0005]  # shown as 0
+    # smaller values would be printed as 0
+    rows = [(" and ".join(pair), f"{value:+.3f}") for pair, value in strongest if abs(value) >= 0.0005]
     line = "Wheels that make up for each other in what fits: the strongest correlations of their counts."
     return Section("Correlations", [line], [Table(("wheels", "correlation"), rows)])
 

@@ -29,8 +29,8 @@ from geartrain.search.posterior.posterior_result import (
 )
 from geartrain.search.posterior.sampled_posterior import KEPT, TIE, PosteriorTally, origin_of, plain_number
 
-_LISTED = 200_000  # combinations up to which a variance is taken over all of them
-_DRAWN = 1 << 14  # in each of two samples otherwise
+_LISTED = 200_000  # maximum number of combinations that are enumerated for a variance
+_DRAWN = 1 << 14  # size of each of two samples, for more combinations
 _CERTAIN = 1e-4
 """Ratio of standard deviation to range below which a count is treated as certain and has no correlations.
 
@@ -61,7 +61,7 @@ def rank_combinations(
     evidence   total weight of all that fits; None if it is not known, and then no probabilities are computed
     """
     made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
-    # exact misfits, then whole numbers: no two ways of searching can disagree on this order
+    # exact misfits, then integers: the order does not depend on the method of search
     made.sort(key=lambda one: (one.misfit, -question.weight(one.teeth), len(one.changed), tuple(one.teeth.values())))
     return tuple(made[:most])
 
@@ -123,7 +123,7 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
         for misfit, at in tally.best
     ]
     by = dict(zip(wheels, tally.by, strict=True))
-    # Kish's effective sample size: hits of unequal weight tell as much as so many of equal weight
+    # Kish's effective sample size: the number of hits of equal weight with the same variance
     trials = tally.weight**2 / tally.square if tally.square else None
     posteriors = {
         wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
@@ -150,7 +150,8 @@ def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> Cou
     mean = float(weight) / looked
     if not soft or not weight:
         return CountProbability(mean, *wilson(float(weight), looked))
-    half = deviations() * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)  # a variance: 0 but for rounding
+    # rounding may make a variance negative
+    half = deviations() * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
 
 
@@ -228,7 +229,7 @@ def _moments(
     for wheel, weights in by.items():
         counts, whole = question.doubts[wheel].counts, Fraction(plain_number(total))
         pairs = [(count, Fraction(plain_number(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
-        # in fractions: of counts near 10^12 the square of a deviation is lost in a float
+        # in fractions: for counts near 10^12 floats lose the square of a deviation
         mean = sum((chance * count for count, chance in pairs), Fraction(0))
         means[wheel] = float(mean)
         spread = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
@@ -243,18 +244,19 @@ def _correlated(
     for (first, second), covariance in covariances.items():
         size = spreads[first] * spreads[second]
         if size:
-            value = min(1.0, max(-1.0, covariance / size))  # rounding may lead beyond
+            value = min(1.0, max(-1.0, covariance / size))  # rounding may exceed 1
             found[first, second] = value if abs(value) > _NONE else 0.0
     return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))
 
 
-# --------------------------------------------------- shares of variance: which wheel decides an output (Sobol indices)
+# ------------------------------------------------------------------------- Sobol indices: variance shares of the counts
 
 
-# For independent x = (x_1 ... x_n) and f with mean m and variance V, S_i = Var(E[f | x_i]) / V is what goes if x_i is
-# known, T_i = 1 - Var(E[f | all but x_i]) / V what stays if all others are (Sobol 1993, 2001). A speed that is a sum of
-# monomials needs only the means of powers of each count, and is exact; any other is taken over its combinations, or
-# over a sample by the estimators of Saltelli et al. (2010), table 2.
+# For independent x = (x_1 ... x_n) and f with mean m and variance V, S_i = Var(E[f | x_i]) / V is the share of variance
+# that vanishes if x_i is known, and T_i = 1 - Var(E[f | all but x_i]) / V the share that remains if all others are
+# known (Sobol 1993, 2001). A speed that is a sum of monomials needs only the means of powers of each count, and its
+# indices are exact. Other speeds are evaluated over all combinations, or over a sample with the estimators of Saltelli
+# et al. (2010), table 2.
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
@@ -319,7 +321,7 @@ def _exactly(
 
 def _root(value: Fraction) -> Real:
     """Return the square root of a positive Fraction of any size, to 53 bits."""
-    # an even power of two brings the value near 2^128, so that its whole root has 63 bits and more
+    # scale by an even power of two to about 2^128, so that the integer square root has at least 63 bits
     shift = (128 - value.numerator.bit_length() + value.denominator.bit_length()) // 2
     power = Fraction(2) ** shift
     return rounded(Fraction(isqrt(int(value * power * power))) / power)
@@ -338,10 +340,10 @@ def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> V
         return None
     priors = [np.array([float(prior) for prior in doubt.priors]) for doubt in doubts]
     mean = float(_averaged(values, priors, range(len(shape))).ravel()[0])
-    # about the mean: a mean of squares less its square would lose a small variance
+    # relative to the mean: a mean of squares minus the squared mean would lose a small variance
     values = values - mean
     variance = float(_averaged(values**2, priors, range(len(shape))).ravel()[0])
-    # rounding of a speed that is the same for all counts
+    # rounding error of a speed that is constant
     if variance <= (1e-13 * mean) ** 2:
         return None
     own, whole = {}, {}
@@ -389,7 +391,7 @@ def _sampled(name: str, formula: Formula, doubts: Sequence[ToothCountPrior], see
     own, whole = {}, {}
     for doubt in doubts:
         mixed = formula.values(first | {doubt.wheel: second[doubt.wheel]})
-        # estimators (b) and (f) of the table; less the mean, which adds nothing but scatter
+        # estimators (b) and (f) of the table, relative to the mean, which would only add noise
         own[doubt.wheel] = float(((b - mean) * (mixed - a)).mean()) / variance
         whole[doubt.wheel] = float(((a - mixed) ** 2).mean()) / 2 / variance
     return VarianceShares(name, mean, sqrt(variance), own, whole, False, _DRAWN)

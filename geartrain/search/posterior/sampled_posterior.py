@@ -40,7 +40,7 @@ LARGEST = 1 << 62
 
 BLOCK = 1 << 13
 """Number of combinations per block: 64 kB per array, so that the columns of a formula stay in the processor cache."""
-_FEW = 0.5  # of the rows: where fewer are left, to copy them out costs less than to judge the others too
+_FEW = 0.5  # share of rows below which copying the remaining rows is cheaper than evaluating all
 
 
 KEPT = 2000
@@ -75,7 +75,7 @@ class LikelihoodBatch:
         self.wheels = tuple(wheel for wheel in question.doubts if wheel in moved)
         self.domains = {wheel: question.doubts[wheel].counts for wheel in self.wheels}
         self.monomials = find_monomials(functions, self.domains)
-        # formulas of few wheels first: they cost least, and what they refuse the others need not judge
+        # formulas of few wheels first: they are cheap, and rows that they reject need no further evaluation
         ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
         outputs = question.outputs.items() if every else ()
         self._values = {name: FormulaValues.of(f, self.monomials, self.domains) for name, f in outputs}
@@ -160,7 +160,7 @@ class PosteriorTally:
         if not size:
             return
         at = [np.broadcast_to(places[wheel], (size,)) for wheel in self.batch.wheels]
-        self.weight += plain_number(weights.sum())  # Python's own number: over many blocks int64 would not hold it
+        self.weight += plain_number(weights.sum())  # a Python integer: the sum of many blocks may exceed int64
         self.square += float((weights.astype(np.float64) ** 2).sum())
         for sums, index in zip(self.by, at, strict=True):
             for choice in np.unique(index):
@@ -238,7 +238,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     batch, most = _unpacked(shared)
     tally = PosteriorTally(batch, most)
     seed, block, size = task
-    # a stream for each block: what is drawn does not depend on how blocks are shared out
+    # an independent random stream for each block: the draws do not depend on the distribution of tasks
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
     places = {}
     for wheel in batch.wheels:
@@ -256,7 +256,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     return tally.to_dict()
 
 
-# ------------------------------------------- likelihood: floats decide where their error allows it, integers elsewhere
+# ----------------------------------------- likelihood: floats decide if their error bound allows it, integers otherwise
 
 
 @dataclass(frozen=True, eq=False)
@@ -383,7 +383,7 @@ class OutputLikelihood:
             gap -= half
             met |= gap <= 0
             np.abs(gap, out=gap)
-            # a value twice as large as an end is far from it, so that a relative error needs no look at the value
+            # larger values are far from both ends, so the relative error is bounded at the ends only
             near = edge + 4 * (self.value.relative or 0) * (abs(middle) + half) if room is None else edge + room
             doubtful |= ~(gap > near)
         return met, doubtful
@@ -397,7 +397,7 @@ def _folded(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, floa
     for low, high in intervals:
         if fold and low is not None and low < 0:
             continue
-        if low is None or high is None:  # a ray is settled with the exact numbers
+        if low is None or high is None:  # half-open intervals are decided by the exact constraint
             found.append((0.0, 0.0, np.inf))
             continue
         ends = float(max(abs(low), abs(high)))
@@ -448,7 +448,7 @@ def exact_constraint(
     return found
 
 
-# ----------------------------------------- monomials of counts: columns of values, exact as quotients of whole numbers
+# ----------------------------------------------- monomials of counts: columns of values, exact as quotients of integers
 
 
 class MonomialColumns(PartialAssignments):
@@ -524,7 +524,8 @@ class CombinationColumns(MonomialColumns):
                 if side is None:
                     sides[power > 0] = self._counts[wheel].astype(np.float64)
                 else:
-                    side *= self._counts[wheel]  # in place: new arrays cost more than what is done with them
+                    # in place, because allocating arrays costs more than the multiplication
+                    side *= self._counts[wheel]
         bottom, top = sides
         top = np.ones(()) if top is None else top
         return top if bottom is None else np.divide(top, bottom, out=bottom)

@@ -84,7 +84,7 @@ def run(
     to, drawing = sink(out, force, FORMS), picture_sink(plot, force, theme)
     check_distinct_outputs(to, drawing)
     if to.suffix == ".parquet" and to.path is not None:
-        ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it
+        ColumnTable(to.path, {}, force)  # reports a missing library before the work
     train = read_declaration(file)
     requested: dict[str, Any] = {
         "state": state,

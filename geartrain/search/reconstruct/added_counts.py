@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 from geartrain.search.reconstruct.train_topology import AddedWheels, CountLimit, Dials, Quotients
 from geartrain.search.weighted_alternatives import draw_index, sums_by
 
-# How many choices of added wheels' counts have a wanted quotient of products. With drivers y and driven wheels x,
-# prod y / prod x = num / den in lowest terms holds exactly where prod y = num m and prod x = den m for a whole m.
-# So the number of choices is the sum over m of P(num m) R(den m), where P(n) is the number of choices of drivers
-# with the product n, and R that of driven wheels.
+# Number of choices of added tooth counts with a given quotient of products. For drivers y and driven wheels x, prod y /
+# prod x = num / den in lowest terms if and only if prod y = num m and prod x = den m for an integer m. The number of
+# choices is therefore the sum over m of P(num m) R(den m), where P(n) is the number of choices of drivers with product
+# n, and R the same for driven wheels.
 
 
 Range = tuple[int, int]
@@ -59,7 +59,7 @@ def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) 
     if last < first:
         return 0
     if drivers <= 1 and driven <= 1:
-        # 1 is the only product of no wheels
+        # the empty product is 1
         return last - first + 1 if drivers and driven else int(first <= 1 <= last)
     if maximum ** max(drivers, driven) <= _LONGEST:
         above = product_tally(drivers, counts)[first * num : last * num + 1 : num]
@@ -124,7 +124,7 @@ class QuotientTable:
         common = np.gcd(tops, bottoms)
         pairs, at = np.unique(np.stack([tops // common, bottoms // common]), axis=1, return_inverse=True)
         number = sums_by(at.ravel(), choices, pairs.shape[1])
-        # two of them differ by more than rounding: their denominators are short
+        # floats distinguish all quotients, because their denominators are small
         values = pairs[0] / pairs[1]
         order = np.argsort(values)
         return QuotientTable(pairs[0][order], pairs[1][order], number[order], values[order])
@@ -302,10 +302,10 @@ class AddedCounts:
         private = next((at for at in alone if len(groups[at][0]) == 1), None)
         if private is not None:
             return private, alone[private], True
-        if alone:  # all that a group may have is what every dial allows that it alone still turns
+        if alone:  # its quotient must satisfy all dials that depend on no other group
             at = min(alone, key=lambda each: (groups[each][1] + groups[each][2], each))
             return at, alone[at], False
-        # so that soon a dial has one group left; it may be that none is left that asks
+        # eliminate a group of the dial with the fewest groups, so that this dial soon has only one left
         at = min(tried)[-1] if tried else 0
         return at, (Fraction(0), _BOUNDLESS), False
 
@@ -357,8 +357,8 @@ def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
     )
 
 
-# In how many choices of the added wheels' counts a wheel has a count, and choices drawn with equal chances. Wheels
-# of one kind may be exchanged in any choice, so that each of them has a count equally often.
+# Number of choices in which a wheel has a given tooth count, and uniform random choices. Wheels of one kind are
+# interchangeable, so each of them has a given count equally often.
 
 
 _FEW = 2000
@@ -474,7 +474,7 @@ class AddedCountSums:
         for counts, idle in self._counts.assignments(requested.added, requested.wanted):
             wheels = {kind: counts[kind.dials][not kind.drives] if kind.dials else idle for kind in kinds}
             for kind, own in wheels.items():
-                found.of_kind[kind][own[0]] += 1  # the first stands for each
+                found.of_kind[kind][own[0]] += 1  # by symmetry the first wheel represents all of its kind
             found.with_any.update({count for own in wheels.values() for count in own})
         return found
 

@@ -27,7 +27,7 @@ from geartrain.search.reconstruct.train_topology import (
 )
 from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives
 
-# What meshes with a ring: wheels with fewer teeth that are no rings. So an order of arbors may limit added counts.
+# A ring meshes only with external wheels of fewer teeth. The order of arbors may therefore limit added tooth counts.
 
 
 Rings = frozenset[str]
@@ -98,7 +98,7 @@ def _meshes(arbor: Arbor) -> Iterator[tuple[PlacedWheel, PlacedWheel]]:
         yield from _meshes(child)
 
 
-# The orders in which the arbors of a topology may stand, and the trains that they and the counts make.
+# Orders of the arbors of a topology, and the trains that result from orders and tooth counts.
 
 
 _Step = tuple[str | None, ArborPass]
@@ -276,9 +276,9 @@ class _Assembly:
         return below
 
 
-# Dynamic programming over the subsets of a chain's arbors: what holds in how many orders, and orders drawn. From the
-# driving wheel on, a chain goes on with one of the arbors that are left. What follows depends on which those are and
-# on the wheel that drives alone, not on how it came to that, so that orders are summed and not listed.
+# Dynamic programming over subsets of the arbors of a chain: marginals over orders, and random orders. From the driving
+# wheel on, a chain continues with one of the remaining arbors. The continuations depend only on the set of remaining
+# arbors and on the driving wheel, so orders are summed without being enumerated.
 
 
 _NamedDriving = tuple[TopologyArbor, TopologyWheel]
@@ -395,7 +395,7 @@ class _Orders:
     ) -> Iterator[Alternative[Hashable]]:
         """Yield each distribution of the pairs that must mesh over parallel chains."""
         known = sorted(pairs, key=sorted)
-        # a pair may mesh only where both of its wheels are: on a chain, below it, or driving it
+        # a pair can mesh only if both wheels are on the chain, in its subtree, or driving it
         inside = [chain.surviving_wheels | {driving[1].name} for driving, chain in hung]
         able = [[at for at, wheels in enumerate(inside) if pair <= wheels] for pair in known]
         for owners in product(*able):

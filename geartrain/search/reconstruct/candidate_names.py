@@ -11,12 +11,12 @@ from geartrain.search.reconstruct.added_counts import AddedKind
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Dials, Topology
 
-# A candidate in which every arbor and wheel has a name, in an order that does not depend on counts. Branches stand
-# in the order of the first pointer to which each leads. An added arbor is called after the first pointer that it
-# shows, as `new_sun`, else `new1`, `new2`, ...; its wheels are `new_sun1`, or `new1_1`, the driven one first. On a
-# surviving arbor `m` they are `m_new1`, `m_new2`, ...: a name such as `m3` would be that of another wheel wherever
-# the literature has one. So wheels that play the same part in different candidates have one name, whatever their
-# counts.
+# Canonical names of the arbors and wheels of a candidate, in an order that does not depend on tooth counts: branches
+# are sorted by the first pointer to which each leads. An added arbor is named after the first pointer that it shows,
+# such as `new_sun`, else `new1`, `new2`, ...; its wheels are `new_sun1` or `new1_1`, the driven wheel first. Added
+# wheels on a surviving arbor `m` are `m_new1`, `m_new2`, ..., because a name such as `m3` would be confused with
+# another wheel in the literature. Wheels with the same function in different candidates therefore have the same name,
+# whatever their counts.
 
 
 _ADDED = "new"
@@ -163,8 +163,8 @@ class _Naming:
         return NamedWheel(self.free.wheel(link, arbor.name is not None), wheel.teeth, True)
 
 
-# A topology in which every arbor and wheel has the name that it has in all of its trains. Added arbors of a chain
-# are named by their place on it, so that names do not depend on the order of the others.
+# Names of the arbors and wheels of a topology, which are valid in all of its trains. Added arbors of a chain are named
+# by their position, so that their names do not depend on the order of the other arbors.
 
 
 class TopologyWheel(NamedTuple):

@@ -238,7 +238,7 @@ def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
     return frozenset((one, other))
 
 
-# The question that would take a candidate: with each rule that it breaks taken back.
+# The question that admits a candidate: all rules that it breaks are removed.
 
 
 def admitting_question(problem: ReconstructionProblem, broken: Iterable[BrokenRule]) -> ReconstructionProblem:
@@ -322,7 +322,7 @@ def _read(wheel: SurvivingWheel, broken: BrokenRule) -> SurvivingWheel:
     return replace(wheel, counts=((int(teeth), Fraction(1)),))
 
 
-# ---------------------------------------------------------- a given train as a candidate, in the names of the question
+# ----------------------------------------------------------- a given train as a candidate, in the names of the question
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,7 @@ def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool,
         found = search(problem)
     except QuestionError as error:
         return [], False, error.problems[0].what
-    if not found.complete:  # the search tells what it has when it is stopped
+    if not found.complete:  # an interrupted search returns a partial result
         raise KeyboardInterrupt
     return [count.mechanisms for count in found.counts], True, None
 
@@ -170,7 +170,7 @@ def _but(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[Searc
     return tuple(dial for dial in dials if dial != left_out)
 
 
-# Why nothing explains the evidence: dials that fail alone, and the single things whose doubt would mend it.
+# Reasons why nothing explains the evidence: dials that fail without the others, and single changes that would help.
 
 
 MISREAD = 3

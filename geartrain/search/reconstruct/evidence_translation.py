@@ -37,7 +37,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 from geartrain.train import Output, Teeth, Train, Wheel
 from geartrain.train.reconstruction import NEW_ARBOR, AddedParts
 
-# The speeds that a pointer may have, by all that is declared of its output.
+# Range of the speed of a pointer, from all declarations of its output.
 
 
 Limits = tuple[Fraction, Fraction]
@@ -269,12 +269,13 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
 
 
 def _additions(add: AddedParts, wheels: int | None) -> Additions:
-    minimum, maximum = add.teeth or (1, 1)  # where none are added, it does not matter
+    minimum, maximum = add.teeth or (1, 1)  # the limits do not matter if nothing is added
     return Additions(add.wheels if wheels is None else wheels, minimum, maximum, add.arbors, add.on)
 
 
 def _arbor(evidence: Train, link: str) -> SurvivingArbor:
-    wheels = evidence.links[link].wheels if link in evidence.links else {}  # a frame need not be listed
+    # the frame need not be listed among the links
+    wheels = evidence.links[link].wheels if link in evidence.links else {}
     return SurvivingArbor(
         link, tuple(SurvivingWheel(name, _counts(wheel), wheel.internal) for name, wheel in wheels.items())
     )
@@ -288,7 +289,7 @@ def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> It
     if base.name != evidence.frame:
         on_axis.setdefault(carrier_axis(evidence, base.name) or "", set()).add(base.source)
     for links in on_axis.values():
-        # what bears the others is on none; with a carrier, the frame is where the train begins there
+        # the base is on no axis; on a carrier the frame is the first arbor of the train
         links -= {base.name, evidence.frame} - {base.source}
         yield from map(frozenset, combinations(sorted(links), 2))
     for one, other in combinations(geometry.arbors, 2):
@@ -308,7 +309,7 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
     return tuple(chances.items())
 
 
-# what cannot be asked
+# declarations that are not supported
 
 
 def _not_taken_up(evidence: Train) -> Iterator[Problem]:

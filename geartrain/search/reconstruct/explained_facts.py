@@ -222,7 +222,7 @@ class ExplainedFacts:
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
         rest = frozenset(range(len(self._weighed.trains))).difference(*parts)
         found = frozenset([*parts, *([rest] if rest else [])])
-        if len(found) < len(one.answers):  # those that are listed do not show how it divides all
+        if len(found) < len(one.answers):  # the listed trains do not show the whole partition
             return fact
         return found, frozenset((answer.share, answer.mechanisms) for answer in one.answers)
 
@@ -278,7 +278,7 @@ def _natural(answer: str) -> tuple[int, str]:
     return (int(answer), "") if answer.isdigit() else (1 << 62, answer)
 
 
-# What all trains of a question say of single facts: weights and numbers, summed exactly without listing a train.
+# Marginals of facts over all trains of a question: exact sums of weights and numbers, without enumeration of trains.
 
 
 MOST_SUMMED = 20_000_000
@@ -338,11 +338,11 @@ def _of_mesh(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
         yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
 
 
-# ----------------------------------------------------------------------------------------------------- the family tree
+# ------------------------------------------------------------------------------------------------------ the family tree
 
 
-# Candidates as a family tree: a trie over their meshes, from the input along the path to each pointer in turn.
-# Counts part candidates last: a branch is a structure, and the trains at its end differ by their counts alone.
+# Family tree of the candidates: a trie over their meshes, from the input along the path to each pointer in turn.
+# Branches are topologies; the trains at the end of a branch differ only in their tooth counts.
 
 
 @dataclass(frozen=True, slots=True)
@@ -446,7 +446,7 @@ def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
     return {name: counts[name] for name in names}
 
 
-# -------------------------------------------------------------------------------------------------------- all findings
+# --------------------------------------------------------------------------------------------------------- all findings
 
 
 @dataclass(frozen=True, slots=True)

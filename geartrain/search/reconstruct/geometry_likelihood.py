@@ -22,11 +22,11 @@ from typing import NamedTuple
 
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, SurvivingGeometry
 
-# Whether arbors without a known place can stand where their meshes need them, between arbors that have one. Between
-# two placed arbors every chain of arbors without a place is a polygon: its sides are the distance of the two and
-# those of the meshes, each within bounds. It can be closed in the plane if and only if no side must be longer than
-# all others may be together. Each chain is looked at alone: where three meet, more may be impossible than is found
-# here.
+# Feasibility of the positions of arbors without known position, between arbors with known positions. A chain of such
+# arbors between two known ones is a polygon, whose sides are the distance of the two and the axis distances of the
+# meshes, each within bounds. The polygon can be closed in the plane if and only if no side must be longer than the sum
+# of the maxima of the others. Each chain is tested separately, so this condition is necessary but not sufficient where
+# three chains meet.
 
 
 Sides = tuple[tuple[float, float], ...]
@@ -34,7 +34,7 @@ Sides = tuple[tuple[float, float], ...]
 
 _Chain = tuple[str, Sides]
 """Arbor with a known position at which a chain ends, and the axis distances of its meshes."""
-_ROUNDING = 1e-9  # of a length: what floats may be off
+_ROUNDING = 1e-9  # relative rounding error of a length
 
 
 def chains_close(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
@@ -83,12 +83,12 @@ def _side(wheel: PlacedWheel, child: Arbor, geometry: SurvivingGeometry) -> tupl
     return (0.0, math.inf) if bounds is None else (float(bounds[0]), float(bounds[1]))
 
 
-# Dynamic programming over bit masks: whether the wheels of a candidate can be stacked in layers so that no wheel
-# goes through an arbor. Wheels that mesh are in one layer. A wheel whose pitch circle holds the axis of another
-# arbor must lie above or below all wheels of that arbor: the stretch between them is the arbor itself. Layers are
-# put on each other from below; what may come next depends on which are there already, not on their order, so every
-# set of layers is looked at once. Bearings and what runs out to a dial are not looked at, nor arbors without a
-# place; arbors on one axis pass through each other.
+# Dynamic programming over subsets (bit masks): can the wheels of a candidate be stacked in layers so that no wheel
+# intersects an arbor? Wheels that mesh are in one layer. A wheel whose pitch circle contains the axis of another arbor
+# must be above or below all wheels of that arbor, because the arbor extends between them. Layers are stacked from
+# below. The permitted next layers depend only on the set of layers already stacked, not on their order, so each set is
+# visited once. Bearings, extensions of arbors to dials, and arbors without a known position are ignored; arbors on one
+# axis may be nested.
 
 
 _MOST_LAYERS = 16
@@ -104,7 +104,7 @@ def layers_exist(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
     if geometry.reach is None:
         return True
     layers = list(_layers(arbor, geometry))
-    # wheels that mesh reach each other, which is looked at elsewhere, and so overlap no more than may be misfit
+    # wheels that mesh are tested elsewhere, and overlap only within the permitted misfit
     if any(_overlap(one, other, geometry) for layer in layers for one, other in combinations(layer, 2)):
         return False
     of_arbor = {name: _layers_of(name, layers) for layer in layers for name, _ in layer if name in geometry.places}
@@ -200,7 +200,7 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
     return math.exp(max(-(modules + distances) / 2, _MINIMUM))
 
 
-_MINIMUM = -700.0  # its exponential is still above 0, which alone says impossible
+_MINIMUM = -700.0  # exp(-700) is still positive; only an impossible candidate has likelihood 0
 _End = tuple[str | None, tuple[str | None, int]]
 """Arbor, and name and tooth count of a wheel on it."""
 
@@ -244,7 +244,7 @@ class _Modules:
 
     def misfit(self, arbor: Arbor) -> float:
         """Return the minimum misfit of all meshes in the subtree of an arbor."""
-        # wheels that a driven wheel drives belong to the mesh in which it is driven, and are counted there
+        # wheels driven by an idler share the mesh in which it is driven, and are counted there
         own = sum(self._around(wheel, children).misfit for wheel, children in arbor.drives)
         return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 

@@ -37,7 +37,7 @@ from geartrain.search.reconstruct.reconstruction_search import (
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
-# Which facts single one train out among all that explain the evidence: each alone, and the smallest sets of them.
+# Facts that distinguish one train from all other explanations: single facts, and the smallest sets of facts.
 
 
 MAXIMUM, MINIMUM = "maximum", "minimum"

@@ -12,9 +12,9 @@ from geartrain.numerics.graphs import joined_groups
 from geartrain.search.reconstruct.reconstruction_problem import PlacedArbor, ReconstructionProblem, SurvivingArbor
 from geartrain.train import Train
 
-# The link that bears the arbors of a train, and the one at which the train begins: the frame and the input. Or a
-# carrier of known speed. Seen from it every mesh is one of fixed axes, and the frame turns: so the frame, with the
-# wheels that are fixed to it, is where the train begins, or else a link that is driven besides the carrier.
+# The link that carries the arbors, and the link at which the train begins: the frame and the input, or a carrier of
+# known speed. Relative to the carrier every mesh has fixed axes, and the frame turns. The train then begins at the
+# frame with its fixed wheels, or at a link that is driven besides the carrier.
 
 
 _ONLY = "seen from its carrier a train begins at one link, which is the frame unless another is driven"
@@ -179,9 +179,9 @@ def _not_with_a_carrier(evidence: Train) -> Iterator[Problem]:
         yield Problem(what, "axes on a carrier move", fix, evidence.place("reconstruct", "geometry"))
 
 
-# Arbors that a given coupling joins: they turn as one on average, and are one arbor in the question. The one that
-# they become has the wheels and pointers of all. Each wheel stays on its own arbor when a candidate is written;
-# what is added is written on the first of them.
+# Arbors that a given coupling joins: they have the same mean speed, and are one arbor in the question, with the wheels
+# and pointers of all. When a candidate is written, each wheel remains on its own link, and added wheels are on the
+# first link.
 
 
 Joined = Mapping[str, tuple[str, ...]]
@@ -244,7 +244,7 @@ def join_arbors(problem: ReconstructionProblem, joined: Joined) -> Reconstructio
     )
 
 
-# what cannot be joined
+# links that cannot be joined
 
 
 def coupling_problems(evidence: Train) -> Iterator[Problem]:

@@ -27,7 +27,7 @@ from geartrain.search.reconstruct.quotient_keys import QuotientKeys
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
 
-# Tours of the ends of a train: from the input past the dials and back, each added wheel is passed twice.
+# Tours of the ends of a train, from the input past the dials and back: each added wheel is passed twice.
 
 
 EndPair = tuple[str, str]
@@ -75,7 +75,7 @@ def _orders(number: int) -> tuple[NDArray[np.int64], NDArray[np.int64], tuple[tu
     return whole[:, :-1] * number + whole[:, 1:], first, pairs
 
 
-# What of the paths in a list is compared with a path to another dial, in columns: fast for many paths at once.
+# Columns of a path list that are compared with a path to another dial, as arrays for speed.
 
 
 _NEVER = 100
@@ -126,7 +126,7 @@ class PathColumns:
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)
         mine, theirs = self.paths.arbors[rows], other.paths.arbors[row]
-        for cluster in self._clusters:  # all paths to it lead through the arbor that is above all others of it
+        for cluster in self._clusters:  # all paths to a component pass through its topmost arbor
             good &= (both & cluster != 0) | (mine & cluster == 0) | (theirs & cluster == 0)
         parted = np.zeros(len(rows), dtype=np.int8)
         one = isinstance(row, int)
@@ -260,7 +260,7 @@ class PathChoice:
             [rows[good] for rows, good in zip(others, more, strict=True)],
         )
 
-    # with what it begins
+    # first choices
 
     def _from_short(self, most: int, lists: dict[str, _Near], share: _Share) -> Iterator[Choice]:
         """Yield all choices with a path of at most `most` added wheels, beginning with the path of the fewest."""
@@ -308,7 +308,7 @@ class PathChoice:
             if len(near.rows):
                 yield from self._with(one, row, _Chosen(), {other: near, **rest}, minimum, None, {other: near})
 
-    # choice after choice
+    # further choices
 
     def _with(
         self,
@@ -395,7 +395,7 @@ class PathChoice:
             bounds = np.flatnonzero(np.diff(at, prepend=-1, append=-1))
             yield from ((int(at[low]), to[low:high]) for low, high in pairwise(bounds.tolist()))
 
-    # how ends go together
+    # compatibility of ends
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> NDArray[np.bool_]:
         """Test which paths form a tree with two others: of three paths, two separate from the third together."""
@@ -418,9 +418,9 @@ class PathChoice:
             (low, high), (minimum, maximum) = first.bounds, second.bounds
             with np.errstate(divide="ignore"):
                 fewest = second.ranges.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
-        # wheels that are shared are on both
+        # shared wheels are on both paths, so the distance has the parity of the sum
         far = fewest + (wheels + own - fewest) % 2
-        if self._idlers:  # where two paths part at an added wheel that one passes, its count matters to the other alone
+        if self._idlers:  # the count of an added idler at which paths separate affects only one of them
             passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
         return np.asarray(far, dtype=np.int8)
@@ -437,7 +437,7 @@ class PathChoice:
         ends = ends[: _MOST_ENDS + 1]
         return shortest_tour(len(ends), distances(ends, far)) <= 2 * self._added
 
-    # what must be used
+    # surviving wheels that must be used
 
     def _missing(self, paths: Mapping[str, int]) -> int:
         """Return the bit mask of what must be used and is on none of the paths."""

@@ -28,10 +28,10 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 )
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, arbor_passes
 
-# Meshes that were seen, as what they leave of the ways of a path through arbors. Arbors that seen meshes hold
-# together are a cluster, a part of the tree: one of them is above all others of it, which is the input where that
-# is among them. Of two wheels in mesh one drives the other, and its arbor is the parent. A path has the parents of
-# all its arbors. So the arbors of a cluster that are on it stand in a row, and it leads over their meshes.
+# Restrictions of the passes of a path by known meshes. A connected component of arbors under known meshes is a subtree:
+# one arbor is above all others of it, and it is the input if that belongs to the component. One of two meshing wheels
+# drives the other, and its arbor is the parent. A path contains the parents of all its arbors, so the arbors of a
+# component on it are consecutive, and the path uses their known meshes.
 
 
 _Fits = NDArray[np.bool_]
@@ -103,7 +103,7 @@ class SeenMeshes:
         found = np.ones(len(codes), dtype=bool)
         for other, fits in self._fits[at]:
             found &= fits[code][codes[:, other]]
-            if code:  # in a row: where its mate is not on the path, no other of the cluster is
+            if code:  # consecutive: if its mate is not on the path, no other arbor of the component is
                 found &= (codes[:, other] > 0) | ~(codes[:, list(self._before[at])] > 0).any(axis=1)
         return found
 
@@ -127,7 +127,7 @@ def _is(wheel: PlacedWheel | None, name: str) -> bool:
     return wheel is not None and wheel.name == name
 
 
-# Paths through more and more surviving arbors, millions at a time, as columns of arrays.
+# Partial paths through surviving arbors as columns of arrays, millions at a time.
 
 
 @dataclass(frozen=True)
@@ -314,7 +314,7 @@ class PathList:
     def _passes(self, at: int) -> Iterator[ArborPass]:
         problem = self.problem
         arbor = (problem.input, *problem.arbors)[at]
-        # those that end come last: so the others have the same codes in the lists of all dials
+        # passes that end come last, so that the others have the same codes in the lists of all dials
         for each in sorted(arbor_passes(arbor, problem), key=lambda each: each.driver is None):
             if each.driver is None and self.dial.place not in (None, arbor.name):
                 continue
@@ -322,7 +322,7 @@ class PathList:
                 continue
             yield each
 
-    # growth, arbor by arbor
+    # extension by one arbor at a time
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
         """Return the paths through all arbors, and a matrix of the plans of added arbors that are possible for each."""
@@ -387,7 +387,7 @@ class PathList:
         ratio = Fraction(_sure(each.driven), _sure(each.driver))
         return np.uint64(self.keys.key(ratio)), self._powers(ratio)
 
-    # primes of which an added wheel holds one at most
+    # large primes: an added tooth count contains at most one of them
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
@@ -429,7 +429,7 @@ class PathList:
     def _wanted_powers(self) -> NDArray[np.int8]:
         return self._powers(self._wanted)
 
-    # which added arbors may be on a path
+    # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
         """Return a matrix of whether each plan of added arbors is possible on each path."""
@@ -478,7 +478,7 @@ class PathList:
                 found[rows] = self.ranges.may_hold(self._bounds(growth.codes[rows], turned[rows]), drivers, driven)
         return found
 
-    # a path's speed
+    # speed of a path
 
     @cached_property
     def bounds(self) -> Bounds:

@@ -16,7 +16,7 @@ from geartrain.search.reconstruct.path_lists import PathList
 from geartrain.search.reconstruct.reconstruction_problem import PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Dials, Topology
 
-# How an arbor at which paths part shares out its dials: which it shows, and which each of its wheels leads to.
+# Partitions of the dials of a branching: which dials it shows, and to which its wheels lead.
 
 
 HERE = "="
@@ -166,7 +166,7 @@ class PathTrees:
         arbors, compounds, idlers, wheels = (int(each[row]) for each in figures)
         return DialPath(arbors, passes, compounds, idlers, wheels, bool(paths.ends_new[row]))
 
-    # what hangs from a driving wheel
+    # subtrees of a driving wheel
 
     def _forest(self, paths: Paths, left: _Left, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
         """Yield sets of chains that lead to some dials; dials with a common surviving arbor share a chain."""
@@ -275,7 +275,7 @@ class PathTrees:
         if path.ends_new or end.name is not None:
             yield Chain((dial,), tuple(through), path.compounds, path.idlers, end), after
 
-    # arbors at which paths end or part
+    # arbors at which paths end or separate
 
     def _branching(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
         """Yield branchings at a surviving arbor that shows dials or has several exits, or at the input arbor."""

@@ -95,7 +95,7 @@ class QuotientKeys:
         if len(keys) > len(others):
             more, some = self.agreeing(others, keys, wheels)
             return some, more
-        reached = np.add.outer(keys, few)  # with a quotient its inverse is one
+        reached = np.add.outer(keys, few)  # the set of quotients is closed under inversion
         return np.asarray(_are_in(_unique(others), reached).any(axis=1)), _are_in(_unique(reached), others)
 
     def few(self, wheels: int) -> Keys | None:
@@ -158,7 +158,7 @@ def prime_powers(number: int) -> tuple[tuple[int, int], ...]:
     return tuple(found)
 
 
-# Quotients of few added wheels within bounds: what dials with a tolerance leave to be added, for many at once.
+# Quotients of few added wheels within bounds, for many paths to dials with a tolerance at once.
 
 
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -168,7 +168,7 @@ _LISTED = 2
 """Maximum number of added wheels whose quotients are all tabulated."""
 _WIDEST = 2000
 """Maximum number of possible tooth counts for which the quotients of two wheels are tabulated."""
-_ROUNDING = 1e-12  # of a quotient: what floats may be off
+_ROUNDING = 1e-12  # relative rounding error of a quotient
 
 
 class QuotientRanges:

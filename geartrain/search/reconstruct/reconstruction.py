@@ -317,7 +317,7 @@ def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Rec
 
     def search(requested: ReconstructionProblem) -> Reconstructions:
         answer = find_reconstructions(requested, execution, listed=0)
-        if not answer.complete:  # the search returns what it has when it is stopped
+        if not answer.complete:  # an interrupted search returns a partial result
             raise KeyboardInterrupt
         return answer
 

@@ -352,7 +352,7 @@ class Arbor:
         return sum(arbor.name is None for arbor in self.arbors())
 
 
-# --------------------------------------------------------------------------------------------------- how much is asked
+# --------------------------------------------------------------------------------------------------- size of a question
 
 
 @dataclass(frozen=True, slots=True)
@@ -415,7 +415,7 @@ def _plain(value: object) -> object:
     return str(value) if isinstance(value, Fraction) else value
 
 
-# ---------------------------------------------------- geometry: from declared modules, radii and axes to what survives
+# -------------------------------- geometry: conversion of declared modules, radii and axes to measurements of survivors
 
 
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:

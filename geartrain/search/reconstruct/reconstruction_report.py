@@ -335,7 +335,7 @@ def _cost(changes: str, admitted: AdmittingQuestion) -> str:
     )
 
 
-# ----------------------------------------------- what candidates share and where they part, the next fact, assumptions
+# ---------------------------------------- facts common to all candidates, facts that differ, the next fact, assumptions
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
@@ -527,7 +527,7 @@ def _scene(text: str, rank: int, turning: int) -> str:
     return SceneText(text, rank) if rank <= turning else text
 
 
-# --------------------------------------------------------------------------------------------------------------- words
+# -------------------------------------------------------------------------------------------------------------- formats
 
 
 def share_text(share: float) -> str:

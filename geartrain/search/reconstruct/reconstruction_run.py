@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
     from geartrain.search.reconstruct.search_tasks import ExpectedCost
 
-_LARGE = 15  # decimal logarithm of choices of counts above which their number is printed first
+_LARGE = 15  # decimal logarithm of the number of choices of tooth counts above which it is printed
 _STEPS = 1000
 """Number of steps of a progress bar."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
@@ -54,7 +54,8 @@ class CommandRun(ReconstructionRun):
     @contextmanager
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
         """Yield an executor whose journal is kept until all searches are complete."""
-        requested = {"question": question_digest(problem)}  # how much is listed, and per what, changes no task
+        # tasks do not depend on the listing or on the unit of the prior
+        requested = {"question": question_digest(problem)}
         with long_run("reconstruct", requested, self._folder, self._options) as given:
             self._journal = given.journal
             yield _weighted(given, problem, cost)

@@ -180,7 +180,7 @@ def _weight_classes(
 
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
     mechanisms = sum(each.mechanisms for each in topologies)
-    # the order of arbors changes neither, but where a ring limits counts in some orders
+    # the order of arbors changes neither key, unless a ring limits counts in some orders
     maximum = problem.additions.maximum
     told = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
     if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
@@ -357,7 +357,7 @@ def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[
     return found
 
 
-# ------------------------------------------ equality: of mechanisms, up to the order of arbors, up to what drives what
+# -------------------------------------- equality: of trains, up to the order of arbors, up to driving and driven wheels
 
 
 def mechanism(arbor: Arbor) -> tuple[object, ...]:

@@ -63,9 +63,9 @@ _LONGEST = 100 * _YEAR
 _GOLDEN = (5**0.5 - 1) / 2
 """Golden ratio conjugate. The fractional parts of its multiples are evenly distributed, and select the timed parts."""
 
-# All trains of a topology as orders times choices of counts: what holds in how many of them, and trains drawn.
-# Orders and counts are independent but where rings limit counts in some orders. Then orders are parted by the
-# limits, and are independent of the counts in each part.
+# The trains of a topology as a product of orders and choices of tooth counts: marginals and random draws. Orders and
+# counts are independent unless rings limit counts in some orders. Orders are then partitioned by these limits, and are
+# independent of the counts in each part.
 
 
 class OrderPart(NamedTuple):
@@ -188,8 +188,8 @@ def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
     return Arbor(arbor.name, driven, arbor.dials, tuple(drives), passes)
 
 
-# Every topology that may explain the dials, with its number of choices of added counts. Paths are chosen for all
-# dials, and put together to trees.
+# All topologies that can explain the dials, with their numbers of choices of added counts. Paths are chosen for all
+# dials and combined to trees.
 
 
 class TopologySearch:
@@ -225,7 +225,7 @@ class TopologySearch:
                     yield topology, choices
 
 
-# The search of topologies in independent parts: each finds and counts some of them, in whichever process.
+# Independent parts of the search for topologies, which any process can run.
 
 
 @dataclass(frozen=True)
@@ -413,7 +413,7 @@ def _sampled(problem: ReconstructionProblem, added: int) -> tuple[int, float]:
     """Return the number of parts of which one was timed, and the extrapolated total time [s]."""
     parts, whole = 0, 0.0
     for parts, samples in _SAMPLES.items():
-        # a part that is none: what every part has to do before it comes to what is its own
+        # an index outside the range gives an empty part, which measures the fixed cost of every part
         alone = timed_part(TopologyTask(problem, added, parts, parts))
         chosen = (int(_GOLDEN * number % 1 * parts) for number in range(1, samples + 1))
         own = sum(timed_part(TopologyTask(problem, added, part, parts)) - alone for part in chosen)

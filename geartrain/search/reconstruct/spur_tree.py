@@ -23,7 +23,7 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWhe
 from geartrain.train import Train, declare
 from geartrain.train.reconstruction import NEW_ARBOR
 
-# From the arbor that drives along meshes of spur wheels: how every other arbor is driven.
+# Driving mesh of every arbor, along meshes of spur wheels from the input.
 
 
 _ALONG = (0, 0, 1)
@@ -216,10 +216,10 @@ class SpurTree:
         )
 
 
-# The parts of a train that a reconstruction can find, each a tree of arbors on the frame or on one carrier. The
-# first part begins at the input, on the frame. Where what bears the arbors changes, another begins: on a carrier at
-# the wheels of the frame, or at an arbor of an earlier part, whose speed is then known. So on the frame behind a
-# carrier.
+# Parts of a train that a reconstruction can find, each a tree of arbors on the frame or on one carrier. The first part
+# begins at the input, on the frame. Another part begins where the link that carries the arbors changes: on a carrier at
+# the wheels of the frame, or at an arbor of an earlier part, whose speed is then known. The same applies on the frame
+# behind a carrier.
 
 
 def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
@@ -236,7 +236,7 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
     found = tuple(parts.trees())
     every = [teeth for tree in found for teeth in tree.counts.values()]
     if found:
-        # few wheels of a small part would say too much of those that are lost
+        # the range of the few wheels of a small part would restrict the lost counts too much
         return found[0], *(replace(tree, teeth=(min(every), max(every))) for tree in found[1:])
     what = f"no pointer of '{train.name}' is reached by spur wheels on the frame or on a carrier"
     obstacles = _joined(list(_obstacles(train)))
@@ -310,7 +310,7 @@ class _Parts:
                 known |= dict.fromkeys([begun.name, *(link for one in tree.arbors for link in tree.links_of(one))])
                 yield tree
 
-    # what meshes on what
+    # meshes on each base
 
     @cached_property
     def _bases(self) -> dict[str, _Base]:
@@ -346,7 +346,7 @@ class _Parts:
         mates = ((arbor, *(self._arbor(base, each.other) for each in own)) for arbor, own in meshes.items())
         yield from map(set, joined_groups(meshes, mates))
 
-    # where a part begins
+    # first arbor of a part
 
     def _begun(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
         """Return the base and first arbor of a part, or None if no arbor with a known speed is in it."""
@@ -382,7 +382,8 @@ class _Parts:
         outputs = [(name, self._stands_for(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
         pointers = {name: arbor for name, arbor, wanted in outputs if arbor in driven and wanted}
         named = {arbor: name for name, arbor, _ in reversed(outputs)}
-        for arbor in reversed(list(driven)):  # what leads to no pointer is left out; a known speed makes one
+        # arbors without a pointer below are dropped; a known speed makes a pointer
+        for arbor in reversed(list(driven)):
             if arbor in pointers.values() or any(mesh.parent == arbor for mesh in driven.values()):
                 continue
             if arbor in named:
@@ -434,7 +435,7 @@ def _renamed(tree: SpurTree) -> SpurTree:
     return replace(tree, base=base, driven=driven, joined=joined, pointers=pointers)
 
 
-# what is in no part
+# links that belong to no part
 
 
 def why_not(train: Train, link: str) -> str:
@@ -473,7 +474,7 @@ def _joined(parts: Sequence[str]) -> str:
     return ", ".join(parts[:-1]) + " and " + parts[-1] if len(parts) > 1 else "".join(parts)
 
 
-# ------------------------------------------------------------------ evidence of such a part without some of its arbors
+# ------------------------------------------------------------------------ evidence of a part without some of its arbors
 
 
 def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Train:

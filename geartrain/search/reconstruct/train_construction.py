@@ -18,7 +18,7 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, Surviving
 from geartrain.train import Train, declare
 from geartrain.train.yaml_nodes import as_yaml
 
-# One module for wheels in mesh, from what was measured on each of them, so that a candidate can be built and drawn.
+# One module for wheels that mesh, from all their measurements, so that a candidate can be built and drawn.
 
 
 def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, float | None]:

@@ -21,7 +21,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingWheel,
 )
 
-# How the path to a dial may lead through a surviving arbor: which of its wheels is driven and which one drives.
+# Passes of a path through a surviving arbor: its driven and its driving wheel.
 
 
 ADDED = PlacedWheel(None, 0)
@@ -96,7 +96,7 @@ def readings(wheel: SurvivingWheel) -> Iterator[PlacedWheel]:
         yield PlacedWheel(wheel.name, teeth)
 
 
-# A train whose added wheels have no counts yet, and whose arbors stand in any order between two branchings.
+# A train without tooth counts of added wheels, whose arbors have any order between two branchings.
 
 
 Dials = tuple[str, ...]
@@ -266,7 +266,7 @@ def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Co
         drivers[_led_to(chains)] += wheel == ADDED
     if end.driven != ADDED:
         return 0
-    past = set(_led_to(end.passes))  # what an idler drives does not know its count
+    past = set(_led_to(end.passes))  # the speeds of dials driven by an idler do not depend on its count
     turned = tuple(dial for dial in dials if dial not in past)
     driven[turned] += bool(turned)
     return not turned
@@ -280,7 +280,7 @@ def _both(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
     return each.driven, each.driver
 
 
-# as plain data, to cross between processes and to be kept
+# plain data, for transfer between processes and for journals
 
 
 def plain_topology(topology: Topology) -> list[Any]:

@@ -176,7 +176,7 @@ def infer_counts(
         chosen,
         soft,
         question.combinations,
-        found.looked,
+        found.examined,
         found.evidence,
         found.turning,
         found.fits,
@@ -237,7 +237,7 @@ def _find(
             # an interrupted exact join has no partial result: a short sample is returned instead, without a journal,
             # because the exact join would begin again
             found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
-            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.looked),))
+            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.examined),))
         except BudgetSpentError:
             if method is not None:
                 fix = "raise the limit, narrow the doubts, or let it sample"

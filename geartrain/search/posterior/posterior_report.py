@@ -69,12 +69,12 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
 
 def _summary(found: ToothCountPosterior) -> Iterator[str]:
     how = {
-        "exact": f"all were taken together, in {_many(found.looked)} steps; only what has an interval is estimated",
-        "sample": f"{_many(found.looked)} were drawn, seed {found.seed}; intervals are of 95 %",
+        "exact": f"all were taken together, in {_many(found.examined)} steps; only what has an interval is estimated",
+        "sample": f"{_many(found.examined)} were drawn, seed {found.seed}; intervals are of 95 %",
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."
     if found.cut:
-        yield "Interrupted: the figures are of what had been looked at."
+        yield "Interrupted: the figures are of what had been examined at."
     if found.turning.value != 1:
         yield f"The train turns with a share of {found.turning} of them, by their weight."
     share = f"a share of {found.evidence} of the weight they have before"
@@ -182,7 +182,7 @@ def _best(found: ToothCountPosterior) -> Section:
         "is declared.",
     ]
     if not found.ranked:
-        why = "of those looked at" if found.method == "sample" or found.cut else "more have the same misfit"
+        why = "of those examined at" if found.method == "sample" or found.cut else "more have the same misfit"
         lines.append(f"Not shown to be the best: {why}.")
     some = found.best[0]
     header = ["changed", "misfit", "chance"]

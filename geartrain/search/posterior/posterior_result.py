@@ -198,7 +198,7 @@ class ToothCountPosterior(Tabular, Result):
     """
 
     KEYS = (
-        *(Key("train", "name"), "method", "soft", "combinations", "looked", "evidence", "turning", "fits", "ranked"),
+        *(Key("train", "name"), "method", "soft", "combinations", "examined", "evidence", "turning", "fits", "ranked"),
         *("seed", "ended", "assumed", "remarks", Key("witnesses", "known"), Key("wheels", "posteriors")),
         *(Key("correlations", "correlated"), "shares", "best"),
     )
@@ -211,7 +211,7 @@ class ToothCountPosterior(Tabular, Result):
     """True for a Gaussian likelihood, False if a combination either fits or not."""
     combinations: int
     """Number of combinations of counts."""
-    looked: int
+    examined: int
     """Number of steps of the exact join, or of combinations drawn."""
     evidence: CountProbability
     """Share of the prior weight that fits; with `soft` the mean of exp(-misfit / 2)."""
@@ -288,7 +288,7 @@ class ToothCountPosterior(Tabular, Result):
             else "A combination fits if every output is within its tolerance, and otherwise it does not: no degrees."
         )
         return (
-            "The counts of different wheels are independent before the outputs are looked at.",
+            "The counts of different wheels are independent before the outputs are examined at.",
             agree,
             "What the outputs show is taken to be what they were meant to show; no misprint or repair is allowed for.",
         )

@@ -139,7 +139,7 @@ def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
     elif len(wheels) == 1:
         wheel, power = wheels[0]
         what = f"the counts of '{wheel}' cannot be listed"
-        why = f"{len(domains[wheel])} of them up to {domains[wheel][-1]}, to the power {power}"
+        why = f"{len(domains[wheel])} counts up to {domains[wheel][-1]}, to the power {power}, exceed the limit"
         raise RangeError(Problem(what, why, f"narrow its range to {_MOST_VALUES} counts below 10^9"))
     else:
         middle = len(wheels) // 2

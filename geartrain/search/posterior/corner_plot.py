@@ -94,9 +94,9 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
 
 def _key(figure: Figure, likely: CountProbabilities) -> None:
     """Draw the legend of bars, outlines and dashed lines below the panels."""
-    handles: list[Any] = [Patch(color=BLUE, label="likely")]
+    handles: list[Any] = [Patch(color=BLUE, label="posterior")]
     if likely.before:
-        handles.append(Patch(fill=False, edgecolor=GREY, label="before"))
+        handles.append(Patch(fill=False, edgecolor=GREY, label="prior"))
     if likely.declared:
         handles.append(Line2D([], [], color=RED, linewidth=1.2, linestyle=_DASHES, label="declared"))
     if len(handles) > 1:
@@ -175,7 +175,7 @@ def _modes(chances: Chances) -> str:
 
 
 def _nothing(why: str) -> QuestionError:
-    return QuestionError(Problem("no tooth counts to draw", why, "give the wheels to draw, with their likelihoods"))
+    return QuestionError(Problem("no tooth counts to draw", why, "give 1 to 9 wheels with their probabilities"))
 
 
 Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
@@ -213,7 +213,8 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
     if not all(found[wheel].chances for wheel in wheels):
         what = f"no combination of counts of '{found.name}' fits, so there is nothing to draw"
-        raise QuestionError(Problem(what, "no count is likelier than another", "widen the tolerances or the counts"))
+        why = "a corner plot needs at least one combination that fits"
+        raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
     single = {
         wheel: {count: float(each) for count, each in zip(one.doubt.counts, one.chances, strict=True) if float(each)}
         for wheel, one in ((wheel, found[wheel]) for wheel in wheels)

@@ -52,8 +52,8 @@ _DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exac
 _ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
 METHODS: tuple[Method, ...] = ("exact", "sample")
 _NOTHING_YET = (
-    "interrupted: the exact method knows nothing before its end, so the figures are of {} combinations drawn at "
-    "random; the method `sample` draws as many as are wanted"
+    "interrupted: the exact method has no partial result, so the figures are estimated from {} combinations drawn at "
+    "random; the method `sample` draws any number of them"
 )
 _LONG = 1 << 62  # products of total weights below this: every sum of weights is exact in int64
 
@@ -197,17 +197,21 @@ def _doubts_of_sample(found: PosteriorSummary, method: Method) -> Iterator[str]:
     """Yield a remark if so few combinations of a sample fit that its figures are unreliable."""
     if method == "sample" and found.effective < _ENOUGH:
         yield (
-            f"the figures rest on {found.effective:.3g} combinations that fit: draw more, raise the limit so that "
-            "nothing need be drawn, or narrow the doubts"
+            f"the figures are estimated from only {found.effective:.3g} combinations that fit: increase --samples, "
+            "raise --limit to use the exact method, or narrow the ranges of counts"
         )
 
 
 def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -> None:
     if method is not None and method not in METHODS:
-        raise QuestionError(Problem(f"there is no method '{method}'", "others are", suggest(method, METHODS)))
+        raise QuestionError(
+            Problem(f"unknown method '{method}'", "methods are exact and sample", suggest(method, METHODS))
+        )
     for name, value, minimum in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
         if value < minimum:
-            raise QuestionError(Problem(f"{name} is {value}", "nothing is found with it", f"give {minimum} or more"))
+            raise QuestionError(
+                Problem(f"{name} is {value}", f"it must be at least {minimum}", f"give {minimum} or more")
+            )
 
 
 class _Outcome(NamedTuple):
@@ -240,8 +244,9 @@ def _find(
             return _Outcome("sample", found, True, (_NOTHING_YET.format(found.examined),))
         except BudgetSpentError:
             if method is not None:
-                fix = "raise the limit, narrow the doubts, or let it sample"
-                raise RangeError(Problem("too many steps", f"the limit is {limit}", fix)) from None
+                what = f"the exact method needs more than {limit} steps"
+                fix = "raise the limit, narrow the ranges of counts, or use the method `sample`"
+                raise RangeError(Problem(what, "the limit bounds its work", fix)) from None
     return _Outcome("sample", *_sampled(question, most, samples, seed, means))
 
 

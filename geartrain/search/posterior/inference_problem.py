@@ -136,9 +136,9 @@ def build_inference_problem(
 def _remarks(witness: ObservedOutput) -> Iterator[str]:
     """Yield a remark on an output that is not evidence: no uncertain count affects it, or it has no tolerance."""
     if not witness.claims:
-        yield f"'{witness.name}' is not judged: nothing with a tolerance is asked of it"
+        yield f"'{witness.name}' is not used: none of its claims has a tolerance"
     elif not witness.fits(witness.formula.constant):
-        yield f"no wheel in doubt moves '{witness.name}', and it is not as asked: {witness.text}"
+        yield f"no uncertain count affects '{witness.name}', and its speed does not satisfy: {witness.text}"
 
 
 def _check(
@@ -147,12 +147,20 @@ def _check(
     train.check_state(state)
     if against not in LIKELIHOOD_KINDS:
         raise QuestionError(
-            Problem(f"there are no claims called '{against}'", "others are", suggest(against, LIKELIHOOD_KINDS))
+            Problem(
+                f"unknown kind of claims '{against}'",
+                "kinds are all, targets and figures",
+                suggest(against, LIKELIHOOD_KINDS),
+            )
         )
     if tolerance is not None and tolerance < 0:
-        raise QuestionError(Problem(f"a tolerance of {tolerance}", "it is a distance", "give 0 or more"))
+        raise QuestionError(
+            Problem(f"the tolerance {tolerance} is negative", "a tolerance is a distance", "give 0 or more")
+        )
     if scale < 0:
-        raise QuestionError(Problem(f"tolerances times {scale}", "a tolerance is a distance", "give 0 or more"))
+        raise QuestionError(
+            Problem(f"the factor {scale} of tolerances is negative", "a tolerance is a distance", "give 0 or more")
+        )
 
 
 def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence[str]) -> None:
@@ -171,17 +179,17 @@ def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequen
     """
     for name in outputs:
         if name not in moved:
-            why = "no wheel in doubt moves it"
-            raise QuestionError(Problem(f"output '{name}' tells nothing of the counts", why, "leave it out"))
+            what, why = f"output '{name}' does not depend on uncertain counts", "it gives no information on them"
+            raise QuestionError(Problem(what, why, "omit it"))
         if name not in known:
-            raise _nothing_known(f"nothing is known of output '{name}'")
+            raise _nothing_known(f"the speed of output '{name}' is not known")
     if not known:
-        raise _nothing_known("nothing is known of any output that the wheels in doubt move")
+        raise _nothing_known("no output that depends on uncertain counts has a known speed")
 
 
 def _nothing_known(what: str) -> QuestionError:
     fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets that have none"
-    return QuestionError(Problem(what, "counts can only be weighed against something with a tolerance", fix))
+    return QuestionError(Problem(what, "counts are weighed by speeds with a tolerance", fix))
 
 
 # ------------------------------------------------------------------ priors: the possible counts of each uncertain wheel
@@ -237,7 +245,7 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
     if not any(len(doubt.counts) > 1 for doubt in found):
         why = "no wheel has `range` or `choices` with more than one count"
         fix = "declare `teeth: {value: 64, range: [63, 66]}`, or free a wheel: --free WHEEL=63:66"
-        raise QuestionError(Problem(f"no wheel of '{train.name}' is in doubt", why, fix))
+        raise QuestionError(Problem(f"no tooth count of '{train.name}' is uncertain", why, fix))
     return found
 
 
@@ -260,12 +268,13 @@ def _checked(name: str, counts: Sequence[int]) -> tuple[int, ...]:
     """Validate requested counts, and return them sorted."""
     found = tuple(sorted(set(counts)))
     if not found:
-        why = "a range ends before it begins, or nothing is listed"
-        raise QuestionError(Problem(f"wheel '{name}' has no counts to choose from", why, "write the least count first"))
+        what = f"wheel '{name}' has no possible counts"
+        why = "a range ends before it begins, or the list is empty"
+        raise QuestionError(Problem(what, why, "write the smaller count first"))
     for count in (found[0], found[-1]):
         if not 0 < count <= MOST_TEETH:
-            fix = "a tooth count is a whole number from 1 to 10^12"
-            raise QuestionError(Problem(f"{count} is not a tooth count", f"wheel '{name}' is to have it", fix))
+            why = "a tooth count is an integer from 1 to 10^12"
+            raise QuestionError(Problem(f"{count} is not a tooth count", why, f"correct the counts of wheel '{name}'"))
     if len(found) > MOST_COUNTS:
         raise _too_wide(name, len(found), "")
     return found
@@ -281,8 +290,8 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     if teeth.range is not None and teeth.choices is None:
         _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
     if why := teeth.fault_of_weights:
-        what = f"the weights of wheel '{name}' are no chances"
-        raise QuestionError(Problem(what, why, "give weights of 0 and more, one of them above 0", place))
+        what = f"the weights of wheel '{name}' are not probabilities"
+        raise QuestionError(Problem(what, why, "give weights of 0 or more, at least one of them above 0", place))
     chances = teeth.chances
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""
@@ -293,8 +302,8 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
 
 
 def _too_wide(name: str, count: int, place: str) -> RangeError:
-    what = f"the doubt of wheel '{name}' is too wide"
-    return RangeError(Problem(what, f"{count} counts, and at most {MOST_COUNTS} can be listed", "narrow it", place))
+    what = f"wheel '{name}' has {count} possible counts"
+    return RangeError(Problem(what, f"at most {MOST_COUNTS} can be listed", "narrow its range", place))
 
 
 # --------------------------------------------------------------------- observations: known speeds with their tolerances

@@ -62,29 +62,30 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
     >>> from geartrain.search import infer_counts
     >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
     >>> describe_posterior(found).lead[1]
-    '1 fit: a share of 0.2 of the weight they have before.'
+    '1 fits: a share of 0.2 of the prior weight.'
     """
-    return Document(f"Counts in doubt of {found.name}", list(_summary(found)), list(_sections(found)))
+    return Document(f"Uncertain tooth counts of {found.name}", list(_summary(found)), list(_sections(found)))
 
 
 def _summary(found: ToothCountPosterior) -> Iterator[str]:
     how = {
-        "exact": f"all were taken together, in {_many(found.examined)} steps; only what has an interval is estimated",
-        "sample": f"{_many(found.examined)} were drawn, seed {found.seed}; intervals are of 95 %",
+        "exact": f"exact join in {_many(found.examined)} steps; only values with an interval are estimated",
+        "sample": f"{_many(found.examined)} drawn with seed {found.seed}; intervals are 95 % intervals",
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."
     if found.cut:
-        yield "Interrupted: the figures are of what had been examined at."
+        yield "Interrupted: the figures cover only the combinations drawn so far."
     if found.turning.value != 1:
-        yield f"The train turns with a share of {found.turning} of them, by their weight."
-    share = f"a share of {found.evidence} of the weight they have before"
+        yield f"The train turns for a share of {found.turning} of the prior weight."
+    share = f"a share of {found.evidence} of the prior weight"
     if not found.posteriors or not found.evidence.value:
         minimum = f" (less than {found.evidence.high:.3g})" if found.evidence.high is not None else ""
-        yield f"None of them fits what the outputs are known to do{minimum}."
+        yield f"None of them fits the known speeds of the outputs{minimum}."
     elif found.soft:
-        yield f"Mean agreement: {found.evidence}."
+        yield f"Mean likelihood: {found.evidence}."
     else:
-        yield f"{'Those that fit' if found.fits is None else f'{_many(found.fits)} fit'}: {share}."
+        fit = "1 fits" if found.fits == 1 else "Those that fit" if found.fits is None else f"{_many(found.fits)} fit"
+        yield f"{fit}: {share}."
     yield from found.assumed
 
 
@@ -107,18 +108,17 @@ def _sections(found: ToothCountPosterior) -> Iterator[Section]:
 
 def _known(found: ToothCountPosterior) -> Section:
     rows = [(one.name, one.text, str(found.alone.get(one.name, "-"))) for one in found.witnesses]
-    line = "How much of the weight each output would leave if it were known alone."
+    line = "Share of the prior weight that fits each output, regardless of the others."
     return Section("What is known", [line], [Table(("output", "known", "fits alone"), rows)])
 
 
 def _wheels(found: ToothCountPosterior) -> Section:
     rows = [_wheel(posterior) for posterior in found.posteriors.values()]
     lines = [
-        "`bits` is what the outputs tell of a wheel: the relative entropy of its chances now and before.",
-        "A dash stands for a wheel on which nothing known depends. Before, all its counts are as likely, unless it is "
-        "said that they are weighted.",
+        "`bits` is the information from the outputs: the relative entropy of posterior and prior.",
+        "A dash marks a wheel on which no known output depends. Priors are uniform unless they are marked as weighted.",
     ]
-    header = ("wheel", "declared", "before", "chance now", "bits", "likeliest now")
+    header = ("wheel", "declared", "prior", "posterior of declared", "bits", "most probable counts")
     return Section("Wheels", lines, [Table(header, rows)])
 
 
@@ -153,14 +153,11 @@ def _deciding(shares: Sequence[VarianceShares]) -> Section:
     rows = []
     for one in shares:
         strongest = sorted(one.whole, key=lambda wheel: -float(one.whole[wheel]))[:_DECIDING]
-        told = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
-        told = told if one.exact else f"about {told}"
+        listed = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
+        listed = listed if one.exact else f"about {listed}"
         mean = rounded(one.mean) if isinstance(one.mean, Fraction) else one.mean
-        rows.append((one.output, figure(mean), figure(one.spread, 4), told))
-    line = (
-        "Shares of the variance of each speed that stay if all other counts are known, over the counts as they are "
-        "before anything is known of the outputs."
-    )
+        rows.append((one.output, figure(mean), figure(one.spread, 4), listed))
+    line = "Shares of the prior variance of each speed that remain if all other counts are known (total Sobol indices)."
     return Section("Which wheel decides which output", [line], [Table(_DECIDED, cut(rows))])
 
 
@@ -172,22 +169,21 @@ def _correlated(found: ToothCountPosterior) -> Section:
     strongest = list(found.correlations.items())[:_STRONGEST]
     # smaller values would be printed as 0
     rows = [(" and ".join(pair), f"{value:+.3f}") for pair, value in strongest if abs(value) >= 0.0005]
-    line = "Wheels that make up for each other in what fits: the strongest correlations of their counts."
+    line = "Strongest posterior correlations of counts: such wheels compensate for each other."
     return Section("Correlations", [line], [Table(("wheels", "correlation"), rows)])
 
 
 def _best(found: ToothCountPosterior) -> Section:
     lines = [
-        "Ordered by misfit, the sum of (error / tolerance)^2; of equals the likelier before, then the nearer to what "
-        "is declared.",
+        "Sorted by misfit, the sum of (error / tolerance)^2, then by prior probability and number of changed counts.",
     ]
     if not found.ranked:
-        why = "of those examined at" if found.method == "sample" or found.cut else "more have the same misfit"
-        lines.append(f"Not shown to be the best: {why}.")
+        why = "only a sample is ranked" if found.method == "sample" or found.cut else "more have the same misfit"
+        lines.append(f"Not proved to be the best: {why}.")
     some = found.best[0]
-    header = ["changed", "misfit", "chance"]
+    header = ["changed", "misfit", "posterior"]
     told = list(some.errors) if len(some.errors) <= _OUTPUTS else []
-    header += [f"error of {name}" for name in told] or ["greatest error"]
+    header += [f"error of {name}" for name in told] or ["maximum error"]
     rows = [[*_told(one), *_errors(one, told)] for one in found.best]
     return Section("Combinations that agree best", lines, [Table(header, cut(rows))])
 

@@ -282,13 +282,13 @@ class ToothCountPosterior(Tabular, Result):
     def assumed(self) -> Sequence[str]:
         """Assumptions of the inference, one sentence each."""
         agree = (
-            "Agreement is by degree: a combination weighs exp(-misfit/2), the tolerances taken as standard deviations; "
-            "what is more than 5 tolerances off is refused."
+            "The likelihood is exp(-misfit/2), with the tolerances as standard deviations; errors of more than 5 "
+            "tolerances are rejected."
             if self.soft
-            else "A combination fits if every output is within its tolerance, and otherwise it does not: no degrees."
+            else "A combination fits if every output is within its tolerance; its likelihood is then 1, else 0."
         )
         return (
-            "The counts of different wheels are independent before the outputs are examined at.",
+            "The prior treats the counts of different wheels as independent.",
             agree,
-            "What the outputs show is taken to be what they were meant to show; no misprint or repair is allowed for.",
+            "The known speeds are taken to be the intended ones, without misprints or repairs.",
         )

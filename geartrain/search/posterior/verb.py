@@ -37,36 +37,47 @@ from geartrain.errors import GearTrainError
 if TYPE_CHECKING:
     from geartrain.search.posterior.posterior_result import ToothCountPosterior
 
-Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
+Plot = Annotated[Path | None, typer.Option("--plot", help="Write a corner plot to this file (.svg, .png or .pdf).")]
 FORMS = (".md", ".html", ".json", ".csv", ".parquet")
 
 
 def run(
     file: File,
     free: Annotated[
-        Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: counts it may have; may be repeated.")
+        Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: possible counts of a wheel; may be repeated.")
     ] = None,
-    output: Annotated[Names, typer.Option("--output", help="Only this output is evidence; may be repeated.")] = None,
+    output: Annotated[
+        Names, typer.Option("--output", help="Use only this output as evidence; may be repeated.")
+    ] = None,
     state: StateName = None,
     tolerance: Annotated[
-        str | None, typer.Option("--tolerance", help="Relative, for targets without one, such as 0.5 % or 1/446.")
+        str | None,
+        typer.Option("--tolerance", help="Relative tolerance of targets without one, such as 0.5 % or 1/446."),
     ] = None,
-    against: Annotated[str, typer.Option("--against", help="What counts: all, targets, or figures (expect).")] = "all",
-    scale: Annotated[str, typer.Option("--scale", help="Multiply every tolerance, such as 1/4.")] = "1",
+    against: Annotated[
+        str, typer.Option("--against", help="Kinds of claims used: all, targets, or figures (expect).")
+    ] = "all",
+    scale: Annotated[str, typer.Option("--scale", help="Factor of every tolerance, such as 1/4.")] = "1",
     soft: Annotated[
-        bool, typer.Option("--soft", help="Agreement by degree, tolerances as standard deviations.")
+        bool, typer.Option("--soft", help="Gaussian likelihood with the tolerances as standard deviations.")
     ] = False,
     method: Annotated[
-        str | None, typer.Option("--method", help="exact or sample; default exact where the limit allows it.")
+        str | None, typer.Option("--method", help="exact or sample. Default: exact if it stays within --limit.")
     ] = None,
-    most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Combinations to list.")] = 20,
+    most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Number of combinations to list.")] = 20,
     limit: Annotated[
-        int, typer.Option("--limit", min=1, max=MOST_COUNT, help="Steps before a sample is drawn.")
+        int,
+        typer.Option(
+            "--limit",
+            min=1,
+            max=MOST_COUNT,
+            help="Maximum number of steps of the exact method; beyond it a sample is drawn.",
+        ),
     ] = 2_000_000,
     samples: Annotated[
-        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Combinations of a sample.")
+        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Number of combinations in a sample.")
     ] = 1_000_000,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the sample.")] = 1,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed of the sample.")] = 1,
     workers: Workers = None,
     dask: Dask = None,
     resume: Resume = False,

@@ -176,12 +176,12 @@ def _of_arbors(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
     for arbor in candidate.arbors():
         said = arbor.name or "an added arbor"
         if arbor.name in wheels and wheels[arbor.name] and arbor.driven and arbor.driven.name is None:
-            what = f"{said} is driven by a wheel of {arbor.driven.teeth} that is added to it"
+            what = f"{said} is driven by an added wheel of {arbor.driven.teeth}"
             yield BrokenRule("driven", (said,), what, f"if {said} is lost")
         if arbor.passes and not problem.idlers:
             assert arbor.driven is not None
             idler = arbor.driven.name or f"an added wheel of {arbor.driven.teeth}"
-            yield BrokenRule("idler", (said,), f"{idler} is driven, and drives", "if a driven wheel may drive")
+            yield BrokenRule("idler", (said,), f"{idler} is driven and drives", "if a driven wheel may drive")
         if not arbor.dials and not any(arbor.driven_arbors()):
             yield BrokenRule("end", (said,), f"{said} leads to no pointer", None)
 
@@ -193,11 +193,11 @@ def _of_additions(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[
     if beyond:
         minimum, maximum = min(limits.minimum, *added), max(limits.maximum, *added)
         bounds = Fraction(minimum), Fraction(maximum)
-        what = f"added wheels have {', '.join(map(str, beyond))} teeth, and {limits.minimum} to {limits.maximum} may be"
+        what = f"added wheels have {', '.join(map(str, beyond))} teeth, not {limits.minimum} to {limits.maximum}"
         yield BrokenRule("teeth", (), what, f"if added wheels may have {minimum} to {maximum} teeth", bounds)
     arbors = candidate.added_arbors
     if limits.arbors is not None and arbors > limits.arbors:
-        what = f"arbors are added: {arbors}, and {limits.arbors} may be"
+        what = f"{arbors} arbors are added, more than {limits.arbors}"
         yield BrokenRule("arbors", (), what, f"if {arbors} arbors may be added", (Fraction(arbors),))
     beside = [arbor.name for arbor in candidate.arbors() if arbor.name and None in _own_wheels(arbor)]
     if limits.on == "new" and beside:
@@ -223,15 +223,15 @@ def _of_meshes(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
         yield BrokenRule("apart", tuple(pair), f"{said} mesh", f"without the fact that {said} do not mesh")
     for pair in sorted(map(sorted, problem.coaxial & arbors)):
         said = " and ".join(pair)
-        what = f"wheels of {said} mesh, which are on one axis"
+        what = f"wheels of the coaxial arbors {said} mesh"
         yield BrokenRule("coaxial", tuple(pair), what, f"without the fact that {said} are coaxial")
     for _, wheel, child in meshes:
         if child.driven is not None and not may_mesh(wheel, child.driven, problem.rings):
-            what = f"{wheel.name or wheel.teeth} does not turn in {child.driven.name or child.driven.teeth}"
+            what = f"{wheel.name or wheel.teeth} and {child.driven.name or child.driven.teeth} cannot mesh in a ring"
             yield BrokenRule("ring", (), what, None)
     if problem.geometry.reach is not None and not candidate_likelihood(candidate, problem.geometry):
-        what = "wheels in mesh do not reach from axis to axis"
-        yield BrokenRule("distance", (), what, "if the distances of axes keep no wheels apart")
+        what = "radii of meshing wheels do not fit the distance of their axes"
+        yield BrokenRule("distance", (), what, "if the distances of axes exclude no meshes")
 
 
 def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
@@ -441,7 +441,7 @@ class _Reading:
         for name, own in self._matches.items():
             if own not in self._survivors:
                 arbor = next(each.name for each in self._arbors.values() if name in {one.name for one in each.wheels})
-                yield f"{own} is not fixed to the other wheels of {arbor}, and is not taken for {name}"
+                yield f"{own} is not fixed to the other wheels of {arbor}, and is therefore not identified with {name}"
 
     # meshes
 
@@ -450,8 +450,9 @@ class _Reading:
         name = self.problem.input.name
         found = self._links.get(name) or self._joined.get(name)
         if found is None:
-            what = f"'{self.train.name}' has no wheel of '{name}', where a train of the question begins"
-            raise QuestionError(Problem(what, "wheels are found by their names", "say `--same ITS=OURS`"))
+            what = f"'{self.train.name}' has no wheel of '{name}', the input of the question"
+            fix = "name one of its wheels with `--same ITS=OURS`"
+            raise QuestionError(Problem(what, "wheels are identified by their names", fix))
         return found
 
     @cached_property
@@ -464,7 +465,8 @@ class _Reading:
         count = self.train.wheels[wheel][1].count
         if count is None:
             place = self.train.place("links")
-            raise QuestionError(Problem(f"the count of '{wheel}' is still to be found", "", "give it a value", place))
+            what = f"the tooth count of '{wheel}' is not known"
+            raise QuestionError(Problem(what, "a train is ranked with all its counts", "give it a `value`", place))
         return count
 
     # pointers
@@ -532,8 +534,12 @@ def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: Recon
     requested |= {dial.name for dial in problem.dials}
     for name, called in pairs.items():
         if name not in own:
-            what = f"'{name}' is no wheel and no output of a train that is ranked"
-            raise QuestionError(Problem(what, "", suggest(name, sorted(own))))
+            what = f"'{name}' is not a wheel or an output of a ranked train"
+            raise QuestionError(
+                Problem(what, "`--same ITS=OURS` begins with its name there", suggest(name, sorted(own)))
+            )
         if called not in requested:
-            what = f"'{called}' is no wheel and no dial of the evidence"
-            raise QuestionError(Problem(what, "", suggest(called, sorted(requested))))
+            what = f"'{called}' is not a wheel or a dial of the evidence"
+            raise QuestionError(
+                Problem(what, "`--same ITS=OURS` ends with its name there", suggest(called, sorted(requested)))
+            )

@@ -114,7 +114,7 @@ def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructi
             yield f"without the fact {said}", replace(problem, **left)
     if measured:
         left = {"apart": problem.apart - measured, "geometry": replace(problem.geometry, reach=None)}
-        yield "if the distances of axes keep no wheels apart", replace(problem, **left)
+        yield "if the distances of axes exclude no meshes", replace(problem, **left)
     yield from _senses(problem)
     for at, dial in enumerate(problem.dials):
         where = "is lost" if dial.place == NEW else f"is {dial.place}"
@@ -130,7 +130,7 @@ def _senses(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructio
         yield f"without the sense of {dial.name}", _with_dial(problem, at, _unsigned(dial))
     if len(signed) > 1:
         free = tuple(_unsigned(dial) if dial.signed else dial for dial in problem.dials)
-        yield "without any sense", replace(problem, dials=free)
+        yield "without the sense of any dial", replace(problem, dials=free)
 
 
 def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:

@@ -66,17 +66,18 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     if output.relative_to not in (None, evidence.frame, base.name):
-        what = f"'{name}' is seen from '{output.relative_to}', which is not taken up by a reconstruction yet"
+        what = f"the speed of '{name}' is relative to '{output.relative_to}'"
         carrier = "" if base.name == evidence.frame else f" or the carrier '{base.name}'"
-        why = f"a pointer of a reconstruction is seen from the frame{carrier}"
-        raise DeclarationError(Problem(what, why, f"give its speed against the frame{carrier}", place))
+        why = f"a reconstruction supports only speeds relative to the frame{carrier}"
+        raise DeclarationError(Problem(what, why, f"give its speed relative to the frame{carrier}", place))
     if output.of == evidence.frame:
-        raise DeclarationError(Problem(f"'{name}' is on the frame, which does not turn", "", "correct `of`", place))
+        what = f"the pointer '{name}' is on the frame"
+        raise DeclarationError(Problem(what, "the frame does not turn", "correct `of`", place))
     found = _bounds(evidence, name, free_sense)
     found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
-        what = f"'{name}' turns as the frame does, and so the frame itself would show it"
-        fix = "name its arbor with `of`, or say `of: new` if that is lost"
+        what = f"'{name}' has the speed of the frame, so that the frame itself would show it"
+        fix = "name its arbor in `of`, or give `of: new` if its arbor is lost"
         raise DeclarationError(Problem(what, "its arbor is not known", fix, place))
     return found
 
@@ -88,7 +89,7 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
     if not known:
         why = "it has no `expect`, and no target with a tolerance"
         fix = "add for example `expect: -5/19`, or `tolerance: 1/446` to a target"
-        raise DeclarationError(Problem(f"how fast '{name}' turns is not known", why, fix, place))
+        raise DeclarationError(Problem(f"the speed of '{name}' is not known", why, fix, place))
     signed = [limits for limits, has_sign in known if has_sign and not free_sense]
     plain = [_magnitudes(limits) if has_sign else limits for limits, has_sign in known if not has_sign or free_sense]
     if not signed:
@@ -104,9 +105,9 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
     if not turning:
         return bounds
     if not bounds.signed:
-        what = f"the sense of '{name}' is not known, and it is seen from the frame"
-        why = "then it has two speeds, as seen from the carrier"
-        raise DeclarationError(Problem(what, why, "give the sense, or its speed `relative_to` the carrier", place))
+        what = f"the sense of '{name}' is not known, and its speed is relative to the frame"
+        why = "it would have two possible speeds relative to the carrier"
+        raise DeclarationError(Problem(what, why, "give its sense, or its speed with `relative_to` the carrier", place))
     minimum, maximum = bounds.limits
     return replace(bounds, limits=(minimum - turning, maximum - turning))
 
@@ -135,7 +136,7 @@ def _unused_targets(name: str, output: Output) -> tuple[str, ...]:
         if target.tolerance is None and (target.speed is None or output.expect is not None)
     ]
     if output.published is not None:
-        lines.append(f"what is published of '{name}': `expect` and targets with a tolerance are taken")
+        lines.append(f"`published` of '{name}': only `expect` and targets with a tolerance are used")
     return tuple(lines)
 
 
@@ -148,7 +149,9 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
     minimum, maximum = max(low for low, _ in ranges), min(high for _, high in ranges)
     if minimum > maximum:
         why = "no speed is within `expect` and all targets with a tolerance"
-        raise DeclarationError(Problem(f"what is said of '{name}' contradicts itself", why, "correct one", place))
+        raise DeclarationError(
+            Problem(f"the declared speeds of '{name}' contradict each other", why, "correct one of them", place)
+        )
     return minimum, maximum
 
 
@@ -161,8 +164,8 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, -low)], name, place)
     if low <= 0:
         return _common([limits, (-high, high)], name, place)
-    why = "one part of the evidence gives its sense, and one that does not leaves two ranges of speed"
-    raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target", place))
+    why = "claims with a sense allow both signs, and a claim on the magnitude leaves one range of each sign"
+    raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target only", place))
 
 
 _NOT_TAKEN_UP = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
@@ -226,9 +229,10 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     base = None if unclear else find_base(evidence)
     found += unclear
     if wheels and requested.add.teeth is None:
-        fix = "add for example `teeth: [12, 225]`"
+        fix = "give `add` for example `teeth: [12, 225]`"
         place = evidence.place("reconstruct")
-        found.append(Problem("wheels are to be added whose counts have no bounds", "", fix, place))
+        why = "the search needs their minimum and maximum"
+        found.append(Problem("the tooth counts of added wheels have no limits", why, fix, place))
     bounds = {}
     for name in evidence.outputs:
         try:
@@ -238,7 +242,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
             found += error.problems
     if not evidence.outputs:
         fix = "add `outputs:`, each with `expect` or a target with its tolerance"
-        found.append(Problem("nothing is known of any pointer", "a train explains what pointers show", fix))
+        found.append(Problem("the evidence has no outputs", "a reconstruction explains the speeds of pointers", fix))
     if found or base is None:
         raise DeclarationError(first_problems(found))
     places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
@@ -315,18 +319,17 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
 def _not_taken_up(evidence: Train) -> Iterator[Problem]:
     for key in _NOT_TAKEN_UP:
         if getattr(evidence, key):
-            yield _later(evidence, f"`{key}` is not taken up by a reconstruction yet", key)
+            yield _later(evidence, f"`{key}` is not supported in a reconstruction", key)
     if evidence.crank is not None and evidence.crank not in evidence.inputs:
-        yield _later(evidence, "a crank that is not the input is not taken up by a reconstruction yet", "crank")
+        yield _later(evidence, "a crank that is not the input is not supported in a reconstruction", "crank")
     for label, axis in evidence.axes.items():
         if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
-            yield _later(evidence, "axes that are not parallel are not taken up by a reconstruction yet", "axes", label)
+            yield _later(evidence, "axes that are not parallel are not supported in a reconstruction", "axes", label)
 
 
 def _later(evidence: Train, what: str, *loc: str | int) -> Problem:
-    return Problem(
-        what, "it would change which trains are found", "leave it out to ask without it", evidence.place(*loc)
-    )
+    why = "ignoring it could change the trains that are found"
+    return Problem(what, why, "remove it, to search without it", evidence.place(*loc))
 
 
 def _wheels(evidence: Train) -> Iterator[Problem]:
@@ -334,7 +337,7 @@ def _wheels(evidence: Train) -> Iterator[Problem]:
         for name, wheel in part.wheels.items():
             place = ("links", link, "wheels", name)
             if wheel.kind != "spur":
-                what = f"'{name}' is a {wheel.kind} wheel, which is not taken up by a reconstruction yet"
+                what = f"'{name}' is a {wheel.kind} wheel, which is not supported in a reconstruction"
                 yield _later(evidence, what, *place)
             yield from _teeth(evidence, wheel, place)
 
@@ -345,11 +348,13 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
         return
     for count in (teeth.range[1] - teeth.range[0] + 1 if teeth.range else 0, len(teeth.searched)):
         if count > _MOST_COUNTS:
-            what = f"{count} counts are too many for one wheel"
-            yield Problem(what, f"{_MOST_COUNTS} are the most", "narrow the range", evidence.place(*place, "teeth"))
+            what = f"a wheel has {count} possible counts"
+            yield Problem(
+                what, f"at most {_MOST_COUNTS} can be searched", "narrow the range", evidence.place(*place, "teeth")
+            )
     if why := teeth.fault_of_weights:
         fix = "give weights of 0 or more, at least one of them above 0"
-        yield Problem("the weights of a count are no weights", why, fix, evidence.place(*place, "teeth", "weights"))
+        yield Problem("the weights of a tooth count are invalid", why, fix, evidence.place(*place, "teeth", "weights"))
 
 
 def _unused(evidence: Train) -> Iterator[str]:

@@ -17,7 +17,7 @@ from geartrain.train import Train
 # frame with its fixed wheels, or at a link that is driven besides the carrier.
 
 
-_ONLY = "seen from its carrier a train begins at one link, which is the frame unless another is driven"
+_ONLY = "a train on a carrier begins at one link: the frame, or one other driven link"
 
 
 @dataclass(frozen=True)
@@ -59,13 +59,15 @@ def base_problems(evidence: Train) -> Iterator[Problem]:
     carrier = _carrier(evidence)
     if not evidence.case(None).exact:
         place = evidence.place("inputs")
-        yield Problem("the speed of an input is no fraction", "speeds are exact here", "give it in the unit", place)
+        fix = "give the speed as a fraction in the unit of the train, such as `1/19`"
+        yield Problem("the speed of an input is not a fraction", "a reconstruction needs exact speeds", fix, place)
     elif carrier is None:
         yield from _input(evidence)
         yield from _on_the_frame(evidence)
     elif carrier == evidence.frame:
-        why = "arbors turn on the frame where no carrier is named"
-        yield Problem("the frame is no carrier", why, "leave `carrier` out", evidence.place("reconstruct", "carrier"))
+        why = "arbors turn on the frame if no carrier is named"
+        fix = f"delete `carrier: {carrier}`"
+        yield Problem("the frame is not a carrier", why, fix, evidence.place("reconstruct", "carrier"))
     else:
         yield from _carrier_speed(evidence, carrier)
         yield from _carrier_wheels(evidence, carrier)
@@ -82,22 +84,26 @@ def _input(evidence: Train) -> Iterator[Problem]:
     inputs = evidence.case(None).inputs
     turning = [link for link, speed in inputs.items() if speed]
     if len(turning) != 1 or len(inputs) != 1:
-        what = f"{len(turning)} links are driven" if len(inputs) == len(turning) else "an input stands still"
+        what = f"{len(turning)} links are driven" if len(inputs) == len(turning) else "the speed of an input is 0"
         fix = "give one, such as `inputs: {b: 1}`"
-        yield Problem(what, "a reconstruction has one input that turns", fix, evidence.place("inputs"))
+        yield Problem(
+            what, "a reconstruction needs exactly one input, with a speed other than 0", fix, evidence.place("inputs")
+        )
     frame = evidence.links.get(evidence.frame)
     if frame is not None and frame.wheels:
-        what = "a wheel that stands still meshes with arbors on a carrier alone"
-        fix = "name that link as `carrier`, with its speed as an input, or leave the wheel out"
-        yield Problem(what, "and no carrier is named", fix, evidence.place("links", evidence.frame))
+        what = "the frame has wheels, but no carrier is named"
+        why = "a fixed wheel meshes only with arbors on a carrier"
+        fix = "name the carrier as `carrier`, with its speed as an input, or remove the wheels of the frame"
+        yield Problem(what, why, fix, evidence.place("links", evidence.frame))
 
 
 def _on_the_frame(evidence: Train) -> Iterator[Problem]:
     for at, joint in enumerate(evidence.revolutes):
         if evidence.frame not in joint.pair:
-            what = "an arbor on a moving arbor is not taken up unless that is the `carrier`"
-            fix = "name it as `carrier` with its speed as an input, or leave it out to ask without it"
-            yield Problem(what, "it would change which trains are found", fix, evidence.place("revolutes", at))
+            what = "an arbor on a moving link is supported only if that link is the `carrier`"
+            why = "ignoring the arbor could change the trains that are found"
+            fix = "name the link as `carrier` with its speed as an input, or remove the joint"
+            yield Problem(what, why, fix, evidence.place("revolutes", at))
 
 
 # with a carrier
@@ -108,33 +114,39 @@ def _carrier_speed(evidence: Train, carrier: str) -> Iterator[Problem]:
     place = evidence.place("inputs")
     others = {link: speed for link, speed in inputs.items() if link != carrier}
     if carrier not in inputs:
-        what = f"the speed of the carrier '{carrier}' is not given, and one that is to be found is not taken up yet"
+        what = f"the speed of the carrier '{carrier}' is not given"
         fix = f"give its speed, such as `inputs: {{{carrier}: 1}}`"
-        yield Problem(what, "dials are seen from the carrier", fix, evidence.place("reconstruct", "carrier"))
+        yield Problem(
+            what,
+            "the speeds of dials are converted to speeds relative to the carrier",
+            fix,
+            evidence.place("reconstruct", "carrier"),
+        )
     elif not inputs[carrier]:
-        fix = "leave `carrier` out, or give its speed"
-        yield Problem(f"the carrier '{carrier}' stands still", "then it is a part of the frame", fix, place)
+        fix = "delete `carrier`, or correct its speed"
+        yield Problem(f"the speed of the carrier '{carrier}' is 0", "a fixed carrier is part of the frame", fix, place)
     if len(others) > 1:
-        fix = "leave one of them out"
+        fix = "remove all but one of them from `inputs`"
         yield Problem(f"{len(others)} links are driven besides the carrier", _ONLY, fix, place)
     for link, speed in others.items():
         frame = evidence.links.get(evidence.frame)
         if frame is not None and frame.wheels:
-            fix = "leave the wheels of the frame out, or that input"
+            fix = f"remove the wheels of the frame, or remove '{link}' from `inputs`"
             yield Problem(f"'{link}' is driven, and the frame has wheels", _ONLY, fix, place)
         elif speed == inputs.get(carrier):
-            what = f"'{link}' turns as fast as the carrier"
-            yield Problem(what, "so it drives nothing on it", "correct one of the speeds", place)
+            what = f"'{link}' has the same speed as the carrier"
+            why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
+            yield Problem(what, why, "correct one of the speeds", place)
         elif not speed:
-            fix = f"leave '{link}' out, and put its wheels on the frame"
-            yield Problem("an input stands still", _ONLY, fix, place)
+            fix = f"remove '{link}' from `inputs`, and put its wheels on the frame"
+            yield Problem(f"the speed of the input '{link}' is 0", _ONLY, fix, place)
 
 
 def _carrier_wheels(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name in evidence.links[carrier].wheels:
-        what = f"'{name}' is a wheel of the carrier, which meshes with nothing that it carries"
-        why = "seen from the carrier it stands still"
-        fix = "leave it out, or ask of what it drives in evidence of its own"
+        what = f"'{name}' is a wheel of the carrier"
+        why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
+        fix = "remove it, or describe the arbors that it drives in separate evidence"
         yield Problem(what, why, fix, evidence.place("links", carrier, "wheels", name))
 
 
@@ -145,15 +157,15 @@ def _on_the_carrier(evidence: Train, carrier: str) -> Iterator[Problem]:
         place = evidence.place("revolutes", at)
         if evidence.frame in joint.pair and joint.axis != axis:
             (link,) = (link for link in joint.pair if link != evidence.frame)
-            what = f"'{link}' turns in the frame, and not about the axis of the carrier"
-            why = "what the carrier carries would pass by its wheels"
+            what = f"'{link}' turns in the frame, but not about the axis of the carrier"
+            why = "arbors on the carrier would move past its wheels"
             own = f"[{evidence.frame}, {carrier}]"
-            fix = f"put it on the carrier, `pair: [{carrier}, {link}]`, or on one axis with `{own}`"
+            fix = f"put it on the carrier, `pair: [{carrier}, {link}]`, or on the axis of `{own}`"
             yield Problem(what, why, fix, place)
         elif not {evidence.frame, carrier} & set(joint.pair):
-            what = "an arbor on a second moving arbor is not taken up by a reconstruction yet"
-            fix = "put it on the carrier, or leave it out to ask without it"
-            yield Problem(what, "one carrier is", fix, place)
+            what = "an arbor turns on a second moving link"
+            fix = "put it on the carrier, or remove it"
+            yield Problem(what, "a reconstruction supports one carrier", fix, place)
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:
@@ -165,17 +177,17 @@ def carrier_axis(evidence: Train, carrier: str) -> str | None:
 def _carrier_pointers(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name, output in evidence.outputs.items():
         if output.of == carrier:
-            fix = "leave it out, or correct `of`"
+            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is given"
             place = evidence.place("outputs", name)
-            yield Problem(f"'{name}' is on the carrier, whose speed is given", "", fix, place)
+            yield Problem(what, why, "remove the output, or correct its `of`", place)
 
 
 def _not_with_a_carrier(evidence: Train) -> Iterator[Problem]:
     requested = evidence.reconstruct
     assert requested is not None
     if requested.geometry is not None:
-        what = "`geometry` on a carrier is not taken up by a reconstruction yet"
-        fix = "leave `geometry` out to ask without it"
+        what = "`geometry` is not supported for arbors on a carrier"
+        fix = "delete `geometry`"
         yield Problem(what, "axes on a carrier move", fix, evidence.place("reconstruct", "geometry"))
 
 
@@ -253,9 +265,10 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
     bearing = {evidence.frame, evidence.reconstruct.carrier}
     for at, coupling in enumerate(evidence.couplings):
         if coupling.kind != "pin_and_slot":
-            what = f"'{coupling.name}' is no pin and slot, and is not taken up by a reconstruction yet"
-            fix = "leave it out, and give the speed before it"
-            yield Problem(what, "only a mean ratio of 1 joins two arbors", fix, evidence.place("couplings", at))
+            what = f"the coupling '{coupling.name}' is not a pin and slot"
+            why = "a reconstruction supports only couplings with a mean ratio of 1"
+            fix = "remove it, and give the speed of the arbor before it"
+            yield Problem(what, why, fix, evidence.place("couplings", at))
     joined: dict[str, set[str]] = {}
     for pair, loc in _pairs(evidence):
         place = evidence.place(*loc)
@@ -263,19 +276,21 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
         first, second = (joined.get(link, {link}) for link in pair)
         if bearing & set(pair):
             fix = "name the two arbors that it joins"
-            why = "what bears the arbors does not turn with one of them"
-            yield Problem(f"the coupling of {said} would hold an arbor still", why, fix, place)
+            why = "the frame and the carrier do not turn with an arbor"
+            yield Problem(f"the coupling of {said} would lock an arbor", why, fix, place)
         elif second & first:
-            what = f"the coupling of {said} joins what is joined already"
-            yield Problem(what, "given couplings join arbors to a tree", "leave it out", place)
+            what = f"the coupling of {said} joins arbors that are already joined"
+            yield Problem(what, "given couplings must form a tree of arbors", "remove it", place)
         joined.update(dict.fromkeys(first | second, first | second))
         yield from _carried(evidence, pair, place)
     for at, gear in enumerate(evidence.gears):
         first_link, second_link = (evidence.wheels[wheel][0] for wheel in gear.pair)
         if second_link in joined.get(first_link, ()):
-            what = f"'{gear.name}' was seen in mesh, and a given coupling joins its arbors"
+            what = f"the arbors of the known mesh '{gear.name}' are joined by a coupling"
             place = evidence.place("gears", at)
-            yield Problem(what, "they would lock", "leave out the mesh or the coupling", place)
+            yield Problem(
+                what, "a mesh and a coupling of two arbors lock them", "remove the mesh or the coupling", place
+            )
 
 
 def _carried(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
@@ -289,15 +304,13 @@ def _carried(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Pro
         if bearing in (base, link):
             continue
         if bearing == evidence.frame:
-            what = f"'{link}' turns in the frame, and a coupling on the carrier '{base}' joins arbors on it"
+            what = f"'{link}' turns in the frame, but its coupling is on the carrier '{base}'"
             fix = f"put both on the carrier, `pair: [{base}, {link}]`"
-            yield Problem(what, "else the pin would leave its slot", fix, place)
+            yield Problem(what, "the pin would leave its slot when the carrier turns", fix, place)
         else:
-            what = f"'{link}' turns on '{bearing}', and a coupling over a carrier is not taken up by a reconstruction"
-            why = f"how fast '{link}' turns depends on its carrier"
-            fix = (
-                f"give the arbors before and behind '{bearing}' as the pair, which turn alike, without what it carries"
-            )
+            what = f"the coupling of '{link}', which turns on '{bearing}', crosses a carrier"
+            why = f"the speed of '{link}' depends on its carrier"
+            fix = f"give the arbors before and behind '{bearing}', which turn alike, as the pair, without arbors on it"
             yield Problem(what, why, fix, place)
 
 
@@ -311,9 +324,9 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
         axes = {frozenset(_beside(problem, link)) - set(links) for link in links}
         if len(places) > 1 or len(axes) > 1:
             said = " and ".join(f"'{link}'" for link in links)
-            what = f"{said} are joined, but lie on different axes"
-            why = "which of them an added wheel is on would have to be asked too"
-            fix = f"leave out the axis of '{name}', and name wheels that do not mesh in `apart`"
+            what = f"{said} are joined, but are on different axes"
+            why = "the arbor of an added wheel would be ambiguous"
+            fix = f"remove the axis of '{name}', and list pairs of wheels that do not mesh in `apart`"
             place = next(loc for pair, loc in _pairs(evidence) if name in pair)
             yield Problem(what, why, fix, evidence.place(*place))
 

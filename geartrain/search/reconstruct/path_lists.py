@@ -327,7 +327,7 @@ class PathList:
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
         """Return the paths through all arbors, and a matrix of the plans of added arbors that are possible for each."""
         growth = PathGrowth.start(len(self.passes), self._wanted_key, self._wanted_powers)
-        self._looked_at = 0
+        self._examined = 0
         found = []
         for piece in self._grown(growth, self._seen.order):
             if self.dial.place not in (None, NEW):
@@ -362,14 +362,14 @@ class PathList:
                 continue
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
-            self._looked_at += len(own.codes)
+            self._examined += len(own.codes)
             if each is None:
                 parts.append(own.along(closing, self._lost, None, np.zeros(len(self.primes), dtype=np.int8), limits))
             else:
                 key, powers = self._step(each)
                 parts.append(own.along(closing, self._lost, each, powers, limits).through(at, code, each, key, powers))
-        if self._looked_at > _MOST_PATHS:
-            what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
+        if self._examined > _MOST_PATHS:
+            what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be examined"
             raise QuestionError(too_wide(self.problem, what))
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 

@@ -279,8 +279,8 @@ def _of_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
 def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> None:
     """Raise `QuestionError` for known trains that cannot be ranked. It is called before the search."""
     if request.known and question.base.is_carrier:
-        what = "trains are not ranked where arbors turn on a carrier"
-        raise QuestionError(Problem(what, "a known train is read on fixed axes", "leave --rank out"))
+        what = "known trains cannot be ranked if arbors turn on a carrier"
+        raise QuestionError(Problem(what, "known trains are read with fixed axes", "omit --rank"))
     check_same(request.same, request.known, question.problem)
     for train in request.known:
         find_known_train(train, question.problem, request.same)
@@ -306,7 +306,7 @@ def _ranks_of_known(
     """Rank each known train, and omit those whose ranking is interrupted."""
     ranked: list[KnownRank] = []
     for train in request.known:
-        with run.part(f"what {train.name} costs") as execution:
+        with run.part(f"rank of {train.name}") as execution:
             question = RankedQuestion(evidence, problem, found, _whole_search(execution))
             ranked.append(rank_known_train(train, question, request.same))
     return tuple(ranked)
@@ -340,7 +340,7 @@ def _findings(
         return CandidateFindings(assumptions=dropped)
     if found.complete and not any(count.mechanisms for count in found.counts):
         missing = None
-        with run.part("why nothing fits") as execution:
+        with run.part("reasons why nothing fits") as execution:
             missing = explain_missing(problem, execution)
         return CandidateFindings(assumptions=dropped, missing=missing)
     return find_facts(evidence, problem, found, dropped)

@@ -381,11 +381,11 @@ class RequestedQuestion(Result):
         return cls(len(arbors), len(counts), prod(counts), len(problem.dials), limits.wheels, teeth)
 
     def __str__(self) -> str:
-        read = f", their counts in {self.readings} ways" if self.readings > 1 else ""
+        read = f" and {self.readings} combinations of their counts" if self.readings > 1 else ""
         wheels = f"{plural(self.arbors, 'arbor')} with {plural(self.wheels, 'wheel')}{read}"
         minimum, maximum = self.teeth
         added = f"at most {plural(self.added, 'added wheel')} of {minimum} to {maximum} teeth"
-        return f"{wheels}; {plural(self.dials, 'dial')}; {added if self.added else 'nothing added'}"
+        return f"{wheels}; {plural(self.dials, 'dial')}; {added if self.added else 'no added wheels'}"
 
 
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
@@ -393,11 +393,11 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
     wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
     widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_DOUBTS]
     doubts = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
-    ways = [f"narrow counts in doubt ({doubts})"] if doubts else []
+    ways = [f"narrow uncertain tooth counts ({doubts})"] if doubts else []
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
-    ways.append("leave out arbors, or dials with the arbors that lead to them alone")
-    return Problem(what, f"asked are {RequestedQuestion.of(problem)}", "; or ".join(ways))
+    ways.append("leave out arbors, or dials with the arbors that lead only to them")
+    return Problem(what, f"the question has {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
 def question_digest(problem: ReconstructionProblem) -> str:
@@ -456,8 +456,8 @@ def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) 
     """Raise `DeclarationError` if wheels were seen in mesh whose axes are too close or too far apart."""
     for gear in evidence.gears:
         if frozenset(gear.pair) in unreachable:
-            what = f"'{gear.name}' was seen in mesh, and the distance of its axes does not allow it"
-            why = "pitch radii miss it by more than `reach` of `geometry`"
+            what = f"the known mesh '{gear.name}' is impossible at the distance of its axes"
+            why = "the sum of the pitch radii differs from it by more than `reach` of `geometry`"
             place = evidence.place("gears", evidence.gears.index(gear))
             raise DeclarationError([Problem(what, why, "correct a position or a size, or widen `reach`", place)])
 
@@ -468,7 +468,8 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
             continue
         if wheel.module.base <= 0:
             place = evidence.place("links", link, "wheels", name, "module")
-            raise DeclarationError([Problem(f"the module of '{name}' is not above 0", "", "correct it", place)])
+            what = f"the module of '{name}' is not above 0"
+            raise DeclarationError([Problem(what, "a module is a positive length", "correct it", place)])
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 
 
@@ -487,9 +488,9 @@ def _placed(evidence: Train) -> Iterator[PlacedArbor]:
 def _refuse_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
-        what = f"where '{link}' stands is not weighed beside the ring '{ring}' yet"
-        why = "a ring and its mate are as far apart as their radii differ, of which the spread of a sum says little"
-        fix = "leave out the position of its axis, or `geometry`"
+        what = f"the position of '{link}' cannot be weighed in evidence with the ring '{ring}'"
+        why = "the spread `distance` applies to sums of radii, but the axes of a ring and its mate to their difference"
+        fix = "remove the position of its axis, or `geometry`"
         raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 
 

@@ -73,10 +73,10 @@ _USE = {
     "some": "surviving arbors need not be in the train",
 }
 _NOT_COUNTED = "not counted"
-_TURNING = "A rank or an end of the family tree that is underlined shows its train turning."
+_TURNING = "An underlined rank or end of the family tree shows its animated train."
 _OF_KNOWN = (
-    "Where each train stands by weight among all that explain the evidence, and among those with as many added wheels; "
-    "and how many times the best outweighs it."
+    "Rank of each train by weight among all explanations, and among those with the same number of added wheels; and "
+    "the weight of the best train as a multiple of its weight."
 )
 
 
@@ -124,27 +124,30 @@ def _summary(found: ReconstructionAnswer) -> Iterator[str]:
         yield f"{said}; at least {plural(some.added, 'wheel')} must be added."
     if found.original is not None:
         first, last = found.original
-        rank = f"ranks {first}" if first == last else f"ranks {first} to {last}, for some weigh the same"
-        yield f"The train of which arbors are left out is one of them; by weight it {rank}."
+        rank = f"rank {first}" if first == last else f"ranks {first} to {last}, which have equal weights"
+        yield f"The original train is one of them; by weight it has {rank}."
     if not found.complete:
-        yield "Interrupted: the counts are of what had been looked at."
+        yield "Interrupted: the counts cover only the completed part of the search."
     if 0 < found.findings.listed < found.total:
         share = share_text(found.findings.share)
-        listed = f"{found.findings.listed} trains of greatest weight, which have {share} of the weight of all"
+        listed = f"{found.findings.listed} trains of maximum weight, with {share} of the total weight"
         if found.findings.of_all:
-            yield f"The family tree holds the {listed}; what trains share and the next fact are told of all."
+            yield f"The family tree contains the {listed}. Common facts and the next fact are computed over all trains."
         else:
-            yield f"The family tree, what trains share and the next fact are of the {listed}; shares are of theirs."
+            yield f"The family tree, common facts and the next fact cover the {listed}. Shares are relative to them."
 
 
 def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
     yield from _given(found)
     findings = found.findings
-    line = "Bags leave out the order of arbors on the path to a pointer, classes also which wheel on it drives which."
+    line = (
+        "Multisets ignore the order of arbors on the path to a pointer; classes (of equal ratios) also ignore which "
+        "wheel on it drives which."
+    )
     counted = [
         tuple(_NOT_COUNTED if number is None else str(number) for number in astuple(each)) for each in found.counts
     ]
-    yield Section("Counts", [line], [Table(("added wheels", "mechanisms", "bags", "classes"), counted)])
+    yield Section("Counts", [line], [Table(("added wheels", "trains", "multisets", "classes"), counted)])
     yield from known_sections(found.known)
     yield from missing_sections(findings.missing, found.problem.additions.wheels)
     if found.best:
@@ -168,16 +171,19 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
         )
         for each in (problem.input, *problem.arbors)
     ]
-    couplings = [f"{' and '.join(links)} turn as one: a pin in a slot joins them." for links in found.joined.values()]
+    couplings = [
+        f"{' and '.join(links)} are joined by a pin and slot: they have the same mean speed."
+        for links in found.joined.values()
+    ]
     yield Section("Surviving arbors", [_begins(found), *couplings], [Table(("arbor", "wheels"), rows)])
     pointers = [(dial.name, speed_text(dial), _place(dial)) for dial in problem.dials]
     base = found.base
-    speed = f"speed seen from {base.name}" if base is not None and base.is_carrier else "speed"
+    speed = f"speed relative to {base.name}" if base is not None and base.is_carrier else "speed"
     yield Section("Pointers", (), [Table(("pointer", speed, "on arbor"), pointers)])
     known = [f"{' and '.join(sorted(pair))} mesh." for pair in sorted(problem.meshes, key=sorted)]
     known += [f"{' and '.join(sorted(pair))} do not mesh." for pair in sorted(problem.apart, key=sorted)]
     if known:
-        yield Section("Meshes that are known", known)
+        yield Section("Known meshes", known)
     if found.unused:
         yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
 
@@ -188,7 +194,8 @@ def _begins(found: ReconstructionAnswer) -> str:
     if base is None or not base.is_carrier:
         return f"{source} is the input."
     turns, seen = fraction_text(base.speed), fraction_text(base.driven)
-    return f"Arbors turn on {base.name}, a carrier that turns at {turns}. Seen from it, {source} turns at {seen}."
+    carrier = f"Arbors turn on the carrier {base.name}, whose speed is {turns}."
+    return f"{carrier} The speed of {source} relative to it is {seen}."
 
 
 def _best(found: ReconstructionAnswer, turning: int) -> Section:
@@ -198,10 +205,10 @@ def _best(found: ReconstructionAnswer, turning: int) -> Section:
         rank = SceneText(shown, one.rank) if one.rank <= turning else shown
         added = teeth_text(one.wheels) or "none"
         rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), teeth_text(one.doubtful)))
-    more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
+    more = [f"{len(rows)} of {found.total} trains."] if len(rows) < found.total else []
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
-        more.append("In brackets the ranks that trains of one weight share.")
-    header = ("rank", "weight", "added wheels", "meshes", "counts in doubt")
+        more.append("Parentheses give the ranks that trains of equal weight share.")
+    header = ("rank", "weight", "added wheels", "meshes", "uncertain counts")
     return Section("The best", more, [filled_table(header, rows, 4)])
 
 
@@ -216,8 +223,8 @@ def _drawn(found: ReconstructionAnswer) -> Section:
         )
         for one in found.drawn
     ]
-    header = ("draw", "ranks", "added wheels", "meshes", "counts in doubt")
-    return Section("Drawn", ["Each with the chance of its weight among all."], [filled_table(header, rows, 4)])
+    header = ("draw", "ranks", "added wheels", "meshes", "uncertain counts")
+    return Section("Drawn", ["Drawn at random, in proportion to their weight."], [filled_table(header, rows, 4)])
 
 
 def _rank(one: RankedTrain) -> str:
@@ -236,15 +243,15 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
     """Yield sections on the ranks of known trains, the rules that they break, and their ranks without these rules."""
     if not known:
         return
-    header = ("train", "added wheels", "arbors", "rank", "with as many", "weight", "outweighed")
+    header = ("train", "added wheels", "arbors", "rank", "rank with as many", "weight", "best weighs")
     yield Section("Known trains", [_OF_KNOWN], [Table(header, [_row(one) for one in known])])
     for one in known:
         if one.broken:
-            rows = dict.fromkeys((each.what, each.change or "nothing single") for each in one.broken)
-            table = Table(("what it has", "what would admit it"), list(rows))
-            yield Section(f"What keeps {one.train} out", [*_noted(one), *_granted(one)], [table])
+            rows = dict.fromkeys((each.what, each.change or "no single change") for each in one.broken)
+            table = Table(("property of the train", "change that would admit it"), list(rows))
+            yield Section(f"Rules that {one.train} breaks", [*_noted(one), *_granted(one)], [table])
         elif one.notes:
-            yield Section(f"Of {one.train}", list(_noted(one)))
+            yield Section(f"Notes on {one.train}", list(_noted(one)))
         if one.telling is not None and one.place is not None:
             yield _telling(one.train, one.telling, one.place.trains)
 
@@ -253,21 +260,21 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
     """Return the section on facts that distinguish a train, singly and in the smallest sets."""
     many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
     alone = [each for each in found.facts if each.mechanisms == 1]
-    lines = ["Each fact that holds in it and not in all, and how many trains it would leave."]
-    tables = [Table(("fact", f"leaves of {trains}"), _left(found.facts))]
+    lines = ["Facts that are true of this train but not of all, with the number of trains that each would leave."]
+    tables = [Table(("fact", f"left of {trains}"), _left(found.facts))]
     if not found.sets:
-        lines.append("No three of them leave it alone.")
+        lines.append("No set of three facts leaves only this train.")
     elif not alone:
         ways = plural(len(found.sets), "way")
         lines.append(
-            f"{many_facts[len(found.sets[0])]} together leave it alone, in {ways}; of facts that leave the same trains "
-            "one is told."
+            f"{many_facts[len(found.sets[0])]} together leave only this train, in {ways}. "
+            "Equivalent facts are listed once."
         )
         rows = [("; ".join(map(_said, some)),) for some in found.sets[:_MOST_SETS]]
         if len(found.sets) > _MOST_SETS:
             rows.append((f"... {len(found.sets) - _MOST_SETS} more",))
-        tables.append(Table(("together they leave it alone",), rows))
-    return Section(f"What singles {train} out", lines, tables)
+        tables.append(Table(("facts that together leave only this train",), rows))
+    return Section(f"Facts that distinguish {train}", lines, tables)
 
 
 def _left(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
@@ -287,7 +294,7 @@ def _row(one: KnownRank) -> tuple[str, ...]:
     if one.broken:
         return (*begins, "none", "none", "", "")
     if one.place is None:
-        return (*begins, "not asked", "not asked", "", "")
+        return (*begins, "not searched", "not searched", "", "")
     place = one.place
     return (
         *begins,
@@ -303,7 +310,7 @@ def _ranks(ranks: tuple[int, int], trains: int) -> str:
 
 
 def _times(place: TrainPlace) -> str:
-    return "by none" if place.dearer == 1 else f"{figure(place.dearer)} times"
+    return "the same" if place.dearer == 1 else f"{figure(place.dearer)} times"
 
 
 def _noted(one: KnownRank) -> Iterator[str]:
@@ -314,24 +321,26 @@ def _granted(one: KnownRank) -> Iterator[str]:
     """Yield a sentence on the rank of a train in each question that admits it."""
     all_that = tuple(dict.fromkeys(each.change for each in one.broken))
     for admitted in one.admitted:
-        changes = "all of this" if admitted.changes == all_that else "; ".join(admitted.changes)
+        changes = (
+            "all these changes" if admitted.changes == all_that else f"the changes ({'; '.join(admitted.changes)})"
+        )
         yield _cost(changes, admitted)
 
 
 def _cost(changes: str, admitted: AdmittingQuestion) -> str:
     own = plural(len(admitted.wheels), "wheel") + (f" ({teeth_text(admitted.wheels)})" if admitted.wheels else "")
-    begins = f"Granted {changes}, it adds {own}"
+    begins = f"With {changes} it adds {own}"
     if admitted.refused is not None:
-        return f"{begins}. Not asked: {admitted.refused}."
+        return f"{begins}. Not searched: {admitted.refused}."
     told = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
     if admitted.place is None:
-        trains = f"trains are {', '.join(told)}" if told else "there is no train"
-        return f"{begins}, and with at most {plural(admitted.requested, 'wheel')} {trains}."
+        trains = f"the trains by added wheels are {', '.join(told)}" if told else "nothing fits"
+        return f"{begins}. With at most {plural(admitted.requested, 'wheel')} {trains}."
     place = admitted.place
-    outweighed = "none outweighs it" if place.dearer == 1 else f"the best outweighs it {_times(place)}"
+    outweighed = "no train weighs more" if place.dearer == 1 else f"the best weighs {_times(place)} as much"
     return (
         f"{begins}. Trains by added wheels: {', '.join(told)}. It ranks {_ranks(place.ranks, place.trains)}, and "
-        f"{_ranks(place.ranks_alike, place.trains_alike)} with as many; {outweighed}."
+        f"{_ranks(place.ranks_alike, place.trains_alike)} with the same number of wheels; {outweighed}."
     )
 
 
@@ -343,12 +352,12 @@ def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
     if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
-    yield Section("What all of them share", agreed or ["Nothing: there is no fact in which all of them agree."])
+    yield Section("What all of them share", agreed or ["Nothing: the trains agree in no fact."])
     parted = [fact for fact in marginals if len(fact.answers) > 1]
     tables = [table for table in (_meshes(parted), _answers(parted), _needed(parted)) if table.rows]
     if tables:
-        line = "Each answer with its share of the weight, and in how many trains it is given."
-        yield Section("Where they part", [line], tables)
+        line = "Each answer with its share of the weight and its number of trains."
+        yield Section("Where they differ", [line], tables)
 
 
 def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
@@ -357,7 +366,7 @@ def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
     if meshes:
         yield f"In all of them: {', '.join(meshes)}."
     needed = [fact.subject for fact in sure if fact.kind == "needed"]
-    yield from (f"A wheel of {count} is needed in all." for count in needed)
+    yield from (f"All of them need a wheel of {count}." for count in needed)
     others = [_AGREED[fact.kind](fact) for fact in sure if fact.kind not in ("mesh", "needed", "driver")]
     if others:
         yield f"{'Besides' if meshes or needed else 'In all of them'}: {'; '.join(others)}."
@@ -408,12 +417,12 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
         for one in facts[:_MOST_NEXT]
     ]
     lines = [
-        "What single further fact would divide them most. `bits` is what its answer is expected to tell: the entropy "
-        "of the shares that the answers would leave."
+        "Single facts whose observation gives the most information. `bits` is the expected information: the entropy of "
+        "the shares of the answers."
     ]
     if len(facts) > _MOST_NEXT:
         lines.append(f"{_MOST_NEXT} of {len(facts)}.")
-    header = ("fact", "bits", "what each answer would leave", "divides them alike")
+    header = ("fact", "bits", "shares of the answers", "equivalent facts")
     yield Section("The next fact to look for", lines, [Table(header, rows)])
 
 
@@ -431,34 +440,33 @@ def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -
     if not changes:
         return
     header = ("assumption", *(f"{added} added" for added in range(len(given))), "trains")
-    rows = [("all that is given", *map(str, given), str(sum(given)))]
+    rows = [("all facts", *map(str, given), str(sum(given)))]
     for one in changes:
         counts = [str(count) for count in one.mechanisms] or ["-"] * len(given)
         total = one.refused or f"{one.total}{'' if one.complete else ' or more'}"
         rows.append((one.change, *counts, total))
-    line = "How many trains there would be if one thing were not known, or not ruled out: what each has carried."
-    yield Section("Assumptions that carried weight", [line], [Table(header, rows)])
+    line = "Number of trains without one fact or rule, which shows how much it excludes."
+    yield Section("Effect of each assumption", [line], [Table(header, rows)])
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
     """Yield sections on the reasons why nothing fits; `most` is the maximum number of added wheels."""
     if found is None:
         return
-    line = "Each dial alone, by whatever of the surviving arbors leads to it; the others then need not be used."
+    line = "Each dial without the others; surviving arbors that do not lead to it need not be used."
     rows = [(dial.dial, _alone(dial, most)) for dial in found.dials]
     yield Section("Why nothing fits", [line], [Table(("dial", "alone"), rows)])
     doubts = [(one.change, str(one.fewest), str(one.total)) for one in found.doubts]
     tried = (
-        f"{plural(found.requested, 'change')} to the evidence tried, one at a time: a hard fact "
-        f"dropped, or a surviving "
-        f"count read otherwise by up to {plural(MISREAD, 'tooth').replace('tooths', 'teeth')}."
+        f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard fact is dropped, or a "
+        f"surviving count is changed by up to {MISREAD} teeth."
     )
-    lines = [tried] if doubts else [tried, "None of them alone leaves an explanation."]
+    lines = [tried] if doubts else [tried, "No single change leaves an explanation."]
     if found.refused:
-        lines.append(f"Could not be asked: {'; '.join(found.refused)}.")
-    header = ("what is doubted", "added wheels", "trains")
+        lines.append(f"Not searched: {'; '.join(found.refused)}.")
+    header = ("change", "added wheels", "trains")
     tables = [Table(header, _first(doubts, _MOST_DOUBTS))] if doubts else []
-    yield Section("The cheapest evidence to doubt", lines, tables)
+    yield Section("Changes of the evidence that would help", lines, tables)
 
 
 def _alone(dial: LoneDial, most: int) -> str:
@@ -498,8 +506,8 @@ def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[S
             yield Branch(f"{plural(len(left), 'lighter branch').replace('branchs', 'branches')}: {share}, {trains}")
 
     said = [
-        "Meshes from the input on, the driving wheel first, along the path to each pointer in turn; a pointer stands "
-        "in brackets at its arbor. Each branch has its share of the weight. Trains at one end differ in counts alone."
+        "Meshes from the input along the path to each pointer in turn, the driving wheel first. Parentheses give the "
+        "pointers of an arbor. Each branch has its share of the weight. Trains at one end differ only in counts."
     ]
     yield Section("The family tree", said, branches=list(lines([0])))
 

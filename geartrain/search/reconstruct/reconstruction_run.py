@@ -38,7 +38,7 @@ class CommandRun(ReconstructionRun):
 
     def begin(self, problem: ReconstructionProblem) -> None:
         """Print the size of the question."""
-        tell(f"asked: {RequestedQuestion.of(problem)}")
+        tell(f"question: {RequestedQuestion.of(problem)}")
         if (size := count_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
 
@@ -47,9 +47,9 @@ class CommandRun(ReconstructionRun):
         tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in cost.paths.items())}")
         if seconds := rough(cost.whole):
             workers = self._options.workers
-            shared = f", shared by {workers}" if workers not in (None, 1) else ""
+            shared = f", shared by {workers} processes" if workers not in (None, 1) else ""
             timed = f"one part in {cost.parts} of the search was timed"
-            tell(f"expected: about {_lasting(seconds)} in one process{shared}; {timed}")
+            tell(f"expected time: about {_lasting(seconds)} in one process{shared}; {timed}")
 
     @contextmanager
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
@@ -70,7 +70,7 @@ class CommandRun(ReconstructionRun):
             try:
                 yield given
             except KeyboardInterrupt:
-                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} counted; the rest is left out")
+                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} counted; the rest is omitted")
             cut = len(counted) < len(changed)
             self._is_taken_up_with_another = cut and given.journal is not None and bool(len(given.journal))
             close_journal(given.journal, cut)
@@ -87,7 +87,7 @@ class CommandRun(ReconstructionRun):
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
                 yield Execution(executor, tell=bar.reach)
         except KeyboardInterrupt:
-            tell(f"stopped: {what} is left out")
+            tell(f"interrupted: {what} omitted")
 
 
 def _weighted(execution: Execution, problem: ReconstructionProblem, expected: ExpectedCost) -> Execution:
@@ -126,4 +126,4 @@ def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:
             bar.advance()
     viewer = page(scenes) if scenes else ""
     data = to_html([describe_reconstruction(found, viewer, len(scenes))]).encode("utf-8")
-    to.write(data, f": {plural(len(scenes), 'train')} turning, {len(data) / 1000:,.0f} kB")
+    to.write(data, f": {plural(len(scenes), 'train')} animated, {len(data) / 1000:,.0f} kB")

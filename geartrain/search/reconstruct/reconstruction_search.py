@@ -224,9 +224,10 @@ def _all_weighed(
     """Weigh every candidate by its misfits, or as a part of its class, and drop impossible ones."""
     number = sum(each.mechanisms for some in found.values() for each in some)
     if number > _LISTED:
-        what = f"{number} trains would have to be weighed one by one, and {_LISTED} can be"
-        fix = "ask with fewer added wheels (-k), or with `--per mechanism` and without measured sizes"
-        raise QuestionError(Problem(what, "weights by class, and of measured sizes, are of whole trains", fix))
+        what = f"{number} trains would have to be weighed one by one, more than {_LISTED}"
+        why = "weights per class and weights of measured sizes need every train"
+        fix = "add fewer wheels (-k), or use `--per mechanism` without `geometry`"
+        raise QuestionError(Problem(what, why, fix))
     counts, weighed = [], []
     for added, topologies in found.items():
         own = []
@@ -286,9 +287,9 @@ def draw_candidates(
     if not found.topologies:
         if not sum(each.mechanisms for each in found.counts):
             return ()
-        what = "no trains can be drawn where each is weighed by itself"
-        fix = "list them instead (--all), or ask without measured sizes and with `--per mechanism`"
-        raise QuestionError(Problem(what, "they are drawn from sums over trains that weigh the same", fix))
+        what = "trains cannot be drawn if they are weighed one by one"
+        fix = "list them instead (--all), or use `--per mechanism` without `geometry`"
+        raise QuestionError(Problem(what, "draws need sums over trains of equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
     shares = [weight * each.mechanisms for weight, each in zip(whole, found.topologies, strict=True)]

@@ -378,8 +378,8 @@ def _refuse_absurd(problem: ReconstructionProblem) -> None:
     raise QuestionError(
         Problem(
             f"up to {added.wheels} added wheels of {added.minimum} to {added.maximum} teeth have 1e{size:.0f} choices",
-            f"a search takes up to 1e{_MOST_CHOICES}",
-            f"ask for at most {fits} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`, or for fewer counts",
+            f"a search supports up to 1e{_MOST_CHOICES} choices",
+            f"add at most {fits} wheels: `-k {fits}` or `reconstruct: {{add: {{wheels: {fits}}}}}`; or narrow `teeth`",
         )
     )
 
@@ -401,10 +401,10 @@ def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) ->
     fits = last + floor((log10(_LONGEST) - log10(seconds[-1])) / log10(growth))
     raise QuestionError(
         Problem(
-            f"up to {most} added wheels are asked for, which would take about 1e{longest - log10(_YEAR):.0f} years",
-            f"in one process {last} added wheels take about {rough(seconds[-1]) or 1:g} s, and each one more "
-            f"{growth:.2g} times as long",
-            f"ask for at most {max(fits, last)} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`",
+            f"a search with up to {most} added wheels would take about 1e{longest - log10(_YEAR):.0f} years",
+            f"in one process {last} added wheels take about {rough(seconds[-1]) or 1:g} s, and each further "
+            f"wheel takes {growth:.2g} times as long",
+            f"add at most {max(fits, last)} wheels, with -k or in `reconstruct: {{add: {{wheels: ...}}}}`",
         )
     )
 

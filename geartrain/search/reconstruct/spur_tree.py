@@ -69,8 +69,9 @@ def walk_arbors(
             child = arbor_of(other)
             if child == source or child in driven:
                 what = f"the meshes of '{train.name}' close a loop at '{train.gears[gear].name}'"
-                fix = "only trees are reconstructed yet"
-                raise QuestionError(Problem(what, "an arbor is driven on two ways", fix, train.place("gears", gear)))
+                why = "an arbor is driven in two ways, and only trees of arbors are reconstructed"
+                place = train.place("gears", gear)
+                raise QuestionError(Problem(what, why, "remove a mesh of the loop", place))
             driven[child] = DrivenArbor(arbor, own, other)
             waiting.append(child)
     return driven
@@ -240,8 +241,9 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
         return found[0], *(replace(tree, teeth=(min(every), max(every))) for tree in found[1:])
     what = f"no pointer of '{train.name}' is reached by spur wheels on the frame or on a carrier"
     obstacles = _joined(list(_obstacles(train)))
-    why = parts.loop or (f"it has {obstacles}" if obstacles else "no output beyond the input has a speed")
-    raise QuestionError(Problem(what, why, "only such trees are reconstructed yet"))
+    why = parts.loop or (f"it has {obstacles}" if obstacles else "no output except the input has a known speed")
+    fix = "give `expect` to an output that spur wheels drive on the frame or on a carrier"
+    raise QuestionError(Problem(what, why, fix))
 
 
 def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None = None) -> SpurTree:
@@ -257,25 +259,27 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         if not trees:
             begin = ", ".join(tree.source for tree in find_spur_trees(train))
             fix = f"name one of: {begin}"
-            raise QuestionError(Problem(f"no part of '{train.name}' begins at '{source}'", "", fix))
+            why = "a part begins at the input, or at an arbor of known speed"
+            raise QuestionError(Problem(f"no part of '{train.name}' begins at '{source}'", why, fix))
     wanted = list(arbors)
     held = [[tree for tree in trees if tree.arbor_of(link) in tree.driven] for link in wanted]
     both = [tree for tree in trees if all(tree in some for some in held)]
     if both or not all(held):
         return (both or trees)[0]
     said = " and ".join(f"'{link}'" for link in wanted)
-    why = f"arbors of this train are borne or driven in {len(trees)} parts, and each is a question of its own"
-    raise QuestionError(Problem(f"{said} cannot be left out together", why, "leave out those of one part"))
+    why = f"the train has {len(trees)} parts, and each is reconstructed separately"
+    raise QuestionError(Problem(f"{said} cannot be left out together", why, "leave out arbors of one part only"))
 
 
 def _check_input(train: Train) -> None:
     if train.states:
-        what = f"'{train.name}' is driven otherwise in each of its states"
-        raise QuestionError(Problem(what, "a reconstruction has one input", "ask of a train without states"))
+        what = f"'{train.name}' has several states"
+        raise QuestionError(Problem(what, "a reconstruction has one input", "use a train without `states`"))
     turning = [link for link, speed in train.case(None).inputs.items() if speed]
     if len(turning) != 1:
         what = f"'{train.name}' has {len(turning)} inputs that turn"
-        raise QuestionError(Problem(what, "a reconstruction has one", "ask of a train with one", train.place("inputs")))
+        why = "a reconstruction has one input"
+        raise QuestionError(Problem(what, why, "use a train with one input", train.place("inputs")))
 
 
 @dataclass
@@ -442,12 +446,12 @@ def why_not(train: Train, link: str) -> str:
     """Return the reason why a link is in none of the parts."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
-        return "it stands still"
+        return "it does not turn"
     if any(link in lock for lock in train.locks):
-        return "it is held to another link"
+        return "it is locked to another link"
     followers = [one for one in train.couplings if link == one.slot and one.kind != "pin_and_slot"]
     if followers:
-        return "a pin and follower moves it, whose mean ratio is 0"
+        return "it is moved by a pin and follower, whose mean ratio is 0"
     kinds = sorted({wheel.kind for wheel in wheels.values() if wheel.kind != "spur"})
     if kinds:
         return f"it has {_joined(kinds)} wheels"
@@ -457,7 +461,7 @@ def why_not(train: Train, link: str) -> str:
     others = sorted({train.wheels[name][1].kind for name in mates} - {"spur"})
     if others:
         return f"it meshes with {_joined(others)} wheels"
-    return "it leads to no pointer of known speed" if mates else "its wheels mesh with none"
+    return "it leads to no pointer of known speed" if mates else "its wheels mesh with no other wheel"
 
 
 def _obstacles(train: Train) -> Iterator[str]:
@@ -465,9 +469,9 @@ def _obstacles(train: Train) -> Iterator[str]:
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
     if any(one.kind != "pin_and_slot" for one in train.couplings):
-        yield "couplings that are no pins in slots"
+        yield "couplings other than pin and slot"
     if train.locks:
-        yield "arbors that are held to others"
+        yield "locked arbors"
 
 
 def _joined(parts: Sequence[str]) -> str:
@@ -560,14 +564,14 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
     able = [link for arbor in tree.able if arbor not in arbors for link in tree.links_of(arbor)]
     for link, arbor in zip(lost, arbors, strict=True):
         if arbor == tree.source:
-            what, why = f"'{link}' carries the input", "a reconstruction begins there"
+            what, why = f"'{link}' carries the input", "a reconstruction begins at the input"
         elif arbor not in tree.driven:
             what = f"'{link}' cannot be left out"
-            why = why_not(tree.train, link) if link in tree.train.links else "there is no such link"
+            why = why_not(tree.train, link) if link in tree.train.links else "the train has no such link"
         elif arbor not in tree.able:
-            what, why = f"'{link}' cannot be left out", "it has a ring, and no ring is added"
+            what, why = f"'{link}' cannot be left out", "it has a ring, and rings are never added"
         elif arbors.count(arbor) > 1:
-            what, why = f"'{link}' is left out twice", "an arbor is lost once, with all that is joined to it"
+            what, why = f"'{link}' is left out twice", "an arbor is lost together with all links that are joined to it"
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))

@@ -149,10 +149,10 @@ class ExactJoin:
         at, alive = self.pruned(node, rows, removed)
         # a last item with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
-            total[at] = self._windowed(node, at, alive, removed)
+            total[at] = self._count_windows(node, at, alive, removed)
             return total, removed.by
         for parents, grown in self.grown(node, alive, at, removed):
-            counts = self._below(node, parents, grown, removed)
+            counts = self._count_below(node, parents, grown, removed)
             np.add.at(total, parents, counts)
         return total, removed.by
 
@@ -166,7 +166,7 @@ class ExactJoin:
         for _, grown in self.grown(node, alive, np.arange(alive.size), None):
             # rows without solutions in a later child would be enumerated in vain for the first child
             if len(node.children) > 1:
-                grown = self._promising(node, grown)
+                grown = self._with_solutions(node, grown)
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
@@ -235,7 +235,7 @@ class ExactJoin:
             self._reaches[id(node)] = found
         return self._reaches[id(node)]
 
-    def _windowed(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
+    def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
         """Count the values of a last item with one constraint by its windows, without a row for each value."""
         constraint, item = self.constraints[node.guide], self.items[node.item]
         assert isinstance(constraint, PolynomialConstraint)
@@ -284,16 +284,16 @@ class ExactJoin:
             return
         guide = self.constraints[node.guide]
         if isinstance(guide, PolynomialConstraint):
-            looked_at: list[SolutionWindow] = []
+            previous_windows: list[SolutionWindow] = []
             for window in guide.windows(rows, node.item):
                 window = window.clipped(first, last)
                 for parents, indices in spread_in_blocks(window.start, window.end, BLOCK):
                     # cases are mutually exclusive, but their windows overlap if bounds are closer than rounding
-                    for other in looked_at:
+                    for other in previous_windows:
                         new = (indices < other.start[parents]) | (indices >= other.end[parents])
                         parents, indices = parents[new], indices[new]
                     yield parents, indices
-                looked_at.append(window)
+                previous_windows.append(window)
         else:
             assert isinstance(guide, CountEquation)
             yield self._solved(guide, node.item, rows, first, last)
@@ -319,7 +319,7 @@ class ExactJoin:
             return constraint.holds(rows)
         return constraint.holds(self._counts(constraint, rows))
 
-    def _below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
+    def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
         """Count the assignments below each extended row; rejections by the subtree are charged to `parents`."""
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)
@@ -335,7 +335,7 @@ class ExactJoin:
             alive = alive[counts[alive] > 0]
         return counts
 
-    def _promising(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
+    def _with_solutions(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
         """Select the rows that have assignments in every subtree."""
         for child in node.children:
             distinct, which = self.seen(child, grown)

@@ -185,9 +185,9 @@ class AssignmentSums:
         if isinstance(table, RecordedItem):
             return AlternativeRows(1, table.size, None, tuple(table.sides))
         own = weights[table.wheel]
-        told = ((table.wheel, len(own), table.choices),)
+        facts = ((table.wheel, len(own), table.choices),)
         before = () if table.before is None else ((table.before, table.parents),)
-        return AlternativeRows(own[table.choices], table.size, table.children, before, told)
+        return AlternativeRows(own[table.choices], table.size, table.children, before, facts)
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
         """Return the covariance of the counts of each pair of wheels, in the order of `counts`, up to rounding.

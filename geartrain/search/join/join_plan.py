@@ -131,7 +131,7 @@ def find_join_problem(
     """
     found = [
         _planned(domains, requested, early, late, recipes, chances)
-        for early, late in _lateness(rules)
+        for early, late in _rule_partitions(rules)
         for recipes in find_recipes(
             find_wheel_monomials(tuple(domains), requested, frozenset(w for rule in early for w in rule.wheels)),
             domains,
@@ -140,7 +140,7 @@ def find_join_problem(
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
 
-def _lateness(
+def _rule_partitions(
     rules: Sequence[CountConstraint],
 ) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
     """Yield partitions of the rules into those evaluated as soon as possible and those evaluated last."""
@@ -214,10 +214,10 @@ class _Planner:
         checks = [at for at in complete if at != guide]
         interface = sorted({other for at in active for other in self.scopes[at] & known})
         rows = min(rows, prod(self.sizes[other] for other in interface))
-        looked = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
-        kept = looked * prod((self.likely[at] for at in checks), start=1.0)
+        examined = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
+        kept = examined * prod((self.likely[at] for at in checks), start=1.0)
         rest = open_ - {item}
-        children, cost = [], rows + (looked if rest or checks or guide < 0 else 0)
+        children, cost = [], rows + (examined if rest or checks or guide < 0 else 0)
         for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
             # a lower limit of the expected rows, because rough estimates would make later nodes appear free
             child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
@@ -306,7 +306,7 @@ class SelectivitySample:
         """
         speeds = self.speeds(requested.function)
         minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)
-        return min(1.0, max(minimum, sum(_part(speeds, interval) for interval in requested.intervals)))
+        return min(1.0, max(minimum, sum(_interval_share(speeds, interval) for interval in requested.intervals)))
 
     def speeds(self, function: Function) -> Floats:
         """Return the finite values of a function over the sample."""
@@ -316,7 +316,7 @@ class SelectivitySample:
         return np.asarray(values[np.isfinite(values)])
 
 
-def _rough(value: Fraction) -> float:
+def _as_float64(value: Fraction) -> float:
     """Convert a number to float64; infinite if it is out of range."""
     number = as_float(value)
     if number is None:
@@ -324,9 +324,9 @@ def _rough(value: Fraction) -> float:
     return number
 
 
-def _part(speeds: Floats, interval: Interval) -> float:
-    low = -inf if interval[0] is None else _rough(interval[0])
-    high = inf if interval[1] is None else _rough(interval[1])
+def _interval_share(speeds: Floats, interval: Interval) -> float:
+    low = -inf if interval[0] is None else _as_float64(interval[0])
+    high = inf if interval[1] is None else _as_float64(interval[1])
     within = float(((speeds >= low) & (speeds <= high)).mean()) if len(speeds) else 1.0
     if within * len(speeds) >= _NEIGHBOURS or low <= 0 <= high or not len(speeds):
         return within

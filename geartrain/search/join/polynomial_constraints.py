@@ -244,11 +244,11 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
     # four times the rounding error: then |a| minus its error is at least three quarters of |a|, and its sign is certain
     known = np.abs(a) > 4 * A.rounding * size
     if known.all():
-        return _bounded(inequality, rows, rows.items[item], high - low, (a, A.rounding * size), B)
-    return _in_doubt(inequality, rows, item, known, (A, B))
+        return _certain_ray(inequality, rows, rows.items[item], high - low, (a, A.rounding * size), B)
+    return _uncertain_ray(inequality, rows, item, known, (A, B))
 
 
-def _bounded(
+def _certain_ray(
     inequality: PolynomialInequality,
     rows: PartialAssignments,
     item: Item,
@@ -304,7 +304,7 @@ def _all_or_nothing(met: Bools, most: int) -> SolutionWindow:
     return SolutionWindow(start, end, start, end)
 
 
-def _in_doubt(
+def _uncertain_ray(
     inequality: PolynomialInequality,
     rows: PartialAssignments,
     item: int,
@@ -386,7 +386,7 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
     few = all(len(polynomial.powers(item)) <= 2 for item in inside) and 2 ** len(inside) <= _MOST_CORNERS
     points = None
-    if few and not all(_alone(polynomial, item) for item in inside):
+    if few and not all(_is_in_one_term(polynomial, item) for item in inside):
         ends = product(*(corners[item] for item in inside))
         points = np.stack([_factors(polynomial, inside, point) for point in ends], axis=1)
     rest = tuple(
@@ -396,7 +396,7 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
     return RelaxedInequality(inequality.sense, rest, lows, highs, points, 2 * polynomial.rounding, polynomial.scale)
 
 
-def _alone(polynomial: SignPolynomial, item: int) -> bool:
+def _is_in_one_term(polynomial: SignPolynomial, item: int) -> bool:
     """Return whether at most one term has more than the lowest power of an item."""
     powers = [dict(monomial).get(item, 0) for _, monomial in polynomial.terms]
     return sum(power > min(powers) for power in powers) <= 1

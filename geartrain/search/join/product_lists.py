@@ -56,8 +56,8 @@ def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[i
 def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
     values, sizes, cost = np.ones(1, dtype=np.int64), [1], 0
     for at, some in enumerate(factors):
-        looked = sizes[-1] * len(some)
-        cost += looked
+        examined = sizes[-1] * len(some)
+        cost += examined
         if cost <= _TRIED and len(values) == sizes[-1] and maximum(factors[: at + 1]) < 1 << 62:
             values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
             sizes.append(len(values))
@@ -86,7 +86,7 @@ class ProductLists:
         self.levels = [np.ones(1, dtype=np.int64)]
         self.times: Tallies = np.ones(1, dtype=dtype)
         for some, own in zip(self.factors, weights, strict=True):
-            values, self.times = _times(self.levels[-1], self.times, some, np.array(own, dtype=dtype))
+            values, self.times = _multiplied(self.levels[-1], self.times, some, np.array(own, dtype=dtype))
             self.levels.append(values)
 
 
@@ -169,14 +169,14 @@ class CountProducts:
     def _step(self, level: int, values: Ints) -> ProductStep | None:
         if level < 0:
             return None
-        children, choices, rest = _made(values, self.powers[level], self.levels[level])
+        children, choices, rest = _factored(values, self.powers[level], self.levels[level])
         before, parents = np.unique(rest, return_inverse=True)
         return ProductStep(
             self.wheels[level][0], choices, children, parents, len(values), self._step(level - 1, before)
         )
 
 
-def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
+def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
     """Multiply two lists, and return the distinct products with their weights, block by block to save memory."""
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
@@ -213,7 +213,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
     return rows, columns, quotients
 
 
-def _made(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
+def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
     """Return the result of `_divided` for distinct ascending products, by the cheaper method."""
     if len(values) <= len(shorter):
         return _divided(values, factors, shorter)
@@ -249,7 +249,7 @@ class Item:
             self._divide(self._bottom)
         self.x = self.tops / (1.0 if self.bottoms is None else self.bottoms)
         self.sums = np.concatenate([np.zeros(1, dtype=dtype), np.cumsum(self.times, dtype=dtype)])
-        self._rooms: dict[int, Floats] = {}
+        self._powers: dict[int, Floats] = {}
 
     def __len__(self) -> int:
         return len(self.x)
@@ -266,9 +266,9 @@ class Item:
 
     def powers(self, power: int) -> Floats:
         """Return x to a power, ascending."""
-        if power not in self._rooms:
-            self._rooms[power] = reduce(np.multiply, [self.x] * power)
-        return self._rooms[power]
+        if power not in self._powers:
+            self._powers[power] = reduce(np.multiply, [self.x] * power)
+        return self._powers[power]
 
     def sides(self, indices: Ints) -> list[tuple[CountProducts, Ints]]:
         """Return the products of numerator and denominator, each with their indices at some values."""

@@ -99,16 +99,16 @@ def find_wheel_monomials(
     classes = proportional_classes((wheel, steps) for wheel, steps in lists.items() if wheel not in alone)
     single = ({wheel: 1} for wheel, steps in lists.items() if wheel in alone or not any(steps))
     found = sorted((*classes.values(), *single), key=lambda powers: wheels.index(next(iter(powers))))
-    return [WheelMonomial(powers if next(iter(powers.values())) > 0 else _turned(powers)) for powers in found]
+    return [WheelMonomial(powers if next(iter(powers.values())) > 0 else _inverted(powers)) for powers in found]
 
 
-def _turned(powers: Mapping[str, int]) -> dict[str, int]:
+def _inverted(powers: Mapping[str, int]) -> dict[str, int]:
     return {wheel: -power for wheel, power in powers.items()}
 
 
 def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
     """Yield definitions of items for the monomials: whole quotients, or numerator and denominator as separate items."""
-    choices = [list(_cuts(bundle, domains)) for bundle in bundles]
+    choices = [list(_item_cuts(bundle, domains)) for bundle in bundles]
     if math.prod(map(len, choices)) > 8:
         yield from dict.fromkeys(tuple(recipe for choice in choices for recipe in choice[kind]) for kind in (0, -1))
     else:
@@ -116,8 +116,8 @@ def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator
             yield tuple(recipe for cut in chosen for recipe in cut)
 
 
-def _cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    top, bottom = list(_listed(bundle.top, domains)), list(_listed(bundle.bottom, domains))
+def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
+    top, bottom = list(_listable_groups(bundle.top, domains)), list(_listable_groups(bundle.bottom, domains))
     yield tuple(ItemRecipe(wheels) for wheels in top) + tuple(ItemRecipe((), wheels) for wheels in bottom)
     if len(top) == len(bottom) == 1 and quotients(top[0], bottom[0], domains) <= _MOST_QUOTIENTS:
         yield (ItemRecipe(top[0], bottom[0]),)
@@ -128,7 +128,7 @@ def quotients(top: Factors, bottom: Factors, domains: Domains) -> int:
     return forecast(top, domains)[0] * forecast(bottom, domains)[0]
 
 
-def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
+def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
     """Split wheels into the minimum number of groups of similar size whose products can be listed."""
     if not wheels:
         return
@@ -143,8 +143,8 @@ def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
         raise RangeError(Problem(what, why, f"narrow its range to {_MOST_VALUES} counts below 10^9"))
     else:
         middle = len(wheels) // 2
-        yield from _listed(wheels[:middle], domains)
-        yield from _listed(wheels[middle:], domains)
+        yield from _listable_groups(wheels[:middle], domains)
+        yield from _listable_groups(wheels[middle:], domains)
 
 
 def find_polynomial_constraints(

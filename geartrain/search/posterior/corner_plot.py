@@ -64,7 +64,7 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:
-        raise _nothing(f"{len(wheels)} wheels do not fit on a page; choose from 1 to {MOST}")
+        raise _cannot_draw(f"{len(wheels)} wheels do not fit on a page; choose from 1 to {MOST}")
     side = max(5.0, 0.9 + _CELL * len(wheels))
     figure = Figure(figsize=(side, side), dpi=100, layout="constrained")
     panels = figure.subplots(len(wheels), len(wheels), squeeze=False)
@@ -78,21 +78,21 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
             axes.tick_params(labelsize=SMALL, labelleft=column == 0 and row > 0, labelbottom=row == len(wheels) - 1)
             _ticks(axes.xaxis, spans[across])
             if row == column:
-                _one(axes, likely, across, spans[across])
+                _marginal_panel(axes, likely, across, spans[across])
             else:
-                _two(axes, likely, (across, down), spans)
+                _joint_panel(axes, likely, (across, down), spans)
             axes.set_xlim(spans[across][0] - 0.5, spans[across][1] + 0.5)
         panels[-1, row].set_xlabel(down, fontsize=TEXT)
         if row:
             panels[row, 0].set_ylabel(down, fontsize=TEXT)
-    _key(figure, likely)
+    _legend(figure, likely)
     if title:
         words = fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20))
         headed(figure, words)
     return figure
 
 
-def _key(figure: Figure, likely: CountProbabilities) -> None:
+def _legend(figure: Figure, likely: CountProbabilities) -> None:
     """Draw the legend of bars, outlines and dashed lines below the panels."""
     handles: list[Any] = [Patch(color=BLUE, label="posterior")]
     if likely.before:
@@ -103,7 +103,7 @@ def _key(figure: Figure, likely: CountProbabilities) -> None:
         figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
 
 
-def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
+def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
     """Draw bars of the probabilities of one wheel, and outlines of its prior."""
     chances = likely.single[wheel]
     wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
@@ -130,7 +130,7 @@ def _outline(axes: Axes, chances: Chances) -> None:
     axes.stairs([chances.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
 
 
-def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
+def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
     """Draw a square for each pair of counts, darker for higher probability."""
     (a, first), (b, second) = ((wheel, spans[wheel]) for wheel in pair)
     table = np.zeros((second[1] - second[0] + 1, first[1] - first[0] + 1))
@@ -152,7 +152,7 @@ def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str,
 def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
     counts = [*likely.single[wheel], *likely.before.get(wheel, {})]
     if not likely.single[wheel]:
-        raise _nothing(f"wheel '{wheel}' has no count")
+        raise _cannot_draw(f"wheel '{wheel}' has no count")
     return min(counts), max(counts)
 
 
@@ -174,7 +174,7 @@ def _modes(chances: Chances) -> str:
     return f"{some}{modes[0]}-{modes[-1]}: {percent} each"
 
 
-def _nothing(why: str) -> QuestionError:
+def _cannot_draw(why: str) -> QuestionError:
     return QuestionError(Problem("no tooth counts to draw", why, "give 1 to 9 wheels with their probabilities"))
 
 

@@ -47,11 +47,11 @@ from geartrain.train import Train
 LIMIT = 2_000_000
 """Default maximum number of steps of the exact join, which take a few seconds."""
 SAMPLES = 1_000_000
-_ALONE = 200_000  # maximum steps for a single output: a fraction of a second
+_SINGLE_OUTPUT_STEPS = 200_000  # maximum steps for a single output: a fraction of a second
 _DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exact join is interrupted
 _ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
 METHODS: tuple[Method, ...] = ("exact", "sample")
-_NOTHING_YET = (
+_NO_PARTIAL_RESULT = (
     "interrupted: the exact method has no partial result, so the figures are estimated from {} combinations drawn at "
     "random; the method `sample` draws any number of them"
 )
@@ -165,7 +165,7 @@ def infer_counts(
         soft=soft,
     )
     means = Execution(executor, journal, tell)
-    outcome = _find(question, method, most, limit, samples, seed, means)
+    outcome = _summarise(question, method, most, limit, samples, seed, means)
     chosen, found, cut = outcome.method, outcome.found, outcome.cut
     exact = found.evidence if chosen != "sample" else None
     shares = {
@@ -181,19 +181,19 @@ def infer_counts(
         found.turning,
         found.fits,
         question.witnesses,
-        _alone(question, seed),
+        _single_output_evidence(question, seed),
         found.posteriors,
         found.correlations,
         rank_combinations(question, found.candidates, most, exact),
         found.ranked and chosen != "sample" and not cut,
         {name: one for name, one in shares.items() if one is not None},
-        (*question.remarks, *outcome.remarks, *_doubts_of_sample(found, chosen)),
+        (*question.remarks, *outcome.remarks, *_sample_remarks(found, chosen)),
         seed if chosen == "sample" else None,
         cut,
     )
 
 
-def _doubts_of_sample(found: PosteriorSummary, method: Method) -> Iterator[str]:
+def _sample_remarks(found: PosteriorSummary, method: Method) -> Iterator[str]:
     """Yield a remark if so few combinations of a sample fit that its figures are unreliable."""
     if method == "sample" and found.effective < _ENOUGH:
         yield (
@@ -223,7 +223,7 @@ class _Outcome(NamedTuple):
     remarks: tuple[str, ...] = ()
 
 
-def _find(
+def _summarise(
     question: InferenceProblem,
     method: Method | None,
     most: int,
@@ -241,7 +241,7 @@ def _find(
             # an interrupted exact join has no partial result: a short sample is returned instead, without a journal,
             # because the exact join would begin again
             found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
-            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.examined),))
+            return _Outcome("sample", found, True, (_NO_PARTIAL_RESULT.format(found.examined),))
         except BudgetSpentError:
             if method is not None:
                 what = f"the exact method needs more than {limit} steps"
@@ -267,14 +267,14 @@ def _sampled(
     return summary_of_sample(question, tally), cut
 
 
-def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
+def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
     """Return output -> evidence of that output only, from a sample if the exact join would take too long."""
     found = {}
     for witness in question.witnesses:
         doubts = {wheel: question.doubts[wheel] for wheel in witness.formula.wheels}
         one = replace(question, doubts=doubts, witnesses=(witness,), conditions=())
         try:
-            found[witness.name] = evidence_of(one, _ALONE)
+            found[witness.name] = evidence_of(one, _SINGLE_OUTPUT_STEPS)
         except BudgetSpentError:
             found[witness.name] = _sampled(one, 1, _DRAWN, seed, Execution())[0].evidence
     return found
@@ -400,9 +400,9 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
     >>> most_informative_wheels(infer_counts(geartrain.load("freeth-2008-doubt").declaration), 2)
     ['m3', 'n1']
     """
-    heard = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.doubt.counts) > 1]
-    kept = set(sorted(heard, key=lambda wheel: -found[wheel].bits)[:most])
-    return [wheel for wheel in heard if wheel in kept]
+    informed = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.doubt.counts) > 1]
+    kept = set(sorted(informed, key=lambda wheel: -found[wheel].bits)[:most])
+    return [wheel for wheel in informed if wheel in kept]
 
 
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:

@@ -117,14 +117,16 @@ def build_inference_problem(
         here = {name: f for name, f in formulas.outputs.items() if f.wheels and (not outputs or name in outputs)}
         moved |= here.keys()
         shown |= {prefix + name: formula for name, formula in here.items()}
-        for asking in find_output_requirements(train, train.case(one), formulas.outputs, tolerance):
-            if outputs and asking.name not in outputs:
+        for requirement in find_output_requirements(train, train.case(one), formulas.outputs, tolerance):
+            if outputs and requirement.name not in outputs:
                 continue
-            formula = formulas.outputs[asking.name]
-            witness = ObservedOutput(prefix + asking.name, formula, observations_of(asking.demands, against, scale))
+            formula = formulas.outputs[requirement.name]
+            witness = ObservedOutput(
+                prefix + requirement.name, formula, observations_of(requirement.demands, against, scale)
+            )
             if witness.claims and formula.wheels:
                 witnesses.append(witness)
-                known.add(asking.name)
+                known.add(requirement.name)
             else:
                 remarks += _remarks(witness)
         remarks += [f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined]
@@ -182,12 +184,12 @@ def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequen
             what, why = f"output '{name}' does not depend on uncertain counts", "it gives no information on them"
             raise QuestionError(Problem(what, why, "omit it"))
         if name not in known:
-            raise _nothing_known(f"the speed of output '{name}' is not known")
+            raise _no_evidence(f"the speed of output '{name}' is not known")
     if not known:
-        raise _nothing_known("no output that depends on uncertain counts has a known speed")
+        raise _no_evidence("no output that depends on uncertain counts has a known speed")
 
 
-def _nothing_known(what: str) -> QuestionError:
+def _no_evidence(what: str) -> QuestionError:
     fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets that have none"
     return QuestionError(Problem(what, "counts are weighed by speeds with a tolerance", fix))
 
@@ -241,7 +243,7 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
         if name not in train.wheels:
             fix = suggest(name, train.wheels)
             raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
-    found = tuple(_all(train, given))
+    found = tuple(_priors(train, given))
     if not any(len(doubt.counts) > 1 for doubt in found):
         why = "no wheel has `range` or `choices` with more than one count"
         fix = "declare `teeth: {value: 64, range: [63, 66]}`, or free a wheel: --free WHEEL=63:66"
@@ -249,12 +251,12 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
     return found
 
 
-def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCountPrior]:
+def _priors(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCountPrior]:
     for name, (link, wheel) in train.wheels.items():
         place = train.place("links", link, "wheels", name)
         teeth = wheel.teeth if isinstance(wheel.teeth, Teeth) else Teeth(value=wheel.teeth)
         if name in given:
-            counts = _checked(name, given[name])
+            counts = _checked_counts(name, given[name])
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "requested")
         elif teeth.choices is not None or teeth.range is not None:
             yield _declared(name, teeth, place)
@@ -264,7 +266,7 @@ def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCoun
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "search")
 
 
-def _checked(name: str, counts: Sequence[int]) -> tuple[int, ...]:
+def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
     """Validate requested counts, and return them sorted."""
     found = tuple(sorted(set(counts)))
     if not found:
@@ -276,13 +278,13 @@ def _checked(name: str, counts: Sequence[int]) -> tuple[int, ...]:
             why = "a tooth count is an integer from 1 to 10^12"
             raise QuestionError(Problem(f"{count} is not a tooth count", why, f"correct the counts of wheel '{name}'"))
     if len(found) > MOST_COUNTS:
-        raise _too_wide(name, len(found), "")
+        raise _too_many_counts(name, len(found), "")
     return found
 
 
 def _check_width(name: str, count: int, place: str) -> None:
     if count > MOST_COUNTS:
-        raise _too_wide(name, count, place)
+        raise _too_many_counts(name, count, place)
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
@@ -301,7 +303,7 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     )
 
 
-def _too_wide(name: str, count: int, place: str) -> RangeError:
+def _too_many_counts(name: str, count: int, place: str) -> RangeError:
     what = f"wheel '{name}' has {count} possible counts"
     return RangeError(Problem(what, f"at most {MOST_COUNTS} can be listed", "narrow its range", place))
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
         WheelPosterior,
     )
 
-_LIKELIEST = 4  # most probable counts that are printed; the JSON has all
+_MOST_PROBABLE = 4  # most probable counts that are printed; the JSON has all
 _STRONGEST = 12
 _DECIDING = 4
 _OUTPUTS = 4
@@ -129,7 +129,7 @@ def _wheel(posterior: WheelPosterior) -> tuple[str, ...]:
     if posterior.idle or not posterior.chances:
         return doubt.wheel, declared, before, "-", "-", "-"
     own = "-" if doubt.declared is None else str(posterior.chance(doubt.declared))
-    return doubt.wheel, declared, before, own, figure(posterior.bits, 3), _likeliest(posterior)
+    return doubt.wheel, declared, before, own, figure(posterior.bits, 3), _most_probable(posterior)
 
 
 def _span(counts: Sequence[int]) -> str:
@@ -137,12 +137,12 @@ def _span(counts: Sequence[int]) -> str:
     return f"{counts[0]}-{counts[-1]}" if whole and len(counts) > 1 else " or ".join(map(str, counts))
 
 
-def _likeliest(posterior: WheelPosterior) -> str:
+def _most_probable(posterior: WheelPosterior) -> str:
     """Format the most probable counts with their probabilities; counts of probability 0 are omitted."""
     pairs = zip(posterior.doubt.counts, posterior.chances, strict=True)
     some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
-    told = ", ".join(f"{count}: {_short(chance)}" for count, chance in some[:_LIKELIEST])
-    return told + (f" and {len(some) - _LIKELIEST} more" if len(some) > _LIKELIEST else "")
+    listed = ", ".join(f"{count}: {_short(chance)}" for count, chance in some[:_MOST_PROBABLE])
+    return listed + (f" and {len(some) - _MOST_PROBABLE} more" if len(some) > _MOST_PROBABLE else "")
 
 
 def _short(chance: CountProbability) -> str:
@@ -182,19 +182,19 @@ def _best(found: ToothCountPosterior) -> Section:
         lines.append(f"Not proved to be the best: {why}.")
     some = found.best[0]
     header = ["changed", "misfit", "posterior"]
-    told = list(some.errors) if len(some.errors) <= _OUTPUTS else []
-    header += [f"error of {name}" for name in told] or ["maximum error"]
-    rows = [[*_told(one), *_errors(one, told)] for one in found.best]
+    listed = list(some.errors) if len(some.errors) <= _OUTPUTS else []
+    header += [f"error of {name}" for name in listed] or ["maximum error"]
+    rows = [[*_combination_cells(one), *_errors(one, listed)] for one in found.best]
     return Section("Combinations that agree best", lines, [Table(header, cut(rows))])
 
 
-def _told(one: CountCombination) -> tuple[str, str, str]:
+def _combination_cells(one: CountCombination) -> tuple[str, str, str]:
     changed = ", ".join(f"{wheel} {one.teeth[wheel]}" for wheel in one.changed) or "nothing"
     return changed, figure(one.misfit, 4), "-" if one.chance is None else str(one.chance)
 
 
-def _errors(one: CountCombination, told: Sequence[str]) -> list[str]:
-    if told:
-        return [error_text(one.errors[name]) for name in told]
+def _errors(one: CountCombination, listed: Sequence[str]) -> list[str]:
+    if listed:
+        return [error_text(one.errors[name]) for name in listed]
     worst = max(one.errors, key=lambda name: abs(one.errors[name]))
     return [f"{worst} {error_text(one.errors[worst])}"]

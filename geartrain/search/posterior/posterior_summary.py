@@ -129,7 +129,7 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
         wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
     }
     evidence = _share(tally.weight, tally.examined, tally, question.soft)
-    correlations = _of_sizes(question, tally)
+    correlations = _sample_correlations(question, tally)
     return PosteriorSummary(
         tally.examined,
         evidence,
@@ -189,7 +189,7 @@ def wheel_posterior(
     )
 
 
-def _of_sizes(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
+def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
     """Return correlations from the sums of products of counts."""
     if not tally.weight:
         return {}
@@ -271,10 +271,10 @@ def find_variance_shares(
     if not any(len(doubt.counts) > 1 for doubt in own):
         return None
     if len(formula.denominator) == 1:
-        return _exactly(name, formula.wheels, _monomials(formula), own)
+        return _exact_indices(name, formula.wheels, _monomials(formula), own)
     if prod(len(doubt.counts) for doubt in own) <= _LISTED:
-        return _listed(name, formula, own)
-    return _sampled(name, formula, own, seed)
+        return _listed_indices(name, formula, own)
+    return _sampled_indices(name, formula, own, seed)
 
 
 def _monomials(formula: Formula) -> Monomials:
@@ -295,7 +295,7 @@ class _Means:
         return self._known[power]
 
 
-def _exactly(
+def _exact_indices(
     name: str, wheels: Sequence[str], terms: Monomials, doubts: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
     """Compute the indices of a sum of monomials exactly, from products of means over all pairs of terms."""
@@ -327,7 +327,7 @@ def _root(value: Fraction) -> Real:
     return rounded(Fraction(isqrt(int(value * power * power))) / power)
 
 
-def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> VarianceShares | None:
+def _listed_indices(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> VarianceShares | None:
     """Compute the indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
     shape = tuple(len(doubt.counts) for doubt in doubts)
     columns = {
@@ -376,7 +376,9 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
     return found
 
 
-def _sampled(name: str, formula: Formula, doubts: Sequence[ToothCountPrior], seed: int) -> VarianceShares | None:
+def _sampled_indices(
+    name: str, formula: Formula, doubts: Sequence[ToothCountPrior], seed: int
+) -> VarianceShares | None:
     """Estimate the indices from two independent samples A and B, and from A with one column of B for each wheel."""
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(doubts)])))
     first, second = (

@@ -79,12 +79,12 @@ class LikelihoodBatch:
         ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
         outputs = question.outputs.items() if every else ()
         self._values = {name: FormulaValues.of(f, self.monomials, self.domains) for name, f in outputs}
-        self._judges = [
+        self._likelihoods = [
             OutputLikelihood(one, self.monomials, self.domains, question.soft, self._values.get(one.name))
             for one in ordered
         ]
-        self._gates = [exact_constraint(one, self.monomials, self.domains) for one in question.conditions]
-        values = [*self._values.values(), *(judge.value for judge in self._judges)]
+        self._conditions = [exact_constraint(one, self.monomials, self.domains) for one in question.conditions]
+        values = [*self._values.values(), *(judge.value for judge in self._likelihoods)]
         self._plan = find_product_plan(key for value in values for key in value.plan)
 
     def columns(self, counts: Mapping[str, Ints]) -> MonomialColumns:
@@ -94,7 +94,7 @@ class LikelihoodBatch:
     def turns(self, rows: MonomialColumns) -> Bools:
         """Test with which combinations the train turns."""
         found: Bools = np.ones(rows.size, dtype=np.bool_)
-        for gate in self._gates:
+        for gate in self._conditions:
             found &= gate.holds(rows)
         return found
 
@@ -106,7 +106,7 @@ class LikelihoodBatch:
         alive, total = np.arange(rows.size), np.zeros(rows.size)
         some = rows
         met = self.turns(rows)
-        for judge in self._judges:
+        for judge in self._likelihoods:
             if np.count_nonzero(met) < _FEW * some.size:
                 kept = np.flatnonzero(met)
                 if not len(kept):
@@ -170,18 +170,18 @@ class PosteriorTally:
         self._keep(misfit, at)
 
     def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
-        near = np.flatnonzero(misfit <= self._bar())
+        near = np.flatnonzero(misfit <= self._threshold())
         order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
         self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
         self._trim()
 
-    def _bar(self) -> float:
+    def _threshold(self) -> float:
         return self.best[self.most - 1][0] * TIE if len(self.best) >= self.most else np.inf
 
     def _trim(self) -> None:
         self.best.sort()
-        bar = self._bar()
-        self.best = [one for one in self.best if one[0] <= bar]
+        threshold = self._threshold()
+        self.best = [one for one in self.best if one[0] <= threshold]
         if len(self.best) > KEPT:
             self.ranked = False
             self.best = self.best[:KEPT]
@@ -303,7 +303,7 @@ class FormulaValues:
         """
         known = rows.values.get(self)
         if known is None:
-            value, room = self._worked_out(rows, self.plan if plan is None else plan)
+            value, room = self._evaluated(rows, self.plan if plan is None else plan)
             known = _filled(value, rows.size), None if room is None else _filled(room, rows.size)
             rows.values[self] = known
         return known
@@ -313,7 +313,7 @@ class FormulaValues:
         value, room = self(rows, plan)
         return value, (self.relative or 0) * np.abs(value) if room is None else room
 
-    def _worked_out(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
+    def _evaluated(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
         if self.quotient is None:
             return np.zeros(()), np.full((), np.inf)
         return self.quotient(lambda key: rows.product(key, plan))
@@ -351,7 +351,7 @@ class OutputLikelihood:
     ) -> None:
         self.value = value or FormulaValues.of(witness.formula, monomials, domains)
         requested = witness.requested(soft)
-        self._folded, self._ends = _folded(() if requested is None else requested.intervals)
+        self._interval_ends, self._ends = _interval_ends(() if requested is None else requested.intervals)
         self._gate = None if requested is None else exact_constraint(requested, monomials, domains)
         self._poles = exact_constraint(
             IntervalConstraint(witness.name, witness.formula, ((None, None),)), monomials, domains
@@ -377,7 +377,7 @@ class OutputLikelihood:
             return sure, ~sure
         met: Bools = np.zeros(len(value), dtype=np.bool_)
         doubtful: Bools = np.zeros(len(value), dtype=np.bool_)
-        size = np.abs(value) if self._folded else value
+        size = np.abs(value) if self._interval_ends else value
         for middle, half, edge in self._ends:
             gap = np.abs(size - middle)
             gap -= half
@@ -389,7 +389,7 @@ class OutputLikelihood:
         return met, doubtful
 
 
-def _folded(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, float, float]]]:
+def _interval_ends(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, float, float]]]:
     """Return intervals as (middle, half width, rounding of the ends), and True if they bound only the magnitude."""
     mirrored = {(None if high is None else -high, None if low is None else -low) for low, high in intervals}
     fold = len(intervals) > 1 and mirrored == set(intervals)
@@ -558,7 +558,7 @@ def find_product_plan(keys: Iterable[Key]) -> ProductPlan:
     plan: dict[Key, tuple[Key, Key]] = {}
     for key in sorted(dict.fromkeys(keys), key=lambda one: sum(abs(power) for _, power in one)):
         whole = dict(key)
-        inside = [one for one in plan if all(_holds(whole.get(item, 0), power) for item, power in one)]
+        inside = [one for one in plan if all(_divides(whole.get(item, 0), power) for item, power in one)]
         longest = max(inside, key=lambda one: sum(abs(power) for _, power in one), default=())
         taken = dict(longest)
         rest = tuple((item, power - taken.get(item, 0)) for item, power in key if power != taken.get(item, 0))
@@ -566,7 +566,7 @@ def find_product_plan(keys: Iterable[Key]) -> ProductPlan:
     return plan
 
 
-def _holds(whole: int, power: int) -> bool:
+def _divides(whole: int, power: int) -> bool:
     return 0 < power <= whole or whole <= power < 0
 
 

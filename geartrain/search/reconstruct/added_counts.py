@@ -199,7 +199,7 @@ class AddedCounts:
 
     def __init__(self, minimum: int, maximum: int) -> None:
         self.range = minimum, maximum
-        self._count = lru_cache(maxsize=1 << 18)(self._counted)
+        self._count = lru_cache(maxsize=1 << 18)(self._count_groups)
 
     @property
     def _choices(self) -> int:
@@ -207,7 +207,7 @@ class AddedCounts:
 
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
         """Count the assignments that satisfy all dials; wheels are distinguishable."""
-        alike = _alike(added.groups, wanted)
+        alike = _merged_dials(added.groups, wanted)
         return int(self._count(added.groups, alike) * self._choices**added.idle) if alike is not None else 0
 
     def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
@@ -231,13 +231,13 @@ class AddedCounts:
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
         """Yield the assignments as counts of the groups and counts of wheels that change no speed."""
-        alike = _alike(added.groups, wanted)
+        alike = _merged_dials(added.groups, wanted)
         for counts in self._listed(added.groups, alike) if alike is not None else ():
             for idle in product(range(self.range[0], self.range[1] + 1), repeat=added.idle):
                 yield counts, idle
 
-    def _counted(self, groups: tuple[Group, ...], wanted: Wanted) -> int:
-        if not _may_hold(groups, wanted):
+    def _count_groups(self, groups: tuple[Group, ...], wanted: Wanted) -> int:
+        if not _may_satisfy(groups, wanted):
             return 0
         step = self._next(groups, wanted)
         if step is None:
@@ -252,13 +252,13 @@ class AddedCounts:
             return own and own * self._count(rest, divided(wanted, dials, bounds[0]))
         pair = _pair(groups, wanted)
         if pair is not None:
-            return self._counted_pair(groups, wanted, *pair)
+            return self._count_pair(groups, wanted, *pair)
         return sum(
             own * self._count(rest, divided(wanted, dials, quotient))
             for quotient, own in quotients(*bounds, drivers, driven, self.range)
         )
 
-    def _counted_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
+    def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
         """Count the assignments by enumeration of two groups whose total quotient is known."""
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
         kinds = groups[one][1:], groups[other][1:]
@@ -270,7 +270,7 @@ class AddedCounts:
     def _listed(self, groups: tuple[Group, ...], wanted: Wanted) -> Iterator[Counts]:
         step = self._next(groups, wanted)
         if step is None:
-            if _may_hold(groups, wanted):
+            if _may_satisfy(groups, wanted):
                 yield {}
             return
         at, bounds, _ = step
@@ -326,13 +326,13 @@ def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction
     return best
 
 
-def _may_hold(groups: tuple[Group, ...], wanted: Wanted) -> bool:
+def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
     """Return whether the dials without remaining groups have their speeds."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
     return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
 
 
-def _alike(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
+def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
     """Merge the bounds of dials that depend on the same groups; None if they have no common quotient."""
     found: dict[tuple[int, ...], tuple[str, Quotients]] = {}
     for dial, (low, high) in wanted:
@@ -445,16 +445,18 @@ class AddedCountSums:
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)
-        return {count: whole - self._signed(requested, kinds, count, whole) for count in sorted(counts)}
+        return {count: whole - self._without_count(requested, kinds, count, whole) for count in sorted(counts)}
 
-    def _signed(self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int) -> int:
+    def _without_count(
+        self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
+    ) -> int:
         """Count the choices in which no wheel of some kinds has a given tooth count, out of `number` choices."""
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]
         found, left, total = 0, requested, number
         for chosen in range(wheels + 1):
-            found += (-1) ** chosen * comb(wheels, chosen) * self._signed(left, others, count, total)
+            found += (-1) ** chosen * comb(wheels, chosen) * self._without_count(left, others, count, total)
             if chosen == wheels or (kind.most is not None and count > kind.most):
                 break
             left = left.with_one(kind, count)

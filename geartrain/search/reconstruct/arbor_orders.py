@@ -146,14 +146,14 @@ def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
 # orders
 
 
-def _hanging(branching: Branching) -> Iterator[tuple[PlacedWheel, tuple[Chain, ...]]]:
+def _driven_chains(branching: Branching) -> Iterator[tuple[PlacedWheel, tuple[Chain, ...]]]:
     yield from branching.drives
     if branching.passes:
         assert branching.driven is not None
         yield branching.driven, branching.passes
 
 
-def _met_along(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) -> tuple[_Pairs | None, _Driving]:
+def _met_on_chain(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) -> tuple[_Pairs | None, _Driving]:
     found: _Pairs = frozenset()
     for name, each in steps:
         met = facts.met(driving, name, each.driven)
@@ -217,7 +217,7 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
     waiting = [(chain, (topology.root.name, driver)) for driver, chains in topology.root.drives for chain in chains]
     while waiting:
         chain, driving = waiting.pop()
-        met, last = _met_along(orders[id(chain)], driving, facts)
+        met, last = _met_on_chain(orders[id(chain)], driving, facts)
         if met is None:
             return False
         found |= met
@@ -227,7 +227,7 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
                 return False
             found |= at_end
             end = chain.end
-            waiting += [(each, (end.name, driver)) for driver, chains in _hanging(end) for each in chains]
+            waiting += [(each, (end.name, driver)) for driver, chains in _driven_chains(end) for each in chains]
         else:
             waiting += [(each, last) for each in chain.end]
     return found == facts.meshes
@@ -308,7 +308,7 @@ class ChainStep(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Ahead:
+class _ChainState:
     """State of the dynamic programme: arbors not yet placed, driving wheel, pairs that must mesh below."""
 
     chain: NamedChain
@@ -319,7 +319,7 @@ class _Ahead:
     pairs: _Pairs
 
 
-class _Start(NamedTuple):
+class _BranchingState(NamedTuple):
     """Branching, and pairs of wheels that must mesh below it."""
 
     branching: NamedBranching
@@ -328,7 +328,7 @@ class _Start(NamedTuple):
 
 def topology_orders(root: NamedBranching, facts: MeshFacts) -> WeightedAlternatives[Hashable]:
     """Return the orders of a topology that satisfy the known meshes, each with weight 1."""
-    return WeightedAlternatives(_Start(root, facts.meshes), _Orders(facts).alternatives)
+    return WeightedAlternatives(_BranchingState(root, facts.meshes), _Orders(facts).alternatives)
 
 
 @dataclass(frozen=True)
@@ -337,11 +337,11 @@ class _Orders:
 
     def alternatives(self, node: Hashable) -> Iterator[Alternative[Hashable]]:
         """Yield the alternatives for the next arbor of a state."""
-        if not isinstance(node, _Ahead):
-            assert isinstance(node, _Start)
+        if not isinstance(node, _ChainState):
+            assert isinstance(node, _BranchingState)
             branching, pairs = node
-            places = tuple(_place(wheel) for wheel in branching.wheels() if wheel.kind is not None)
-            yield from self._onward(branching, pairs, places)
+            places = tuple(_added_place(wheel) for wheel in branching.wheels() if wheel.kind is not None)
+            yield from self._from_branching(branching, pairs, places)
             return
         for at in node.through:
             yield from self._step(node, node.chain.through[at], at, node.through - {at}, node.compounds, node.idlers)
@@ -354,7 +354,7 @@ class _Orders:
             yield from self._end(node)
 
     def _step(
-        self, node: _Ahead, arbor: TopologyArbor, which: int, through: frozenset[int], compounds: int, idlers: int
+        self, node: _ChainState, arbor: TopologyArbor, which: int, through: frozenset[int], compounds: int, idlers: int
     ) -> Iterator[Alternative[Hashable]]:
         """Yield the alternative that places one arbor next, if it satisfies the known meshes."""
         left = self._left(node, arbor)
@@ -363,34 +363,34 @@ class _Orders:
         assert arbor.driver is not None
         place = node.chain.chain.arbors - len(through) - compounds - idlers - 1
         wheels = dict.fromkeys([arbor.driven, arbor.driver])
-        places = tuple(_place(wheel) for wheel in wheels if wheel is not None and wheel.kind is not None)
-        ahead = _Ahead(node.chain, through, compounds, idlers, (arbor, arbor.driver), left)
+        places = tuple(_added_place(wheel) for wheel in wheels if wheel is not None and wheel.kind is not None)
+        ahead = _ChainState(node.chain, through, compounds, idlers, (arbor, arbor.driver), left)
         tells = (NamedMesh(*node.driving, arbor), ChainStep(node.chain, place, which), *places)
         yield Alternative(1, tells, (ahead,))
 
-    def _end(self, node: _Ahead) -> Iterator[Alternative[Hashable]]:
+    def _end(self, node: _ChainState) -> Iterator[Alternative[Hashable]]:
         """Yield the alternatives for the end of a chain."""
         end = node.chain.end
         if not isinstance(end, NamedBranching):
-            yield from self._hung([(node.driving, chain) for chain in end], node.pairs, ())
+            yield from self._distributed([(node.driving, chain) for chain in end], node.pairs, ())
             return
         left = self._left(node, end.arbor)
         if left is not None:
-            yield Alternative(1, (NamedMesh(*node.driving, end.arbor),), (_Start(end, left),))
+            yield Alternative(1, (NamedMesh(*node.driving, end.arbor),), (_BranchingState(end, left),))
 
-    def _left(self, node: _Ahead, arbor: TopologyArbor) -> _Pairs | None:
+    def _left(self, node: _ChainState, arbor: TopologyArbor) -> _Pairs | None:
         """Return the pairs that must still mesh after an arbor is driven; None if the mesh is excluded."""
         source, wheel = node.driving
         met = self.facts.met((source.survivor, wheel.placed), arbor.survivor, arbor.driven and arbor.driven.placed)
         return None if met is None or not met <= node.pairs else node.pairs - met
 
-    def _onward(
+    def _from_branching(
         self, branching: NamedBranching, pairs: _Pairs, tells: tuple[Hashable, ...]
     ) -> Iterator[Alternative[Hashable]]:
         hung = [((branching.arbor, wheel), chain) for wheel, chains in branching.hanging for chain in chains]
-        yield from self._hung(hung, pairs, tells)
+        yield from self._distributed(hung, pairs, tells)
 
-    def _hung(
+    def _distributed(
         self, hung: list[tuple[_NamedDriving, NamedChain]], pairs: _Pairs, tells: tuple[Hashable, ...]
     ) -> Iterator[Alternative[Hashable]]:
         """Yield each distribution of the pairs that must mesh over parallel chains."""
@@ -400,7 +400,7 @@ class _Orders:
         able = [[at for at, wheels in enumerate(inside) if pair <= wheels] for pair in known]
         for owners in product(*able):
             parts = tuple(
-                _Ahead(
+                _ChainState(
                     chain,
                     frozenset(range(len(chain.through))),
                     chain.chain.compounds,
@@ -413,6 +413,6 @@ class _Orders:
             yield Alternative(1, tells, parts)
 
 
-def _place(wheel: TopologyWheel) -> AddedPlace:
+def _added_place(wheel: TopologyWheel) -> AddedPlace:
     assert wheel.kind is not None
     return AddedPlace(wheel.name, wheel.kind)

@@ -89,15 +89,15 @@ def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[Brok
         Typed question.
     """
     return (
-        *_of_dials(candidate, problem),
-        *_of_use(candidate, problem),
-        *_of_arbors(candidate, problem),
-        *_of_additions(candidate, problem),
-        *_of_meshes(candidate, problem),
+        *_dial_rules(candidate, problem),
+        *_use_rules(candidate, problem),
+        *_arbor_rules(candidate, problem),
+        *_addition_rules(candidate, problem),
+        *_mesh_rules(candidate, problem),
     )
 
 
-def _of_dials(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     shown: dict[str, list[tuple[Arbor, Fraction]]] = {}
     for arbor, speed in _speeds(candidate, problem.input_speed, problem.rings):
         for name in arbor.dials:
@@ -145,7 +145,7 @@ def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterato
         yield from _speeds(child, sense * speed * wheel.teeth / child.driven.teeth, rings)
 
 
-def _of_use(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _use_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     used = {wheel.name: wheel.teeth for wheel in candidate.wheels() if wheel.name is not None}
     here = {arbor.name for arbor in candidate.arbors()}
     for arbor in (problem.input, *problem.arbors):
@@ -171,7 +171,7 @@ def counts_text(counts: Sequence[tuple[int, Fraction]]) -> str:
     return "/".join(map(str, teeth))
 
 
-def _of_arbors(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _arbor_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     wheels = {arbor.name: arbor.wheels for arbor in problem.arbors}
     for arbor in candidate.arbors():
         said = arbor.name or "an added arbor"
@@ -186,7 +186,7 @@ def _of_arbors(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
             yield BrokenRule("end", (said,), f"{said} leads to no pointer", None)
 
 
-def _of_additions(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _addition_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     limits = problem.additions
     added = sorted({wheel.teeth for wheel in candidate.wheels() if wheel.name is None})
     beyond = [teeth for teeth in added if not limits.minimum <= teeth <= limits.maximum]
@@ -199,19 +199,19 @@ def _of_additions(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[
     if limits.arbors is not None and arbors > limits.arbors:
         what = f"{arbors} arbors are added, more than {limits.arbors}"
         yield BrokenRule("arbors", (), what, f"if {arbors} arbors may be added", (Fraction(arbors),))
-    beside = [arbor.name for arbor in candidate.arbors() if arbor.name and None in _own_wheels(arbor)]
+    beside = [arbor.name for arbor in candidate.arbors() if arbor.name and None in _wheel_names(arbor)]
     if limits.on == "new" and beside:
         what = f"wheels are added on {', '.join(beside)}"
         yield BrokenRule("beside", (), what, "if wheels may be added on surviving arbors")
 
 
-def _own_wheels(arbor: Arbor) -> set[str | None]:
+def _wheel_names(arbor: Arbor) -> set[str | None]:
     """Return the names of the meshing wheels of one arbor, None for added wheels."""
     driven = set() if arbor.driven is None else {arbor.driven.name}
     return driven | {wheel.name for wheel, _ in arbor.drives}
 
 
-def _of_meshes(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     meshes = list(candidate.meshes())
     wheels = {_pair(wheel.name, child.driven.name) for _, wheel, child in meshes if child.driven}
     arbors = {_pair(parent.name, child.name) for parent, _, child in meshes}
@@ -357,10 +357,10 @@ def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping
     QuestionError
         If the train has no arbor of the input, its meshes close a loop, or the tooth count of a wheel is not known.
     """
-    return _Reading(train, problem, same or {}).known()
+    return _TrainReading(train, problem, same or {}).known()
 
 
-class _Reading:
+class _TrainReading:
     """Translation of a train into the names of a question."""
 
     def __init__(self, train: Train, problem: ReconstructionProblem, same: Mapping[str, str]) -> None:

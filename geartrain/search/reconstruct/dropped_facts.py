@@ -94,7 +94,7 @@ def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
     if len(problem.dials) < 2:
         return []
     return [
-        ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=_but(problem.dials, dial)))
+        ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=_without_dial(problem.dials, dial)))
         for dial in problem.dials
     ]
 
@@ -166,7 +166,7 @@ def _with_dial(problem: ReconstructionProblem, at: int, dial: SearchedDial) -> R
     return replace(problem, dials=(*problem.dials[:at], dial, *problem.dials[at + 1 :]))
 
 
-def _but(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[SearchedDial, ...]:
+def _without_dial(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[SearchedDial, ...]:
     return tuple(dial for dial in dials if dial != left_out)
 
 
@@ -210,15 +210,15 @@ def explain_missing(
 
     `search` must be a function at module level, because it is sent to other processes.
     """
-    dials = tuple(_alone(problem, at, search) for at in range(len(problem.dials)))
-    changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread(problem)]
+    dials = tuple(_lone_dial(problem, at, search) for at in range(len(problem.dials)))
+    changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread_counts(problem)]
     counts = tuple(changed_counts(changed, execution, search))
     cheap = sorted((one for one in counts if one.total), key=lambda one: one.fewest or 0)
     refused = tuple(one.change for one in counts if one.refused is not None)
     return MissingExplanation(dials, tuple(cheap), len(changed), refused)
 
 
-def _alone(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
+def _lone_dial(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
     """Search one dial without the others; surviving arbors that do not lead to it may be unused."""
     dial = problem.dials[at]
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
@@ -232,7 +232,7 @@ def _alone(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
     return LoneDial(dial.name, None)
 
 
-def _misread(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
+def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
     """Yield a changed question for each other count of a surviving wheel, small differences first."""
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:

@@ -168,7 +168,7 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
     raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target only", place))
 
 
-_NOT_TAKEN_UP = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
+_UNSUPPORTED = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
 """Keys of a train that a reconstruction does not support, because they change speeds or name arbors."""
 
 _MOST_COUNTS = 10_000
@@ -224,7 +224,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     """
     requested = evidence.reconstruct
     assert requested is not None, "no evidence"
-    found = [*_not_taken_up(evidence), *coupling_problems(evidence), *_wheels(evidence)]
+    found = [*_unsupported(evidence), *coupling_problems(evidence), *_wheels(evidence)]
     unclear = list(base_problems(evidence))
     base = None if unclear else find_base(evidence)
     found += unclear
@@ -316,18 +316,22 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
 # declarations that are not supported
 
 
-def _not_taken_up(evidence: Train) -> Iterator[Problem]:
-    for key in _NOT_TAKEN_UP:
+def _unsupported(evidence: Train) -> Iterator[Problem]:
+    for key in _UNSUPPORTED:
         if getattr(evidence, key):
-            yield _later(evidence, f"`{key}` is not supported in a reconstruction", key)
+            yield _unsupported_problem(evidence, f"`{key}` is not supported in a reconstruction", key)
     if evidence.crank is not None and evidence.crank not in evidence.inputs:
-        yield _later(evidence, "a crank that is not the input is not supported in a reconstruction", "crank")
+        yield _unsupported_problem(
+            evidence, "a crank that is not the input is not supported in a reconstruction", "crank"
+        )
     for label, axis in evidence.axes.items():
         if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
-            yield _later(evidence, "axes that are not parallel are not supported in a reconstruction", "axes", label)
+            yield _unsupported_problem(
+                evidence, "axes that are not parallel are not supported in a reconstruction", "axes", label
+            )
 
 
-def _later(evidence: Train, what: str, *loc: str | int) -> Problem:
+def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem:
     why = "ignoring it could change the trains that are found"
     return Problem(what, why, "remove it, to search without it", evidence.place(*loc))
 
@@ -338,7 +342,7 @@ def _wheels(evidence: Train) -> Iterator[Problem]:
             place = ("links", link, "wheels", name)
             if wheel.kind != "spur":
                 what = f"'{name}' is a {wheel.kind} wheel, which is not supported in a reconstruction"
-                yield _later(evidence, what, *place)
+                yield _unsupported_problem(evidence, what, *place)
             yield from _teeth(evidence, wheel, place)
 
 

@@ -157,8 +157,8 @@ class FactTally:
     def facts(self) -> Iterator[Fact]:
         """Yield all facts, including unused wheels, but without wheels that every train uses."""
         used = {wheel: Fact("used", wheel) for wheel in self._wheels}
-        everywhere = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
-        yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in everywhere)
+        used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
+        yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
 
     def marginal(self, fact: Fact) -> FactMarginal:
         """Return the marginal distribution of a fact."""
@@ -168,7 +168,7 @@ class FactTally:
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
             answers.append(FactAnswer(_ELSE.get(fact.kind, NO), rest, left))
-        answers.sort(key=lambda one: (-one.share, _natural(one.answer)))
+        answers.sort(key=lambda one: (-one.share, _answer_order(one.answer)))
         return FactMarginal(fact.kind, fact.subject, tuple(answers))
 
 
@@ -201,7 +201,9 @@ class ExplainedFacts:
     def marginals(self) -> tuple[FactMarginal, ...]:
         """Return the marginal of every fact except `pair`, by kind and in descending order of weight."""
         found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
-        return tuple(sorted(found, key=lambda one: (_KINDS.index(one.kind), -_affirmed(one), _natural(one.subject))))
+        return tuple(
+            sorted(found, key=lambda one: (_KINDS.index(one.kind), -_yes_weight(one), _answer_order(one.subject)))
+        )
 
     def next_facts(self) -> tuple[NextFact, ...]:
         """Return facts that partition the trains, in descending order of their entropy."""
@@ -268,12 +270,12 @@ def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
     return (problem.input, *problem.arbors)
 
 
-def _affirmed(fact: FactMarginal) -> Fraction:
+def _yes_weight(fact: FactMarginal) -> Fraction:
     """Return the weight of yes, or of the most probable answer of a fact without yes and no."""
     return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
 
 
-def _natural(answer: str) -> tuple[int, str]:
+def _answer_order(answer: str) -> tuple[int, str]:
     """Return a sorting key that orders tooth counts by size, before words."""
     return (int(answer), "") if answer.isdigit() else (1 << 62, answer)
 
@@ -295,15 +297,15 @@ def sum_facts(
         parts = [part for part in trains.parts(topology) if part.choices and part.orders.total]
         number = sum(part.choices * part.orders.total for part in parts)
         sums.add_trains(weight, number)
-        for fact, answer in _everywhere(topology, lost, doubtful):
+        for fact, answer in _topology_facts(topology, lost, doubtful):
             sums.add(fact, answer, weight, number)
         for part in parts:
-            for fact, answer, own in _told(part, trains):
+            for fact, answer, own in _part_facts(part, trains):
                 sums.add(fact, answer, weight, own)
     return sums
 
 
-def _everywhere(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
+def _topology_facts(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
     """Yield facts that are true of every train of a topology."""
     for branching in topology.branchings:
         for dial in lost.intersection(branching.here):
@@ -315,20 +317,20 @@ def _everywhere(topology: Topology, lost: set[str], doubtful: set[str]) -> Itera
             yield Fact("count", wheel.name), str(wheel.teeth)
 
 
-def _told(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
+def _part_facts(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
     """Yield facts that are true of some trains of a part, with the number of these trains."""
-    for told, orders in part.orders.marginals.items():
-        if isinstance(told, NamedMesh):
-            for fact, answer in _of_mesh(told):
+    for fact_key, orders in part.orders.marginals.items():
+        if isinstance(fact_key, NamedMesh):
+            for fact, answer in _mesh_facts(fact_key):
                 yield fact, answer, int(orders) * part.choices
-        elif isinstance(told, AddedPlace):
-            for count, choices in trains.counts.of_kind(part.open, told.kind).items():
-                yield Fact("added", told.name), str(count), int(orders) * choices
+        elif isinstance(fact_key, AddedPlace):
+            for count, choices in trains.counts.of_kind(part.open, fact_key.kind).items():
+                yield Fact("added", fact_key.name), str(count), int(orders) * choices
     for count, choices in trains.counts.with_any(part.open).items():
         yield Fact("needed", str(count)), YES, int(part.orders.total) * choices
 
 
-def _of_mesh(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
+def _mesh_facts(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
     driving, wheel, arbor = mesh
     assert arbor.driven is not None
     yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
@@ -385,7 +387,7 @@ def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tu
     root = _Node()
     for rank, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True), 1):
         root.add(train, weight, FamilyTrain(rank, Fraction(weight, weighed.whole), _counts(train, doubtful)))
-    return tuple(_flat(root)) if weighed.trains else ()
+    return tuple(_branches(root)) if weighed.trains else ()
 
 
 @dataclass
@@ -410,7 +412,7 @@ class _Node:
         self.mechanisms += 1
 
 
-def _flat(root: _Node) -> Iterator[FamilyBranch]:
+def _branches(root: _Node) -> Iterator[FamilyBranch]:
     """Yield the branches in depth-first order; a sequence of meshes without alternatives is one branch."""
     waiting: list[tuple[int | None, list[str], _Node]] = [(None, [], root)]
     number = 0
@@ -428,13 +430,13 @@ def _flat(root: _Node) -> Iterator[FamilyBranch]:
 
 def _steps(train: NamedArbor) -> Iterator[str]:
     if train.dials:
-        yield _shown(train)
+        yield _pointers_text(train)
     for _, wheel, arbor in train.meshes():
         assert arbor.driven is not None
-        yield f"{wheel.name} > {arbor.driven.name}{_shown(arbor) and f' {_shown(arbor)}'}"
+        yield f"{wheel.name} > {arbor.driven.name}{_pointers_text(arbor) and f' {_pointers_text(arbor)}'}"
 
 
-def _shown(arbor: NamedArbor) -> str:
+def _pointers_text(arbor: NamedArbor) -> str:
     """Return the pointers of an arbor in parentheses."""
     return f"({', '.join(arbor.dials)})" if arbor.dials else ""
 

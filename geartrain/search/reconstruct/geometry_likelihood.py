@@ -109,7 +109,7 @@ def layers_exist(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
         return False
     of_arbor = {name: _layers_of(name, layers) for layer in layers for name, _ in layer if name in geometry.places}
     blocked = [
-        tuple(own for name, own in of_arbor.items() if any(_holds(wheel, name, geometry) for wheel in layer))
+        tuple(own for name, own in of_arbor.items() if any(_contains_axis(wheel, name, geometry) for wheel in layer))
         for layer in layers
     ]
     return len(layers) > _MOST_LAYERS or order_exists(blocked)
@@ -167,16 +167,16 @@ def _layers_of(name: str | None, layers: Sequence[_Layer]) -> frozenset[int]:
     return frozenset(at for at, layer in enumerate(layers) if any(arbor == name for arbor, _ in layer))
 
 
-def _holds(wheel: _Member, name: str | None, geometry: SurvivingGeometry) -> bool:
+def _contains_axis(wheel: _Member, name: str | None, geometry: SurvivingGeometry) -> bool:
     """Return whether the axis of an arbor passes through a wheel."""
-    return _nearer(wheel[0], name, wheel[1], geometry)
+    return _is_nearer(wheel[0], name, wheel[1], geometry)
 
 
 def _overlap(one: _Member, other: _Member, geometry: SurvivingGeometry) -> bool:
-    return _nearer(one[0], other[0], one[1] + other[1], geometry)
+    return _is_nearer(one[0], other[0], one[1] + other[1], geometry)
 
 
-def _nearer(one: str | None, other: str | None, length: Fraction, geometry: SurvivingGeometry) -> bool:
+def _is_nearer(one: str | None, other: str | None, length: Fraction, geometry: SurvivingGeometry) -> bool:
     """Return whether two different axes are closer than a length [mm] minus the permitted misfit."""
     square = geometry.square_distance(one, other)
     assert geometry.reach is not None
@@ -245,12 +245,12 @@ class _Modules:
     def misfit(self, arbor: Arbor) -> float:
         """Return the minimum misfit of all meshes in the subtree of an arbor."""
         # wheels driven by an idler share the mesh in which it is driven, and are counted there
-        own = sum(self._around(wheel, children).misfit for wheel, children in arbor.drives)
+        own = sum(self._misfit_of_wheel(wheel, children).misfit for wheel, children in arbor.drives)
         return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 
-    def _around(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
+    def _misfit_of_wheel(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
         """Return the misfit as a function of the module of a wheel, from its own and its driven wheels."""
-        pulls = [self._through_mesh(child) for child in children]
+        pulls = [self._misfit_through_mesh(child) for child in children]
         module = self.geometry.module_of(_size(wheel))
         stiffness = 0.0 if module is None else self._stiffness(module * wheel.teeth / 2)
         if module is not None and stiffness < math.inf:
@@ -269,9 +269,9 @@ class _Modules:
         error = self.geometry.radius
         return math.inf if error is None else float(self.geometry.module * radius / error) ** 2
 
-    def _through_mesh(self, child: Arbor) -> _Pull:
+    def _misfit_through_mesh(self, child: Arbor) -> _Pull:
         """Return the misfit as a function of the module of a wheel, from a mesh with a wheel that it drives."""
         assert child.driven is not None
-        held = self._around(child.driven, child.passes)
+        held = self._misfit_of_wheel(child.driven, child.passes)
         stiffness = 1.0 if held.stiffness == math.inf else held.stiffness / (1 + held.stiffness)
         return _Pull(stiffness, held.centre, held.misfit)

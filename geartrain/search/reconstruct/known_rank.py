@@ -110,20 +110,20 @@ def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], los
     doubtful  surviving wheels with uncertain tooth counts
     lost      dials whose place is not known
     """
-    said = [dict(_said(train, doubtful, lost)) for train in trains]
+    said = [dict(_observable_facts(train, doubtful, lost)) for train in trains]
     left: dict[TellingFact, frozenset[int]] = {}
     for fact, answer in said[which].items():
-        alike = frozenset(_alike(said, fact, answer))
+        alike = frozenset(_trains_with(said, fact, answer))
         if len(alike) < len(trains):
             left[TellingFact(*fact, answer, len(alike))] = alike
     facts = sorted(left, key=lambda one: (one.mechanisms, _KINDS.index(one.kind), one.subject))
     first: dict[frozenset[int], TellingFact] = {}
     for each in facts:
         first.setdefault(left[each], each)
-    return TellingFacts(tuple(facts), tuple(_smallest(first, which)))
+    return TellingFacts(tuple(facts), tuple(_smallest_sets(first, which)))
 
 
-def _said(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[_Subject, str]]:
+def _observable_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[_Subject, str]]:
     """Yield the observable facts of a train, and the maximum and minimum tooth count of its added wheels."""
     for fact, answer in train_facts(train, doubtful, lost):
         if fact.kind in LOOKED_FOR:
@@ -134,7 +134,7 @@ def _said(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tup
         yield (MINIMUM, ""), str(min(added))
 
 
-def _alike(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
+def _trains_with(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
     """Yield the indices of trains for which a fact is true; a limit is true if a train respects it."""
     for at, one in enumerate(said):
         own = one.get(fact)
@@ -148,7 +148,7 @@ def _alike(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) 
             yield at
 
 
-def _smallest(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterable[tuple[TellingFact, ...]]:
+def _smallest_sets(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterable[tuple[TellingFact, ...]]:
     """Return the smallest sets of facts that only the given train satisfies."""
     for number in range(1, _MOST_TOGETHER + 1):
         found = [
@@ -309,12 +309,12 @@ def _all_admitted(
     train: Train, problem: ReconstructionProblem, search: Search, same: Mapping[str, str]
 ) -> Iterator[AdmittingQuestion]:
     """Yield changed questions that admit a train, with its rank in each."""
-    told = set[tuple[str, ...]]()
+    known_changes = set[tuple[str, ...]]()
     for without_dials in (False, True):
         changes, changed, known = _changed(train, problem, same, without_dials)
-        if known is None or changes in told:
+        if known is None or changes in known_changes:
             continue
-        told.add(changes)
+        known_changes.add(changes)
         own = known.arbor.added_wheels
         requested = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
         said = changes, dict(known.added), known.arbor.added_arbors, requested.additions.wheels

@@ -17,7 +17,7 @@ from geartrain.train import Train
 # frame with its fixed wheels, or at a link that is driven besides the carrier.
 
 
-_ONLY = "a train on a carrier begins at one link: the frame, or one other driven link"
+_ONE_START = "a train on a carrier begins at one link: the frame, or one other driven link"
 
 
 @dataclass(frozen=True)
@@ -62,25 +62,25 @@ def base_problems(evidence: Train) -> Iterator[Problem]:
         fix = "give the speed as a fraction in the unit of the train, such as `1/19`"
         yield Problem("the speed of an input is not a fraction", "a reconstruction needs exact speeds", fix, place)
     elif carrier is None:
-        yield from _input(evidence)
-        yield from _on_the_frame(evidence)
+        yield from _input_problems(evidence)
+        yield from _frame_problems(evidence)
     elif carrier == evidence.frame:
         why = "arbors turn on the frame if no carrier is named"
         fix = f"delete `carrier: {carrier}`"
         yield Problem("the frame is not a carrier", why, fix, evidence.place("reconstruct", "carrier"))
     else:
-        yield from _carrier_speed(evidence, carrier)
-        yield from _carrier_wheels(evidence, carrier)
-        yield from _on_the_carrier(evidence, carrier)
-        yield from _carrier_pointers(evidence, carrier)
-        yield from _not_with_a_carrier(evidence)
+        yield from _carrier_speed_problems(evidence, carrier)
+        yield from _carrier_wheel_problems(evidence, carrier)
+        yield from _carrier_arbor_problems(evidence, carrier)
+        yield from _carrier_pointer_problems(evidence, carrier)
+        yield from _carrier_geometry_problems(evidence)
 
 
 def _carrier(evidence: Train) -> str | None:
     return None if evidence.reconstruct is None else evidence.reconstruct.carrier
 
 
-def _input(evidence: Train) -> Iterator[Problem]:
+def _input_problems(evidence: Train) -> Iterator[Problem]:
     inputs = evidence.case(None).inputs
     turning = [link for link, speed in inputs.items() if speed]
     if len(turning) != 1 or len(inputs) != 1:
@@ -97,7 +97,7 @@ def _input(evidence: Train) -> Iterator[Problem]:
         yield Problem(what, why, fix, evidence.place("links", evidence.frame))
 
 
-def _on_the_frame(evidence: Train) -> Iterator[Problem]:
+def _frame_problems(evidence: Train) -> Iterator[Problem]:
     for at, joint in enumerate(evidence.revolutes):
         if evidence.frame not in joint.pair:
             what = "an arbor on a moving link is supported only if that link is the `carrier`"
@@ -109,7 +109,7 @@ def _on_the_frame(evidence: Train) -> Iterator[Problem]:
 # with a carrier
 
 
-def _carrier_speed(evidence: Train, carrier: str) -> Iterator[Problem]:
+def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     inputs = evidence.case(None).inputs
     place = evidence.place("inputs")
     others = {link: speed for link, speed in inputs.items() if link != carrier}
@@ -127,22 +127,22 @@ def _carrier_speed(evidence: Train, carrier: str) -> Iterator[Problem]:
         yield Problem(f"the speed of the carrier '{carrier}' is 0", "a fixed carrier is part of the frame", fix, place)
     if len(others) > 1:
         fix = "remove all but one of them from `inputs`"
-        yield Problem(f"{len(others)} links are driven besides the carrier", _ONLY, fix, place)
+        yield Problem(f"{len(others)} links are driven besides the carrier", _ONE_START, fix, place)
     for link, speed in others.items():
         frame = evidence.links.get(evidence.frame)
         if frame is not None and frame.wheels:
             fix = f"remove the wheels of the frame, or remove '{link}' from `inputs`"
-            yield Problem(f"'{link}' is driven, and the frame has wheels", _ONLY, fix, place)
+            yield Problem(f"'{link}' is driven, and the frame has wheels", _ONE_START, fix, place)
         elif speed == inputs.get(carrier):
             what = f"'{link}' has the same speed as the carrier"
             why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
             yield Problem(what, why, "correct one of the speeds", place)
         elif not speed:
             fix = f"remove '{link}' from `inputs`, and put its wheels on the frame"
-            yield Problem(f"the speed of the input '{link}' is 0", _ONLY, fix, place)
+            yield Problem(f"the speed of the input '{link}' is 0", _ONE_START, fix, place)
 
 
-def _carrier_wheels(evidence: Train, carrier: str) -> Iterator[Problem]:
+def _carrier_wheel_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name in evidence.links[carrier].wheels:
         what = f"'{name}' is a wheel of the carrier"
         why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
@@ -150,7 +150,7 @@ def _carrier_wheels(evidence: Train, carrier: str) -> Iterator[Problem]:
         yield Problem(what, why, fix, evidence.place("links", carrier, "wheels", name))
 
 
-def _on_the_carrier(evidence: Train, carrier: str) -> Iterator[Problem]:
+def _carrier_arbor_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     """Yield problems of arbors that turn neither on the carrier nor in the frame about the axis of the carrier."""
     axis = carrier_axis(evidence, carrier)
     for at, joint in enumerate(evidence.revolutes):
@@ -174,7 +174,7 @@ def carrier_axis(evidence: Train, carrier: str) -> str | None:
     return next((joint.axis for joint in evidence.revolutes if set(joint.pair) == pair), None)
 
 
-def _carrier_pointers(evidence: Train, carrier: str) -> Iterator[Problem]:
+def _carrier_pointer_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name, output in evidence.outputs.items():
         if output.of == carrier:
             what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is given"
@@ -182,7 +182,7 @@ def _carrier_pointers(evidence: Train, carrier: str) -> Iterator[Problem]:
             yield Problem(what, why, "remove the output, or correct its `of`", place)
 
 
-def _not_with_a_carrier(evidence: Train) -> Iterator[Problem]:
+def _carrier_geometry_problems(evidence: Train) -> Iterator[Problem]:
     requested = evidence.reconstruct
     assert requested is not None
     if requested.geometry is not None:
@@ -282,7 +282,7 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
             what = f"the coupling of {said} joins arbors that are already joined"
             yield Problem(what, "given couplings must form a tree of arbors", "remove it", place)
         joined.update(dict.fromkeys(first | second, first | second))
-        yield from _carried(evidence, pair, place)
+        yield from _bearing_problems(evidence, pair, place)
     for at, gear in enumerate(evidence.gears):
         first_link, second_link = (evidence.wheels[wheel][0] for wheel in gear.pair)
         if second_link in joined.get(first_link, ()):
@@ -293,7 +293,7 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
             )
 
 
-def _carried(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
+def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
     """Yield problems of joined arbors that do not turn on the base, which is the frame or the carrier."""
     assert evidence.reconstruct is not None, "no evidence"
     base = evidence.reconstruct.carrier or evidence.frame
@@ -321,7 +321,7 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
     """
     for name, links in joined.items():
         places = {problem.geometry.places.get(link) for link in links}
-        axes = {frozenset(_beside(problem, link)) - set(links) for link in links}
+        axes = {frozenset(_coaxial_arbors(problem, link)) - set(links) for link in links}
         if len(places) > 1 or len(axes) > 1:
             said = " and ".join(f"'{link}'" for link in links)
             what = f"{said} are joined, but are on different axes"
@@ -331,7 +331,7 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
             yield Problem(what, why, fix, evidence.place(*place))
 
 
-def _beside(problem: ReconstructionProblem, link: str) -> Iterator[str]:
+def _coaxial_arbors(problem: ReconstructionProblem, link: str) -> Iterator[str]:
     """Yield the other arbors on the axis of a link."""
     for pair in problem.coaxial:
         if link in pair:

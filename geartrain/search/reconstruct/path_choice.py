@@ -218,10 +218,10 @@ class PathChoice:
         """Yield all choices for trains with exactly `added` added wheels; only those of part `part` of `parts`."""
         self._added = added
         whole = {
-            dial: _Near(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
+            dial: _Compatible(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
             for dial, rows in self._with_partners(added).items()
         }
-        share = _Share(part, parts)
+        share = _RoundRobin(part, parts)
         if len(whole) == 1:
             ((dial, near),) = whole.items()
             near = near.kept(np.int64(self._must) & ~self._columns[dial].used[near.rows] == 0)
@@ -262,7 +262,7 @@ class PathChoice:
 
     # first choices
 
-    def _from_short(self, most: int, lists: dict[str, _Near], share: _Share) -> Iterator[Choice]:
+    def _from_short(self, most: int, lists: dict[str, _Compatible], share: _RoundRobin) -> Iterator[Choice]:
         """Yield all choices with a path of at most `most` added wheels, beginning with the path of the fewest."""
         for wheels in range(most + 1):
             for at, (dial, near) in enumerate(lists.items()):
@@ -275,9 +275,9 @@ class PathChoice:
                 own = share if len(rows) >= _EVEN_SHARES else None
                 for row in rows:
                     if own is None or own.is_own():
-                        yield from self._with(dial, row, _Chosen(), others, {}, None if own else share)
+                        yield from self._extended(dial, row, _Chosen(), others, {}, None if own else share)
 
-    def _from_near(self, most: int, lists: dict[str, _Near], share: _Share) -> Iterator[Choice]:
+    def _from_near(self, most: int, lists: dict[str, _Compatible], share: _RoundRobin) -> Iterator[Choice]:
         """Yield all choices without a short path, beginning with two paths at a small distance if there are any."""
         pairs = list(combinations(lists, 2))
         ends = (_INPUT, *lists)
@@ -295,30 +295,30 @@ class PathChoice:
             others = {other: near for other, near in lists.items() if other != dial}
             for row in lists[dial].rows.tolist():
                 if share.is_own():
-                    yield from self._with(dial, row, _Chosen(), others, minimum, None)
+                    yield from self._extended(dial, row, _Chosen(), others, minimum, None)
 
     def _from_pair(
-        self, one: str, other: str, far: int, lists: dict[str, _Near], minimum: Mapping[EndPair, int]
+        self, one: str, other: str, far: int, lists: dict[str, _Compatible], minimum: Mapping[EndPair, int]
     ) -> Iterator[Choice]:
         rest = {dial: near for dial, near in lists.items() if dial not in (one, other)}
-        for row, partners in self._joined(one, lists[one].rows, other, lists[other].rows, far):
-            near = _Near(partners, {_INPUT: self.lists[other].wheels[partners].astype(np.int8)})
+        for row, partners in self._join(one, lists[one].rows, other, lists[other].rows, far):
+            near = _Compatible(partners, {_INPUT: self.lists[other].wheels[partners].astype(np.int8)})
             near = self._fitting(one, row, other, near, _Chosen(), {})
             near = near.kept(near.far[one] == far)
             if len(near.rows):
-                yield from self._with(one, row, _Chosen(), {other: near, **rest}, minimum, None, {other: near})
+                yield from self._extended(one, row, _Chosen(), {other: near, **rest}, minimum, None, {other: near})
 
     # further choices
 
-    def _with(
+    def _extended(
         self,
         dial: str,
         row: int,
         chosen: _Chosen,
-        lists: Mapping[str, _Near],
+        lists: Mapping[str, _Compatible],
         minimum: Mapping[EndPair, int],
-        share: _Share | None,
-        known: Mapping[str, _Near] = MappingProxyType({}),
+        share: _RoundRobin | None,
+        known: Mapping[str, _Compatible] = MappingProxyType({}),
     ) -> Iterator[Choice]:
         """Yield all choices that extend the chosen paths by one more.
 
@@ -326,7 +326,7 @@ class PathChoice:
         known     dials -> lists that are already restricted to paths compatible with the new one
         """
         paths = {**chosen.paths, dial: row}
-        kept: dict[str, _Near] = dict(known)
+        kept: dict[str, _Compatible] = dict(known)
         for other in sorted(lists, key=lambda each: len(lists[each].rows)):
             if other not in kept:
                 kept[other] = self._fitting(dial, row, other, lists[other], chosen, minimum)
@@ -348,13 +348,13 @@ class PathChoice:
                 own = {end_pair(end, following): int(each[at]) for end, each in near.far.items()}
                 own |= {end_pair(_INPUT, dial): int(self.lists[dial].wheels[row])}
                 after = _Chosen(paths, {**chosen.far, **own})
-                yield from self._with(following, next_row, after, kept, minimum, None)
+                yield from self._extended(following, next_row, after, kept, minimum, None)
 
     def _fitting(
-        self, dial: str, row: int, other: str, near: _Near, chosen: _Chosen, minimum: Mapping[EndPair, int]
-    ) -> _Near:
+        self, dial: str, row: int, other: str, near: _Compatible, chosen: _Chosen, minimum: Mapping[EndPair, int]
+    ) -> _Compatible:
         """Return the paths of another dial that are compatible with one more chosen path."""
-        known = self._with_one(dial, row, other) if self._are_few(dial, other) else None
+        known = self._compared(dial, row, other) if self._are_few(dial, other) else None
         fits = self._columns[other].fit(near.rows, self._columns[dial], row) if known is None else known[0][near.rows]
         near = near.kept(fits)
         for path in chosen.paths.items():
@@ -371,12 +371,12 @@ class PathChoice:
         return len(self.lists[dial]) * len(self.lists[other]) <= _MOST_PAIRS
 
     @cache  # noqa: B019 -- lives as long as the lists
-    def _with_one(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
+    def _compared(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
         """Return the compatibility and minimum distance of all paths to another dial with a chosen path."""
         every = np.arange(len(self.lists[other]))
         return self._columns[other].fit(every, self._columns[dial], row), self._apart(dial, row, other, every)
 
-    def _joined(self, one: str, rows: Rows, other: str, others: Rows, far: int) -> Iterator[tuple[int, Rows]]:
+    def _join(self, one: str, rows: Rows, other: str, others: Rows, far: int) -> Iterator[tuple[int, Rows]]:
         """Yield each row of one dial with the compatible rows of another within a distance, by a hash join."""
         first, second = self.lists[one], self.lists[other]
         table = self.keys.few(far + self._idlers)
@@ -388,7 +388,7 @@ class PathChoice:
         piece = max(1, _PIECE // len(table))
         for start in range(0, len(rows), piece):
             own = rows[start : start + piece]
-            at, to = _equal(keys, np.add.outer(first.wanted[own], table).ravel())
+            at, to = _equal_pairs(keys, np.add.outer(first.wanted[own], table).ravel())
             at, to = own[at // len(table)], others[order[to]]
             fits = self._columns[other].fit(to, self._columns[one], at)
             at, to = at[fits], to[fits]
@@ -425,7 +425,7 @@ class PathChoice:
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
         return np.asarray(far, dtype=np.int8)
 
-    def _closes(self, ends: Sequence[str], far: Mapping[EndPair, int], near: _Near) -> NDArray[np.bool_]:
+    def _closes(self, ends: Sequence[str], far: Mapping[EndPair, int], near: _Compatible) -> NDArray[np.bool_]:
         """Test for which paths a tour of some ends and their own end is short enough."""
         good = np.zeros(len(near.rows), dtype=bool)
         for one, two, rest in tours_with_one_more(len(ends), distances(ends, far)):
@@ -444,7 +444,7 @@ class PathChoice:
         used = (int(self._columns[dial].used[row]) for dial, row in paths.items())
         return self._must & ~reduce(or_, used, 0)
 
-    def _reach(self, dial: str, near: _Near) -> int:
+    def _reach(self, dial: str, near: _Compatible) -> int:
         return int(np.bitwise_or.reduce(self._columns[dial].used[near.rows]))
 
 
@@ -457,26 +457,26 @@ class _Chosen:
 
 
 @dataclass(frozen=True)
-class _Near:
+class _Compatible:
     """Paths to a dial that are compatible with all chosen ones, with lower bounds of their distance from each end."""
 
     rows: Rows
     far: Mapping[str, NDArray[np.int8]]
 
-    def kept(self, good: NDArray[np.bool_]) -> _Near:
+    def kept(self, good: NDArray[np.bool_]) -> _Compatible:
         """Return the selected rows of all arrays."""
-        return _Near(self.rows[good], {end: each[good] for end, each in self.far.items()})
+        return _Compatible(self.rows[good], {end: each[good] for end, each in self.far.items()})
 
-    def also(self, end: str, far: NDArray[np.int8]) -> _Near:
+    def also(self, end: str, far: NDArray[np.int8]) -> _Compatible:
         """Add the distances from one more end."""
-        return _Near(self.rows, {**self.far, end: far})
+        return _Compatible(self.rows, {**self.far, end: far})
 
-    def beyond(self, minimum: Mapping[str, int]) -> _Near:
+    def beyond(self, minimum: Mapping[str, int]) -> _Compatible:
         """Select the paths that have at least the given distances from some ends."""
         return self.kept(reduce(np.logical_and, (self.far[end] >= number for end, number in minimum.items())))
 
 
-def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
+def _equal_pairs(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
     """Return all pairs of indices of equal entries of `wanted` and of the sorted `keys`, by the first index."""
     start, end = np.searchsorted(keys, wanted), np.searchsorted(keys, wanted, side="right")
     number = end - start
@@ -485,7 +485,7 @@ def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, 
     return at, first + np.arange(len(at))
 
 
-class _Share:
+class _RoundRobin:
     """Round-robin distribution of numbered items over the parts of a search."""
 
     def __init__(self, part: int, parts: int) -> None:

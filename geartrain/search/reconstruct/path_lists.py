@@ -91,7 +91,7 @@ class SeenMeshes:
             first, one, second, other = mesh if place[mesh[0]] < place[mesh[2]] else (*mesh[2:], *mesh[:2])
             below = next(0 in cluster for cluster in clusters if first in cluster)
             fits = [
-                [_go_together(mine, one, theirs, other, problem.idlers, below) for mine in (None, *passes[first])]
+                [_are_compatible(mine, one, theirs, other, problem.idlers, below) for mine in (None, *passes[first])]
                 for theirs in (None, *passes[second])
             ]
             self._fits[second].append((first, np.array(fits, dtype=bool)))
@@ -108,7 +108,7 @@ class SeenMeshes:
         return found
 
 
-def _go_together(
+def _are_compatible(
     mine: ArborPass | None, one: str, theirs: ArborPass | None, other: str, idlers: bool, below: bool
 ) -> bool:
     """Return whether a path may have these passes of two arbors whose wheels `one` and `other` mesh.
@@ -117,13 +117,13 @@ def _go_together(
     """
     if mine is None or theirs is None:
         there, wheel = (mine, one) if theirs is None else (theirs, other)
-        return there is None or (not (below and mine is None) and (idlers or not _is(there.driven, wheel)))
-    if _is(mine.driver, one) and _is(theirs.driven, other):
+        return there is None or (not (below and mine is None) and (idlers or not _is_named(there.driven, wheel)))
+    if _is_named(mine.driver, one) and _is_named(theirs.driven, other):
         return True
-    return not below and _is(theirs.driver, other) and _is(mine.driven, one)
+    return not below and _is_named(theirs.driver, other) and _is_named(mine.driven, one)
 
 
-def _is(wheel: PlacedWheel | None, name: str) -> bool:
+def _is_named(wheel: PlacedWheel | None, name: str) -> bool:
     return wheel is not None and wheel.name == name
 
 
@@ -384,7 +384,7 @@ class PathList:
         """Return the changes that a pass makes to the hash key and to the powers of large primes."""
         if each.idler:
             return np.uint64(0), np.zeros(len(self.primes), dtype=np.int8)
-        ratio = Fraction(_sure(each.driven), _sure(each.driver))
+        ratio = Fraction(_known_count(each.driven), _known_count(each.driver))
         return np.uint64(self.keys.key(ratio)), self._powers(ratio)
 
     # large primes: an added tooth count contains at most one of them
@@ -403,7 +403,7 @@ class PathList:
 
     @cache  # noqa: B019 -- lives as long as the list
     def _primes_of(self, at: int) -> frozenset[int]:
-        counts = {_sure(wheel) for each in self.passes[at] for wheel in (each.driven, each.driver)}
+        counts = {_known_count(wheel) for each in self.passes[at] for wheel in (each.driven, each.driver)}
         return frozenset(prime for count in counts for prime, _ in prime_powers(count))
 
     def _powers(self, ratio: Fraction) -> NDArray[np.int8]:
@@ -488,7 +488,10 @@ class PathList:
     def _bounds(self, codes: NDArray[np.uint16], turned: NDArray[np.bool_]) -> Bounds:
         known = np.full(len(codes), float(abs(self.problem.input_speed)))
         for at, passes in enumerate(self.passes):
-            ratios = [1.0, *(1.0 if one.idler else _sure(one.driver) / _sure(one.driven) for one in passes)]
+            ratios = [
+                1.0,
+                *(1.0 if one.idler else _known_count(one.driver) / _known_count(one.driven) for one in passes),
+            ]
             known *= np.array(ratios)[codes[:, at]]
         (low, high), (turned_low, turned_high) = self._magnitudes(False), self._magnitudes(True)
         minimum = np.where(turned, float(turned_low), float(low))
@@ -498,7 +501,9 @@ class PathList:
         """Return the product of surviving driving counts over surviving driven counts on a path."""
         taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
         taken = [each for each in taken if not each.idler]
-        return Fraction(prod(_sure(each.driver) for each in taken), prod(_sure(each.driven) for each in taken))
+        return Fraction(
+            prod(_known_count(each.driver) for each in taken), prod(_known_count(each.driven) for each in taken)
+        )
 
     def turns(self, row: int) -> bool:
         """Return whether the dial of a path turns opposite to the input."""
@@ -529,7 +534,7 @@ def _numbered_wheels(passes: tuple[ArborPass, ...]) -> Iterator[int]:
         yield known[each.driven]
 
 
-def _sure(wheel: object) -> int:
+def _known_count(wheel: object) -> int:
     """Return the tooth count of a surviving wheel; 1 for an added wheel and for None."""
     teeth = getattr(wheel, "teeth", 1)
     return teeth if wheel is not None and wheel != ADDED else 1

@@ -28,7 +28,7 @@ Block = tuple[str, Dials]
 """Exit of an arbor, and the dials to which it leads."""
 
 
-def way_on(each: ArborPass) -> str:
+def exit_of(each: ArborPass) -> str:
     """Return the exit by which a path leaves an arbor."""
     if each.driver is None:
         return HERE
@@ -37,7 +37,7 @@ def way_on(each: ArborPass) -> str:
     return BESIDE if each.driver.name is None else each.driver.name
 
 
-def shared_out(
+def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
     """Yield each partition of dials into those that an arbor shows and those to which each of its wheels leads.
@@ -58,13 +58,13 @@ def shared_out(
 def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
     """Yield each partition of dials into blocks without common surviving arbors, the first dial in the first block."""
     place = {dial: at for at, dial in enumerate(dials)}
-    for blocks in _parted(_together(dials, arbors)):
+    for blocks in _set_partitions(_connected_dials(dials, arbors)):
         yield tuple(
             tuple(sorted((dial for group in block for dial in group), key=place.__getitem__)) for block in blocks
         )
 
 
-def _together(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
+def _connected_dials(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
     """Group dials into connected components, where dials with a common surviving arbor are connected."""
     groups: list[tuple[int, Dials]] = []
     for dial in dials:
@@ -76,14 +76,14 @@ def _together(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
     return tuple(sorted((group for _, group in groups), key=lambda group: min(map(first, group))))
 
 
-def _parted(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
+def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
     if not groups:
         yield ()
         return
     for size in range(len(groups)):
         for others in combinations(groups[1:], size):
             rest = tuple(group for group in groups[1:] if group not in others)
-            for blocks in _parted(rest):
+            for blocks in _set_partitions(rest):
                 yield ((groups[0], *others), *blocks)
 
 
@@ -122,14 +122,14 @@ Paths = dict[str, DialPath]
 """Dials, sorted by name -> their paths."""
 
 
-class _Left(NamedTuple):
+class _Budget(NamedTuple):
     """Number of added wheels still to be used, and number of added arbors still permitted."""
 
     wheels: int
     new: int
 
-    def without(self, wheels: int, new: int = 0) -> _Left:
-        return _Left(self.wheels - wheels, self.new - new)
+    def without(self, wheels: int, new: int = 0) -> _Budget:
+        return _Budget(self.wheels - wheels, self.new - new)
 
     @property
     def is_possible(self) -> bool:
@@ -156,7 +156,7 @@ class PathTrees:
 
     def roots(self, paths: Paths, added: int) -> list[Branching]:
         """Return the input arbor of each tree that has these paths and exactly `added` added wheels."""
-        return [root for root, left in self._branching(0, paths, _Left(added, self._new)) if not left.wheels]
+        return [root for root, left in self._branching(0, paths, _Budget(added, self._new)) if not left.wheels]
 
     def _path(self, dial: str, row: int) -> DialPath:
         paths = self.lists[dial]
@@ -168,28 +168,28 @@ class PathTrees:
 
     # subtrees of a driving wheel
 
-    def _forest(self, paths: Paths, left: _Left, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
+    def _forest(self, paths: Paths, left: _Budget, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
         """Yield sets of chains that lead to some dials; dials with a common surviving arbor share a chain."""
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= minimum:
-                yield from self._chains([_some(paths, block) for block in blocks], left)
+                yield from self._chains([_restricted(paths, block) for block in blocks], left)
 
-    def _chains(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
+    def _chains(self, blocks: Sequence[Paths], left: _Budget) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
         """Yield one chain for each block of dials, reserving the added wheels that later blocks need."""
         if not blocks:
             yield (), left
             return
-        kept = sum(map(_need, blocks[1:]))
+        kept = sum(map(_needed_wheels, blocks[1:]))
         for chain, after in self._chain(blocks[0], left.without(kept)):
             for others, end in self._chains(blocks[1:], after.without(-kept)):
                 yield (chain, *others), end
 
-    def _chain(self, paths: Paths, left: _Left) -> Iterator[tuple[Chain, _Left]]:
-        if _need(paths) > left.wheels:
+    def _chain(self, paths: Paths, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
+        if _needed_wheels(paths) > left.wheels:
             return
         if len(paths) == 1:
             ((dial, path),) = paths.items()
-            yield from self._leg(dial, path, left)
+            yield from self._single_chain(dial, path, left)
             return
         found = self._common(paths)
         if found is None:
@@ -205,18 +205,20 @@ class PathTrees:
                 continue
             below = _below(paths, through, compounds, idlers)
             if end is not None:
-                yield from self._ended(
+                yield from self._with_ends(
                     tuple(paths), paths, through, compounds, idlers, self._branching(end, below, after)
                 )
                 continue
             if through or compounds or idlers:
                 forests = self._forest(below, after, 2)
-                yield from self._ended(tuple(paths), paths, through, compounds, idlers, forests)
-            yield from self._ended(tuple(paths), paths, through, compounds, idlers, self._new_branching(below, after))
+                yield from self._with_ends(tuple(paths), paths, through, compounds, idlers, forests)
+            yield from self._with_ends(
+                tuple(paths), paths, through, compounds, idlers, self._new_branching(below, after)
+            )
         if end is None:
-            yield from self._parted_by_added(paths, through, left)
+            yield from self._split_by_added(paths, through, left)
 
-    def _parted_by_added(self, paths: Paths, through: tuple[int, ...], left: _Left) -> Iterator[tuple[Chain, _Left]]:
+    def _split_by_added(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
         """Yield chains that end at a surviving arbor which all paths leave by several added wheels."""
         for end in through:
             if paths_first(paths).passes[end].driver != ADDED or paths_first(paths).passes[end].idler:
@@ -230,17 +232,17 @@ class PathTrees:
                 after = left.without(added + 2 * compounds + idlers, compounds + idlers)
                 if after.is_possible:
                     branchings = self._branching(end, _below(paths, others, compounds, idlers), after)
-                    yield from self._ended(tuple(paths), paths, others, compounds, idlers, branchings)
+                    yield from self._with_ends(tuple(paths), paths, others, compounds, idlers, branchings)
 
-    def _ended(
+    def _with_ends(
         self,
         dials: Dials,
         paths: Paths,
         through: tuple[int, ...],
         compounds: int,
         idlers: int,
-        ends: Iterator[tuple[Branching, _Left]] | Iterator[tuple[tuple[Chain, ...], _Left]],
-    ) -> Iterator[tuple[Chain, _Left]]:
+        ends: Iterator[tuple[Branching, _Budget]] | Iterator[tuple[tuple[Chain, ...], _Budget]],
+    ) -> Iterator[tuple[Chain, _Budget]]:
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
         for end, after in ends:
@@ -260,7 +262,7 @@ class PathTrees:
                 through.append(at)
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
-    def _leg(self, dial: str, path: DialPath, left: _Left) -> Iterator[tuple[Chain, _Left]]:
+    def _single_chain(self, dial: str, path: DialPath, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
         """Yield the only chain that leads to a single dial."""
         after = left.without(path.wheels, path.new)
         if not after.is_possible:
@@ -277,30 +279,32 @@ class PathTrees:
 
     # arbors at which paths end or separate
 
-    def _branching(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
+    def _branching(self, at: int, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
         """Yield branchings at a surviving arbor that shows dials or has several exits, or at the input arbor."""
         first = paths_first(paths).passes[at]
-        ways = {dial: (way_on(path.passes[at]),) for dial, path in paths.items()}
+        ways = {dial: (exit_of(path.passes[at]),) for dial, path in paths.items()}
         paid = int(first.driven == ADDED)
         bit = 1 << (at - 1) if at else 0
         below = {
             dial: path._replace(arbors=path.arbors & ~bit, wheels=path.wheels - path.passes[at].added)
             for dial, path in paths.items()
         }
-        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(below)):
+        for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(below)):
             if at and not here and len(blocks) < 2:
                 continue
             if all(below[dial].is_at_end and not below[dial].ends_new for dial in here):
                 drivers = [None if way == IDLER else paths[dials[0]].passes[at].driver for way, dials in blocks]
-                yield from self._hung(self.names[at], first.driven, here, blocks, drivers, below, left.without(paid))
+                yield from self._with_subtrees(
+                    self.names[at], first.driven, here, blocks, drivers, below, left.without(paid)
+                )
 
-    def _new_branching(self, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
+    def _new_branching(self, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
         """Yield branchings at an added arbor that shows dials or has several exits."""
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):
             return
-        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(paths)):
+        for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(paths)):
             if not here and len(blocks) < 2:
                 continue
             below = dict(paths)
@@ -313,9 +317,9 @@ class PathTrees:
                         else path._replace(compounds=path.compounds - 1, wheels=path.wheels - 2)
                     )
             drivers = [None if way == IDLER else ADDED for way, _ in blocks]
-            yield from self._hung(None, ADDED, here, blocks, drivers, below, after)
+            yield from self._with_subtrees(None, ADDED, here, blocks, drivers, below, after)
 
-    def _hung(
+    def _with_subtrees(
         self,
         name: str | None,
         driven: PlacedWheel | None,
@@ -323,25 +327,25 @@ class PathTrees:
         blocks: Sequence[Block],
         drivers: Sequence[PlacedWheel | None],
         paths: Paths,
-        left: _Left,
-    ) -> Iterator[tuple[Branching, _Left]]:
+        left: _Budget,
+    ) -> Iterator[tuple[Branching, _Budget]]:
         """Yield a branching with each set of chains that its wheels can drive."""
-        if not _are_parted([dials for _, dials in blocks], paths):
+        if not _are_disjoint([dials for _, dials in blocks], paths):
             return
         after = left.without(sum(way == BESIDE for way, _ in blocks))
-        for drives, end in self._drives([_some(paths, dials) for _, dials in blocks], drivers, after):
+        for drives, end in self._drives([_restricted(paths, dials) for _, dials in blocks], drivers, after):
             driving = tuple((wheel, chains) for wheel, chains in drives if wheel is not None)
             passes = tuple(chain for wheel, chains in drives if wheel is None for chain in chains)
             yield Branching(name, driven, here, driving, passes), end
 
     def _drives(
-        self, blocks: Sequence[Paths], drivers: Sequence[PlacedWheel | None], left: _Left
-    ) -> Iterator[tuple[tuple[_Drive, ...], _Left]]:
+        self, blocks: Sequence[Paths], drivers: Sequence[PlacedWheel | None], left: _Budget
+    ) -> Iterator[tuple[tuple[_Drive, ...], _Budget]]:
         if not blocks:
             yield (), left
             return
-        kept = sum(map(_need, blocks[1:]))
-        if kept + _need(blocks[0]) > left.wheels:
+        kept = sum(map(_needed_wheels, blocks[1:]))
+        if kept + _needed_wheels(blocks[0]) > left.wheels:
             return
         for chains, after in self._forest(blocks[0], left.without(kept)):
             for drives, end in self._drives(blocks[1:], drivers[1:], after.without(-kept)):
@@ -353,7 +357,7 @@ def paths_first(paths: Paths) -> DialPath:
     return next(iter(paths.values()))
 
 
-def _some(paths: Paths, dials: Dials) -> Paths:
+def _restricted(paths: Paths, dials: Dials) -> Paths:
     return {dial: paths[dial] for dial in dials}
 
 
@@ -361,12 +365,12 @@ def _own_arbors(paths: Paths) -> dict[str, int]:
     return {dial: path.arbors for dial, path in paths.items()}
 
 
-def _need(paths: Paths) -> int:
+def _needed_wheels(paths: Paths) -> int:
     """Return the minimum number of added wheels of a tree with these paths."""
     return max(path.wheels for path in paths.values())
 
 
-def _are_parted(blocks: Sequence[Dials], paths: Paths) -> bool:
+def _are_disjoint(blocks: Sequence[Dials], paths: Paths) -> bool:
     """Return whether dials of different blocks have no surviving arbor in common."""
     masks = [reduce(lambda bits, dial: bits | paths[dial].arbors, block, 0) for block in blocks]
     return not any(one & other for one, other in combinations(masks, 2))

@@ -184,13 +184,13 @@ class QuotientRanges:
         """Test which bounds contain a quotient of `drivers` over `driven` added counts, without false negatives."""
         if not self._is_listed(drivers + driven):
             return np.ones(bounds[0].shape, dtype=bool)
-        return _are_held(quotient_table(drivers, driven, self.counts).values, bounds)
+        return _contain_quotient(quotient_table(drivers, driven, self.counts).values, bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
         """Return a lower bound, at most 3, of the number of added wheels with a quotient within each bounds."""
         found = np.full(bounds[0].shape, _LISTED + 1, dtype=np.int8)
         for wheels in range(_LISTED, -1, -1):
-            held = _are_held(self._few(wheels), bounds) if self._is_listed(wheels) else np.True_
+            held = _contain_quotient(self._few(wheels), bounds) if self._is_listed(wheels) else np.True_
             found = np.where(held, np.int8(wheels), found)
         return found
 
@@ -203,7 +203,7 @@ class QuotientRanges:
         return np.unique(np.concatenate([quotient_table(*kind, self.counts).values for kind in kinds]))
 
 
-def _are_held(table: NDArray[np.float64], bounds: Bounds) -> NDArray[np.bool_]:
+def _contain_quotient(table: NDArray[np.float64], bounds: Bounds) -> NDArray[np.bool_]:
     low, high = bounds
     first = np.searchsorted(table, low * (1 - _ROUNDING))
     return np.asarray(np.searchsorted(table, high * (1 + _ROUNDING), side="right") > first)

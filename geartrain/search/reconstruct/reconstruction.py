@@ -36,8 +36,8 @@ from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, 
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
 
-_ALL = 1_000_000
-_LOOKED_AT = 2000
+_MOST_LISTED = 1_000_000
+_MINIMUM_COMPARED = 2000
 """Minimum number of candidates whose meshes and counts are compared, even if fewer are listed."""
 
 
@@ -236,14 +236,16 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     (2, {'new_metonic1': 53})
     """
     run = run or ReconstructionRun()
-    evidence, original = _of_train(request) if request.lost else (request.evidence, None)
+    evidence, original = _lost_train(request) if request.lost else (request.evidence, None)
     question = evidence_question(evidence, request.wheels, request.idlers)
     _check_known(request, question)
     problem = question.problem
     run.begin(problem)
     expected = expect_cost(problem)
     run.expect(problem, expected)
-    listing = 0 if request.counts_only else _ALL if request.best is None else max(request.best, _LOOKED_AT)
+    listing = (
+        0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
+    )
     with run.search(problem, expected) as execution:
         found = find_reconstructions(problem, execution, listing, request.per)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
@@ -270,7 +272,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     )
 
 
-def _of_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
+def _lost_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
     """Return the evidence that remains of a train without its lost arbors, and the train as a candidate."""
     tree = find_spur_tree(request.evidence, request.lost, request.source)
     return lost_evidence(tree, request.lost, request.seen), tree.arbor(lost_arbors(tree, request.lost))

@@ -481,11 +481,11 @@ def _placed(evidence: Train) -> Iterator[PlacedArbor]:
         x, y, _ = map(_millimetres, axis.position)
         for link in joint.pair:
             if link != evidence.frame:
-                _refuse_ring(evidence, link, joint.axis)
+                _check_no_ring(evidence, link, joint.axis)
                 yield PlacedArbor(link, (x, y))
 
 
-def _refuse_ring(evidence: Train, link: str, axis: str) -> None:
+def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
         what = f"the position of '{link}' cannot be weighed in evidence with the ring '{ring}'"

@@ -175,7 +175,7 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
         f"{' and '.join(links)} are joined by a pin and slot: they have the same mean speed."
         for links in found.joined.values()
     ]
-    yield Section("Surviving arbors", [_begins(found), *couplings], [Table(("arbor", "wheels"), rows)])
+    yield Section("Surviving arbors", [_base_text(found), *couplings], [Table(("arbor", "wheels"), rows)])
     pointers = [(dial.name, speed_text(dial), _place(dial)) for dial in problem.dials]
     base = found.base
     speed = f"speed relative to {base.name}" if base is not None and base.is_carrier else "speed"
@@ -188,7 +188,7 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
         yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
 
 
-def _begins(found: ReconstructionAnswer) -> str:
+def _base_text(found: ReconstructionAnswer) -> str:
     """Return a sentence on the input of the train and the link that carries the arbors."""
     base, source = found.base, found.problem.input.name
     if base is None or not base.is_carrier:
@@ -249,9 +249,11 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
         if one.broken:
             rows = dict.fromkeys((each.what, each.change or "no single change") for each in one.broken)
             table = Table(("property of the train", "change that would admit it"), list(rows))
-            yield Section(f"Rules that {one.train} breaks", [*_noted(one), *_granted(one)], [table])
+            yield Section(
+                f"Rules that {one.train} breaks", [*_note_sentences(one), *_admission_sentences(one)], [table]
+            )
         elif one.notes:
-            yield Section(f"Notes on {one.train}", list(_noted(one)))
+            yield Section(f"Notes on {one.train}", list(_note_sentences(one)))
         if one.telling is not None and one.place is not None:
             yield _telling(one.train, one.telling, one.place.trains)
 
@@ -261,7 +263,7 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
     many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
     alone = [each for each in found.facts if each.mechanisms == 1]
     lines = ["Facts that are true of this train but not of all, with the number of trains that each would leave."]
-    tables = [Table(("fact", f"left of {trains}"), _left(found.facts))]
+    tables = [Table(("fact", f"left of {trains}"), _fact_rows(found.facts))]
     if not found.sets:
         lines.append("No set of three facts leaves only this train.")
     elif not alone:
@@ -270,22 +272,22 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
             f"{many_facts[len(found.sets[0])]} together leave only this train, in {ways}. "
             "Equivalent facts are listed once."
         )
-        rows = [("; ".join(map(_said, some)),) for some in found.sets[:_MOST_SETS]]
+        rows = [("; ".join(map(_fact_text, some)),) for some in found.sets[:_MOST_SETS]]
         if len(found.sets) > _MOST_SETS:
             rows.append((f"... {len(found.sets) - _MOST_SETS} more",))
         tables.append(Table(("facts that together leave only this train",), rows))
     return Section(f"Facts that distinguish {train}", lines, tables)
 
 
-def _left(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
+def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
     """Return table rows that group facts by the number of trains with them."""
     rows: dict[int, list[str]] = {}
     for fact in facts:
-        rows.setdefault(fact.mechanisms, []).append(_said(fact))
+        rows.setdefault(fact.mechanisms, []).append(_fact_text(fact))
     return [("; ".join(said), str(left)) for left, said in rows.items()]
 
 
-def _said(fact: TellingFact) -> str:
+def _fact_text(fact: TellingFact) -> str:
     return _FACTS[fact.kind].format(fact.subject, fact.answer)
 
 
@@ -313,33 +315,33 @@ def _times(place: TrainPlace) -> str:
     return "the same" if place.dearer == 1 else f"{figure(place.dearer)} times"
 
 
-def _noted(one: KnownRank) -> Iterator[str]:
+def _note_sentences(one: KnownRank) -> Iterator[str]:
     yield from (f"{note}." for note in one.notes)
 
 
-def _granted(one: KnownRank) -> Iterator[str]:
+def _admission_sentences(one: KnownRank) -> Iterator[str]:
     """Yield a sentence on the rank of a train in each question that admits it."""
     all_that = tuple(dict.fromkeys(each.change for each in one.broken))
     for admitted in one.admitted:
         changes = (
             "all these changes" if admitted.changes == all_that else f"the changes ({'; '.join(admitted.changes)})"
         )
-        yield _cost(changes, admitted)
+        yield _admission_text(changes, admitted)
 
 
-def _cost(changes: str, admitted: AdmittingQuestion) -> str:
+def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
     own = plural(len(admitted.wheels), "wheel") + (f" ({teeth_text(admitted.wheels)})" if admitted.wheels else "")
     begins = f"With {changes} it adds {own}"
     if admitted.refused is not None:
         return f"{begins}. Not searched: {admitted.refused}."
-    told = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
+    listed = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
     if admitted.place is None:
-        trains = f"the trains by added wheels are {', '.join(told)}" if told else "nothing fits"
+        trains = f"the trains by added wheels are {', '.join(listed)}" if listed else "nothing fits"
         return f"{begins}. With at most {plural(admitted.requested, 'wheel')} {trains}."
     place = admitted.place
     outweighed = "no train weighs more" if place.dearer == 1 else f"the best weighs {_times(place)} as much"
     return (
-        f"{begins}. Trains by added wheels: {', '.join(told)}. It ranks {_ranks(place.ranks, place.trains)}, and "
+        f"{begins}. Trains by added wheels: {', '.join(listed)}. It ranks {_ranks(place.ranks, place.trains)}, and "
         f"{_ranks(place.ranks_alike, place.trains_alike)} with the same number of wheels; {outweighed}."
     )
 
@@ -393,19 +395,19 @@ def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
 def _answers(facts: Sequence[FactMarginal]) -> Table:
     named = {**_REQUESTED, "used": "whether {} is used"}
     rows = [
-        (named[fact.kind].format(fact.subject), _told(fact.answers), figure(fact.bits, 3))
+        (named[fact.kind].format(fact.subject), _answers_text(fact.answers), figure(fact.bits, 3))
         for fact in facts
         if fact.kind in named
     ]
     return Table(("fact", "answers", "bits"), cut(rows) if rows else rows)
 
 
-def _told(answers: Sequence[FactAnswer]) -> str:
-    told = [f"{one.answer}: {share_text(float(one.share))} ({one.mechanisms})" for one in answers[:_MOST_ANSWERS]]
+def _answers_text(answers: Sequence[FactAnswer]) -> str:
+    listed = [f"{one.answer}: {share_text(float(one.share))} ({one.mechanisms})" for one in answers[:_MOST_ANSWERS]]
     if len(answers) > _MOST_ANSWERS:
         rest = answers[_MOST_ANSWERS:]
-        told.append(f"{len(rest)} more: {share_text(float(sum(one.share for one in rest)))}")
-    return ", ".join(told)
+        listed.append(f"{len(rest)} more: {share_text(float(sum(one.share for one in rest)))}")
+    return ", ".join(listed)
 
 
 def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
@@ -413,7 +415,12 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
     if not facts:
         return
     rows = [
-        (_requested(one.fact), figure(one.fact.bits, 3), _told(one.fact.answers), _alike(one.same))
+        (
+            _fact_question(one.fact),
+            figure(one.fact.bits, 3),
+            _answers_text(one.fact.answers),
+            _equivalent_text(one.same),
+        )
         for one in facts[:_MOST_NEXT]
     ]
     lines = [
@@ -426,13 +433,13 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
     yield Section("The next fact to look for", lines, [Table(header, rows)])
 
 
-def _requested(fact: FactMarginal | Fact) -> str:
+def _fact_question(fact: FactMarginal | Fact) -> str:
     return _REQUESTED[fact.kind].format(fact.subject)
 
 
-def _alike(facts: Sequence[Fact]) -> str:
-    told = [_requested(fact) for fact in facts[:_MOST_ALIKE]]
-    return "; ".join(told) + (f" and {len(facts) - _MOST_ALIKE} more" if len(facts) > _MOST_ALIKE else "")
+def _equivalent_text(facts: Sequence[Fact]) -> str:
+    listed = [_fact_question(fact) for fact in facts[:_MOST_ALIKE]]
+    return "; ".join(listed) + (f" and {len(facts) - _MOST_ALIKE} more" if len(facts) > _MOST_ALIKE else "")
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
@@ -454,7 +461,7 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     if found is None:
         return
     line = "Each dial without the others; surviving arbors that do not lead to it need not be used."
-    rows = [(dial.dial, _alone(dial, most)) for dial in found.dials]
+    rows = [(dial.dial, _lone_dial_text(dial, most)) for dial in found.dials]
     yield Section("Why nothing fits", [line], [Table(("dial", "alone"), rows)])
     doubts = [(one.change, str(one.fewest), str(one.total)) for one in found.doubts]
     tried = (
@@ -469,7 +476,7 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     yield Section("Changes of the evidence that would help", lines, tables)
 
 
-def _alone(dial: LoneDial, most: int) -> str:
+def _lone_dial_text(dial: LoneDial, most: int) -> str:
     if dial.refused is not None:
         return dial.refused
     if dial.fewest is None:

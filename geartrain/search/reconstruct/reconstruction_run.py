@@ -34,7 +34,7 @@ class CommandRun(ReconstructionRun):
     def __init__(self, folder: Path | None, options: RunOptions) -> None:
         self._folder, self._options = folder, options
         self._journal: Journal | None = None
-        self._is_taken_up_with_another = False
+        self._is_needed_to_resume = False
 
     def begin(self, problem: ReconstructionProblem) -> None:
         """Print the size of the question."""
@@ -49,7 +49,7 @@ class CommandRun(ReconstructionRun):
             workers = self._options.workers
             shared = f", shared by {workers} processes" if workers not in (None, 1) else ""
             timed = f"one part in {cost.parts} of the search was timed"
-            tell(f"expected time: about {_lasting(seconds)} in one process{shared}; {timed}")
+            tell(f"expected time: about {_duration_text(seconds)} in one process{shared}; {timed}")
 
     @contextmanager
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
@@ -72,12 +72,12 @@ class CommandRun(ReconstructionRun):
             except KeyboardInterrupt:
                 tell(f"{len(counted)} of {plural(len(changed), 'assumption')} counted; the rest is omitted")
             cut = len(counted) < len(changed)
-            self._is_taken_up_with_another = cut and given.journal is not None and bool(len(given.journal))
+            self._is_needed_to_resume = cut and given.journal is not None and bool(len(given.journal))
             close_journal(given.journal, cut)
 
     def searched(self, complete: bool) -> None:
         """Close the journal of the search unless the interrupted count of assumptions needs it."""
-        if not self._is_taken_up_with_another:
+        if not self._is_needed_to_resume:
             close_journal(self._journal, not complete)
 
     @contextmanager
@@ -92,16 +92,16 @@ class CommandRun(ReconstructionRun):
 
 def _weighted(execution: Execution, problem: ReconstructionProblem, expected: ExpectedCost) -> Execution:
     """Return the executor with progress in proportion to the expected time of the tasks."""
-    shares, said = done_shares(problem, expected), execution.tell
+    shares, report_progress = done_shares(problem, expected), execution.tell
 
     def reach(done: int, _: int) -> None:
-        if said is not None:
-            said(round(_STEPS * shares[done]), _STEPS)
+        if report_progress is not None:
+            report_progress(round(_STEPS * shares[done]), _STEPS)
 
     return replace(execution, tell=reach)
 
 
-def _lasting(seconds: float) -> str:
+def _duration_text(seconds: float) -> str:
     """Format a rough duration [s] in seconds, minutes, hours or days."""
     for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
         if seconds >= 2 * size:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _LISTED = 20_000
 """Maximum number of candidates that are built. If more have the same weight, the first ones found are used."""
-_TOLD_APART = 300_000
+_MOST_CLASSIFIED = 300_000
 """Maximum number of choices of tooth counts for which multisets of arbors and ratio classes are counted."""
 
 _Weight = TypeVar("_Weight", Fraction, float)
@@ -160,7 +160,7 @@ def find_reconstructions(
         found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
-        return _all_weighed(problem, found, complete, per)
+        return _weighed_one_by_one(problem, found, complete, per)
     counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
     weights = tuple(_weight_classes(problem, found))
@@ -182,10 +182,10 @@ def _count(added: int, topologies: Sequence[CountedTopology], problem: Reconstru
     mechanisms = sum(each.mechanisms for each in topologies)
     # the order of arbors changes neither key, unless a ring limits counts in some orders
     maximum = problem.additions.maximum
-    told = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
-    if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
+    marked = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
+    if sum(each.choices if one_order else each.mechanisms for each, one_order in marked) > _MOST_CLASSIFIED:
         return ExplanationCount(added, mechanisms, None, None)
-    some = [arbor for each, one_order in told for arbor in _trains(each, problem, one_order)]
+    some = [arbor for each, one_order in marked for arbor in _trains(each, problem, one_order)]
     return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))
 
 
@@ -218,7 +218,7 @@ def _order(arbor: Arbor) -> tuple[int, str]:
     return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(arbor)
 
 
-def _all_weighed(
+def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, per: str
 ) -> Reconstructions:
     """Weigh every candidate by its misfits, or as a part of its class, and drop impossible ones."""

@@ -141,10 +141,10 @@ class TopologyTrains:
         """Draw one of the trains of a topology with equal probability."""
         parts = self.parts(topology)
         part = parts[draw_index([part.choices * part.orders.total for part in parts], chance)]
-        told, tokens = part.orders.draw(chance), CountTokens(topology.added)
-        arbor = next((one for one in told if isinstance(one, Arbor)), None)
+        drawn, tokens = part.orders.draw(chance), CountTokens(topology.added)
+        arbor = next((one for one in drawn if isinstance(one, Arbor)), None)
         if arbor is None:
-            steps = sorted((one for one in told if isinstance(one, ChainStep)), key=lambda one: one.place)
+            steps = sorted((one for one in drawn if isinstance(one, ChainStep)), key=lambda one: one.place)
             orders: dict[int, list[int]] = {id(chain): [] for chain in topology.chains}
             for step in steps:
                 orders[id(step.chain.chain)].append(step.which)

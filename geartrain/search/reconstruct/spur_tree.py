@@ -26,9 +26,9 @@ from geartrain.train.reconstruction import NEW_ARBOR
 # Driving mesh of every arbor, along meshes of spur wheels from the input.
 
 
-_ALONG = (0, 0, 1)
-_KEPT = ("title", "sources", "unit", "view")
-_OF_WHEELS = ("internal", "status", "source", "note")
+_Z_AXIS = (0, 0, 1)
+_KEPT_KEYS = ("title", "sources", "unit", "view")
+_WHEEL_KEYS = ("internal", "status", "source", "note")
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) 
         if wheel.kind != "spur" or any(link in lock for lock in train.locks) or (stands and carrier in still):
             return False
         axis = train.axes.get(tree.axis(carrier if stands else link) or "")
-        directions.add(_ALONG if axis is None else tuple(map(_value, axis.direction)))
+        directions.add(_Z_AXIS if axis is None else tuple(map(_value, axis.direction)))
     return len(directions) == 1
 
 
@@ -240,7 +240,7 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
         # the range of the few wheels of a small part would restrict the lost counts too much
         return found[0], *(replace(tree, teeth=(min(every), max(every))) for tree in found[1:])
     what = f"no pointer of '{train.name}' is reached by spur wheels on the frame or on a carrier"
-    obstacles = _joined(list(_obstacles(train)))
+    obstacles = _joined(list(_unsupported_features(train)))
     why = parts.loop or (f"it has {obstacles}" if obstacles else "no output except the input has a known speed")
     fix = "give `expect` to an output that spur wheels drive on the frame or on a carrier"
     raise QuestionError(Problem(what, why, fix))
@@ -304,14 +304,14 @@ class _Parts:
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)
         while waiting:
-            parts = ((part, self._begun(*part, tuple(known))) for part in waiting)
-            part, begun = next((each for each in parts if each[1] is not None), (None, None))
-            if part is None or begun is None:
+            parts = ((part, self._start_of(*part, tuple(known))) for part in waiting)
+            part, start = next((each for each in parts if each[1] is not None), (None, None))
+            if part is None or start is None:
                 return
             waiting.remove(part)
-            tree = self._tree(begun)
+            tree = self._tree(start)
             if tree is not None:
-                known |= dict.fromkeys([begun.name, *(link for one in tree.arbors for link in tree.links_of(one))])
+                known |= dict.fromkeys([start.name, *(link for one in tree.arbors for link in tree.links_of(one))])
                 yield tree
 
     # meshes on each base
@@ -337,9 +337,9 @@ class _Parts:
 
     def _arbor(self, base: str, wheel: str, bases: dict[str, _Base] | None = None) -> str:
         """Return the arbor of a wheel: the frame for fixed links, the first link for joined links."""
-        return self._stands_for(base, self.train.wheels[wheel][0], bases)
+        return self._arbor_of_link(base, self.train.wheels[wheel][0], bases)
 
-    def _stands_for(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
+    def _arbor_of_link(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
         if link in self.train.fixed:
             return self.train.frame
         return (bases or self._bases)[base].joined.get(link, (link,))[0]
@@ -352,12 +352,12 @@ class _Parts:
 
     # first arbor of a part
 
-    def _begun(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
+    def _start_of(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
         """Return the base and first arbor of a part, or None if no arbor with a known speed is in it."""
         frame, speed = self.train.frame, self._speed(base)
         if speed is None or (not speed and base != frame):
             return None
-        first = [frame] if base != frame and frame in arbors else [self._stands_for(base, link) for link in known]
+        first = [frame] if base != frame and frame in arbors else [self._arbor_of_link(base, link) for link in known]
         for source in first:
             turns = self._speed(source)
             if source in arbors and turns is not None and turns != speed:
@@ -375,15 +375,15 @@ class _Parts:
 
     # the tree
 
-    def _tree(self, begun: BaseLink) -> SpurTree | None:
-        base, train = begun.name, self.train
+    def _tree(self, start: BaseLink) -> SpurTree | None:
+        base, train = start.name, self.train
         meshes = self._bases[base].meshes
         try:
-            driven = walk_arbors(train, begun.source, meshes, lambda wheel: self._arbor(base, wheel))
+            driven = walk_arbors(train, start.source, meshes, lambda wheel: self._arbor(base, wheel))
         except QuestionError as error:
             self.loop = error.problems[0].what
             return None
-        outputs = [(name, self._stands_for(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
+        outputs = [(name, self._arbor_of_link(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
         pointers = {name: arbor for name, arbor, wanted in outputs if arbor in driven and wanted}
         named = {arbor: name for name, arbor, _ in reversed(outputs)}
         # arbors without a pointer below are dropped; a known speed makes a pointer
@@ -401,7 +401,7 @@ class _Parts:
         if not pointers:
             return None
         teeth = min(counts.values()), max(counts.values())
-        return _renamed(SpurTree(train, begun, driven, joined, pointers, counts, teeth))
+        return _renamed(SpurTree(train, start, driven, joined, pointers, counts, teeth))
 
     def _known_outputs(self, base: str) -> Iterator[tuple[str, str, bool]]:
         """Yield (output, link, has a target) for outputs of known speed relative to the frame or the base.
@@ -464,7 +464,7 @@ def why_not(train: Train, link: str) -> str:
     return "it leads to no pointer of known speed" if mates else "its wheels mesh with no other wheel"
 
 
-def _obstacles(train: Train) -> Iterator[str]:
+def _unsupported_features(train: Train) -> Iterator[str]:
     """Yield features of a train that no part supports."""
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
@@ -502,7 +502,7 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
     arbors = lost_arbors(tree, lost)
     given = train.model_dump(mode="json", exclude_unset=True, by_alias=True)
     words = "-".join(lost).replace(" ", "-")
-    kept = {key: given[key] for key in _KEPT if given.get(key)}
+    kept = {key: given[key] for key in _KEPT_KEYS if given.get(key)}
     if "title" in kept:
         kept["title"] += f", without {', '.join(lost)}"
     surviving = [arbor for arbor in tree.arbors if arbor not in arbors]
@@ -582,7 +582,7 @@ def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in (name for name in tree.train.links[link].wheels if name in tree.counts):
         wheel = given["links"][link]["wheels"][name]
-        about = {key: wheel[key] for key in _OF_WHEELS if key in wheel} if isinstance(wheel, dict) else {}
+        about = {key: wheel[key] for key in _WHEEL_KEYS if key in wheel} if isinstance(wheel, dict) else {}
         found[name] = {"teeth": tree.counts[name], **about} if about else tree.counts[name]
     return found
 

@@ -200,14 +200,14 @@ class Topology:
             if isinstance(chain.end, Branching):
                 idle += _count_end(chain.end, chain.dials, drivers, driven)
         for wheel, chains in self.root.drives:
-            drivers[_led_to(chains)] += wheel == ADDED
+            drivers[_dials_of(chains)] += wheel == ADDED
         groups = tuple((dials, drivers[dials], driven[dials]) for dials in sorted({*drivers, *driven}))
         return AddedWheels(tuple(group for group in groups if group[1] or group[2]), idle)
 
     @cached_property
     def used(self) -> tuple[PlacedWheel, ...]:
         """Surviving wheels that mesh, each with its tooth count."""
-        found = dict.fromkeys(wheel for chain in self.chains for _, each in chain.through for wheel in _both(each))
+        found = dict.fromkeys(wheel for chain in self.chains for _, each in chain.through for wheel in _wheels_of(each))
         for branching in self.branchings:
             found.update(dict.fromkeys([branching.driven, *(wheel for wheel, _ in branching.drives)]))
         return tuple(wheel for wheel in found if wheel is not None and wheel != ADDED)
@@ -263,20 +263,20 @@ class AddedWheels:
 def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Counter[Dials]) -> int:
     """Count the added wheels of a branching in `drivers` and `driven`, and return the number that change no speed."""
     for wheel, chains in end.drives:
-        drivers[_led_to(chains)] += wheel == ADDED
+        drivers[_dials_of(chains)] += wheel == ADDED
     if end.driven != ADDED:
         return 0
-    past = set(_led_to(end.passes))  # the speeds of dials driven by an idler do not depend on its count
+    past = set(_dials_of(end.passes))  # the speeds of dials driven by an idler do not depend on its count
     turned = tuple(dial for dial in dials if dial not in past)
     driven[turned] += bool(turned)
     return not turned
 
 
-def _led_to(chains: tuple[Chain, ...]) -> Dials:
+def _dials_of(chains: tuple[Chain, ...]) -> Dials:
     return tuple(sorted(dial for chain in chains for dial in chain.dials))
 
 
-def _both(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
+def _wheels_of(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
     return each.driven, each.driver
 
 
@@ -313,7 +313,7 @@ def _branching_of(plain: list[Any]) -> Branching:
 
 
 def _plain_chain(chain: Chain) -> list[Any]:
-    through = [[name, *map(_plain_wheel, _both(each)), each.idle, each.idler] for name, each in chain.through]
+    through = [[name, *map(_plain_wheel, _wheels_of(each)), each.idle, each.idler] for name, each in chain.through]
     end = [_plain_branching(chain.end)] if isinstance(chain.end, Branching) else [None, [*map(_plain_chain, chain.end)]]
     return [[*chain.dials], through, chain.compounds, chain.idlers, end]
 

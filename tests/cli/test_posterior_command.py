@@ -64,7 +64,7 @@ def test_json_csv_and_parquet_hold_the_same_combinations(train: Path) -> None:
 
 def test_pages_are_written_whole(train: Path) -> None:
     assert call("posterior", train, "-o", "out.md").exit_code == 0
-    assert Path("out.md").read_text().startswith("# Counts in doubt of pair")
+    assert Path("out.md").read_text().startswith("# Uncertain tooth counts of pair")
     assert call("posterior", train, "-o", "out.html").exit_code == 0
     assert "Which wheel decides which output" in Path("out.html").read_text()
 

@@ -39,9 +39,9 @@ def test_what_is_requested_is_counted() -> None:
     """2 x 5 x 19 x 13 x 2 x 3 readings."""
     assert RequestedQuestion.of(doubtful()) == RequestedQuestion(6, 10, 14820, 2, 2, (12, 225))
     assert str(RequestedQuestion.of(doubtful())) == (
-        "6 arbors with 10 wheels, their counts in 14820 ways; 2 dials; at most 2 added wheels of 12 to 225 teeth"
+        "6 arbors with 10 wheels and 14820 combinations of their counts; 2 dials; at most 2 added wheels of 12 to 225 teeth"
     )
-    assert str(RequestedQuestion(1, 1, 1, 1, 0, (1, 1))) == "1 arbor with 1 wheel; 1 dial; nothing added"
+    assert str(RequestedQuestion(1, 1, 1, 1, 0, (1, 1))) == "1 arbor with 1 wheel; 1 dial; no added wheels"
 
 
 def test_paths_are_those_found_by_hand() -> None:
@@ -124,7 +124,7 @@ def test_what_is_too_wide_is_refused_with_what_is_requested(monkeypatch: pytest.
     with pytest.raises(GearTrainError) as caught:
         find_reconstructions(doubtful())
     (problem,) = caught.value.problems
-    assert problem.what == "more than 1000 paths to 'metonic' would have to be looked at"
-    assert problem.why == f"asked are {RequestedQuestion.of(doubtful())}"
+    assert problem.what == "more than 1000 paths to 'metonic' would have to be examined"
+    assert problem.why == f"the question has {RequestedQuestion.of(doubtful())}"
     for way in ("`-k 1`", "e3 has 19, e4 has 13, m1 has 5", "leave out arbors"):
         assert way in problem.fix

@@ -268,7 +268,7 @@ def test_wheels_that_are_on_other_arbors_are_not_taken_for_those_that_survive() 
         }
     )
     known = find_known_train(parted, sure_back())
-    assert known.notes == ("c2 is not fixed to the other wheels of c, and is not taken for c2",)
+    assert known.notes == ("c2 is not fixed to the other wheels of c, and is therefore not identified with c2",)
     assert concrete(known.arbor) == ("b", (), (), ())
 
 

@@ -83,7 +83,7 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
         expect_cost(replace(TOY, additions=Additions(1000, 10, 45), idlers=idlers))
     (problem,) = caught.value.problems
     assert "up to 1000 added wheels of 10 to 45 teeth have 1e1556 choices" in problem.what
-    assert "at most 25 with -k" in problem.fix
+    assert "at most 25 wheels: `-k 25`" in problem.fix
 
 
 def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -98,14 +98,14 @@ def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatc
         expect_cost(replace(TOY, additions=Additions(17, 10, 45)))
     (problem,) = caught.value.problems
     assert "about 1e9 years" in problem.what
-    assert "each one more 10 times as long" in problem.why
-    assert "at most 9 with -k" in problem.fix  # 6.4e8 s; 6.4e9 s are two hundred years
+    assert "each further wheel takes 10 times as long" in problem.why
+    assert "at most 9 wheels, with -k" in problem.fix  # 6.4e8 s; 6.4e9 s are two hundred years
 
 
 def test_the_command_says_the_size_first_and_refuses_the_absurd() -> None:
     done = ended("reconstruct", "moon-c-e", "-k", "1000", "--count")
     assert done.returncode == 2
-    assert "asked: 3 arbors with 4 wheels; 1 dial; at most 1000 added wheels" in done.stderr
+    assert "question: 3 arbors with 4 wheels; 1 dial; at most 1000 added wheels" in done.stderr
     assert "1e2330 choices" in done.stderr
 
 

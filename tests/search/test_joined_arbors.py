@@ -119,15 +119,15 @@ REFUSED = {
         ["'m' and 'c' would lock an arbor"],
     ),
     "itself": (COUPLED.replace("[m, k]", "[m, m]"), ["joins arbors that are already joined"]),
-    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "joined already"]),
-    "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["'w~x' was seen", "lock"]),
+    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "already joined"]),
+    "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["known mesh 'w~x'", "lock"]),
     "follower": (
         COUPLED + "couplings: [{kind: pin_follower, pin: m, slot: n}]\n",
-        ["'m~n' is no pin and slot", "give the speed before it"],
+        ["'m~n' is not a pin and slot", "give the speed before it"],
     ),
     "carrier": (
         COUPLED + "revolutes: [{pair: [n, k], axis: K}]\n",
-        ["'k' turns on 'n'", "over a carrier", "before and behind 'n'"],
+        ["'k', which turns on 'n'", "over a carrier", "before and behind 'n'"],
     ),
     "axes": (
         COUPLED + "revolutes: [{pair: [frame, n], axis: N}, {pair: [frame, k], axis: N}]\n",

@@ -243,7 +243,7 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
     """Yield sections on the ranks of known trains, the rules that they break, and their ranks without these rules."""
     if not known:
         return
-    header = ("train", "added wheels", "arbors", "rank", "rank with as many", "weight", "best weighs")
+    header = ("train", "added wheels", "arbors", "rank", "with as many", "weight", "outweighed")
     yield Section("Known trains", [_OF_KNOWN], [Table(header, [_row(one) for one in known])])
     for one in known:
         if one.broken:
@@ -312,7 +312,7 @@ def _ranks(ranks: tuple[int, int], trains: int) -> str:
 
 
 def _times(place: TrainPlace) -> str:
-    return "the same" if place.dearer == 1 else f"{figure(place.dearer)} times"
+    return "by none" if place.dearer == 1 else f"{figure(place.dearer)} times"
 
 
 def _note_sentences(one: KnownRank) -> Iterator[str]:

@@ -39,7 +39,8 @@ def test_what_is_requested_is_counted() -> None:
     """2 x 5 x 19 x 13 x 2 x 3 readings."""
     assert RequestedQuestion.of(doubtful()) == RequestedQuestion(6, 10, 14820, 2, 2, (12, 225))
     assert str(RequestedQuestion.of(doubtful())) == (
-        "6 arbors with 10 wheels and 14820 combinations of their counts; 2 dials; at most 2 added wheels of 12 to 225 teeth"
+        "6 arbors with 10 wheels and 14820 combinations of their counts; 2 dials; "
+        "at most 2 added wheels of 12 to 225 teeth"
     )
     assert str(RequestedQuestion(1, 1, 1, 1, 0, (1, 1))) == "1 arbor with 1 wheel; 1 dial; no added wheels"
 

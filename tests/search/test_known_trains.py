@@ -29,7 +29,7 @@ from geartrain.search.reconstruct.known_rank import (
     find_telling_facts,
     rank_known_train,
 )
-from geartrain.search.reconstruct.reconstruction_search import mechanism
+from geartrain.search.reconstruct.reconstruction_search import train_key
 from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import declare
@@ -145,7 +145,7 @@ def test_a_shipped_train_is_read_as_its_own_tree() -> None:
         for lost in combinations(list(tree.driven)[:6], 1):
             problem = evidence_question(lost_evidence(tree, lost)).problem
             known = find_known_train(tree.train, problem)
-            assert mechanism(known.arbor) == mechanism(tree.arbor(lost)), (name, lost)
+            assert train_key(known.arbor) == train_key(tree.arbor(lost)), (name, lost)
             assert not broken_rules(known.arbor, problem)
             assert set(known.added) == {wheel for link in lost for wheel in tree.wheels_of(link)}
             read += 1

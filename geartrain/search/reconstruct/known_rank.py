@@ -29,9 +29,9 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, Reconstru
 from geartrain.search.reconstruct.reconstruction_search import (
     Reconstructions,
     is_all_listed,
-    mechanism,
     prior,
     rank_of,
+    train_key,
     weight_ranks,
 )
 from geartrain.search.reconstruct.train_construction import named_candidate
@@ -97,8 +97,8 @@ def find_telling_facts(
     """
     if not is_all_listed(found) or not 1 < len(found.candidates) <= _MOST_TRAINS:
         return None
-    wanted = mechanism(candidate)
-    which = next(at for at, one in enumerate(found.candidates) if mechanism(one.arbor) == wanted)
+    wanted = train_key(candidate)
+    which = next(at for at, one in enumerate(found.candidates) if train_key(one.arbor) == wanted)
     trains = [named_candidate(evidence, one.arbor) for one in found.candidates]
     return single_out(trains, which, uncertain_wheels(problem), lost_pointers(problem))
 

@@ -186,7 +186,7 @@ def _count(added: int, topologies: Sequence[CountedTopology], problem: Reconstru
     if sum(each.choices if one_order else each.mechanisms for each, one_order in marked) > _MOST_CLASSIFIED:
         return ExplanationCount(added, mechanisms, None, None)
     some = [arbor for each, one_order in marked for arbor in _trains(each, problem, one_order)]
-    return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))
+    return ExplanationCount(added, mechanisms, len({*map(arbor_multiset, some)}), len({*map(ratio_class, some)}))
 
 
 def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
@@ -236,7 +236,9 @@ def _weighed_one_by_one(
             if likelihood:
                 own.append((float(prior(arbor, problem)) * likelihood, added, arbor))
         arbors = [arbor for _, _, arbor in own]
-        counts.append(ExplanationCount(added, len(own), len({*map(bag, arbors)}), len({*map(ratio_class, arbors)})))
+        counts.append(
+            ExplanationCount(added, len(own), len({*map(arbor_multiset, arbors)}), len({*map(ratio_class, arbors)}))
+        )
         weighed += own
     if per == "class":
         classes: dict[object, int] = {}
@@ -306,8 +308,8 @@ def draw_candidates(
 
 def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
     """Return the first and last rank by weight of a candidate among all, or None if it is not listed."""
-    wanted = mechanism(arbor)
-    return next((one.ranks for one in found.candidates if mechanism(one.arbor) == wanted), None)
+    wanted = train_key(arbor)
+    return next((one.ranks for one in found.candidates if train_key(one.arbor) == wanted), None)
 
 
 def is_all_listed(found: Reconstructions) -> bool:
@@ -361,14 +363,14 @@ def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[
 # -------------------------------------- equality: of trains, up to the order of arbors, up to driving and driven wheels
 
 
-def mechanism(arbor: Arbor) -> tuple[object, ...]:
+def train_key(arbor: Arbor) -> tuple[object, ...]:
     """Return a hashable key of a whole candidate, independent of the order of its parts."""
-    passed = tuple(sorted(map(mechanism, arbor.passes)))
-    drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(mechanism, below)))) for wheel, below in arbor.drives))
+    passed = tuple(sorted(map(train_key, arbor.passes)))
+    drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(train_key, below)))) for wheel, below in arbor.drives))
     return arbor.name or "", _wheel(arbor.driven), arbor.dials, drives, passed
 
 
-def bag(arbor: Arbor) -> tuple[object, ...]:
+def arbor_multiset(arbor: Arbor) -> tuple[object, ...]:
     """Return the multiset of arbors on the path of each dial, with their wheels, independent of their order."""
     return tuple(sorted((dial, tuple(sorted(path))) for dial, path in _paths(arbor)))
 

@@ -115,8 +115,8 @@ def _known(found: ToothCountPosterior) -> Section:
 def _wheels(found: ToothCountPosterior) -> Section:
     rows = [_wheel(posterior) for posterior in found.posteriors.values()]
     lines = [
-        "`posterior` is the probability of the declared count. `bits` is the information from the outputs: the relative "
-        "entropy of posterior and prior.",
+        "`posterior` is the probability of the declared count. `bits` is the information from the outputs: the "
+        "relative entropy of posterior and prior.",
         "A dash marks a wheel on which no known output depends. Priors are uniform unless they are marked as weighted.",
     ]
     header = ("wheel", "declared", "prior", "posterior", "bits", "most probable counts")

@@ -137,6 +137,6 @@ def test_an_interrupted_exact_run_prints_a_short_sample_and_keeps_nothing(
     assert result.exit_code == 130
     found = json.loads(result.stdout)
     assert (found["ended"], found["method"], found["ranked"]) == ("interrupted", "sample", False)
-    assert any("knows nothing before its end" in remark for remark in found["remarks"])
+    assert any("has no partial result" in remark for remark in found["remarks"])
     assert "stopped before anything was done that could be kept" in result.stderr
     assert not list(train.parent.glob("*.partial.jsonl"))

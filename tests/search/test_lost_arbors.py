@@ -159,7 +159,7 @@ def test_a_ring_turns_with_what_drives_it_and_is_not_lost() -> None:
     ("name", "why"),
     [
         ("four-gear-loop", "close a loop"),
-        ("gm-4t60", "in each of its states"),
+        ("gm-4t60", "has several states"),
         ("lantern-mill", "it has contrate wheels"),
         ("rv-reducer", "it has couplings other than pin and slot"),
     ],

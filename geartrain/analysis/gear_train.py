@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, final, overload
@@ -98,7 +98,7 @@ class GearTrain:
         QuestionError
             For a state, an output or a method that does not exist.
         """
-        return self.kinematics.solve(state, output, method)
+        return replace(self.kinematics.solve(state, output, method), _declaration=self.declaration, _output=output)
 
     @overload
     def torques(self, state: str | None = None) -> Torques: ...
@@ -152,10 +152,11 @@ class GearTrain:
         if turns is not None:
             from geartrain.dynamics.turn import train_turn
 
-            return train_turn.solve(self.mechanics, state, turns, samples, of, on_done)
+            cycle = train_turn.solve(self.mechanics, state, turns, samples, of, on_done)
+            return replace(cycle, _declaration=self.declaration)
         from geartrain.dynamics.torques import train_torques
 
-        return train_torques.solve(self.mechanics, state)
+        return replace(train_torques.solve(self.mechanics, state), _declaration=self.declaration)
 
     def motion(
         self,
@@ -196,7 +197,9 @@ class GearTrain:
         from geartrain.dynamics.motion.motion_problem import find_motion_problem
 
         wanted = self.kinematics.seen_links(state, outputs)
-        return Motion(find_motion_problem(self.mechanics, state, without), wanted, tolerance, fast)
+        motion = Motion(find_motion_problem(self.mechanics, state, without), wanted, tolerance, fast)
+        motion._declaration, motion._state, motion._without = self.declaration, state, tuple(without)
+        return motion
 
     def report(self) -> Any:
         """Everything about the train as one document: answers, structure, teeth, torques, motion, doubts and errata.
@@ -458,7 +461,8 @@ class GearTrain:
         """
         from geartrain.dynamics.torques import train_torques
 
-        return train_torques.solve_driven(self.mechanics, load, source, state)
+        found = train_torques.solve_driven(self.mechanics, load, source, state)
+        return replace(found, _declaration=self.declaration)
 
     def strength(
         self,
@@ -496,7 +500,8 @@ class GearTrain:
             If loads have no unit, time is given twice or cannot be calculated, or K is not a range.
         """
         strength = wing("simulation.strength.train_strength")
-        return strength.solve_strength(self.mechanics, state, strength.Service(turns, years, wear), over)
+        found = strength.solve_strength(self.mechanics, state, strength.Service(turns, years, wear), over)
+        return replace(found, _declaration=self.declaration)
 
     def dynamics(
         self,
@@ -566,7 +571,8 @@ class GearTrain:
         driven = wing("simulation.time.train_in_time").DrivenTrain(
             self.mechanics, state, rate, restitution, outputs, without
         )
-        return driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
+        found = driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
+        return replace(found, _declaration=self.declaration, _without=tuple(without))
 
     def simulation(
         self,

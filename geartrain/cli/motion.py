@@ -132,12 +132,12 @@ def _report(
     stopped = False
     with progress("motion", work) as bar:
         try:
-            asked.go(bar.advance)
-            asked.try_phases(phases, seed, bar.advance)
+            asked.run(bar.advance)
+            asked.run_random_phases(phases, seed, bar.advance)
             if estimates:
-                asked.estimate(bar.advance)
+                asked.find_estimates(bar.advance)
             if spectrum:
-                asked.analyse(bar.advance)
+                asked.find_spectra(bar.advance)
         except KeyboardInterrupt:
             if not asked.done:
                 raise
@@ -155,11 +155,11 @@ def _write_table(asked: MotionRun, out: Path, resume: bool, force: bool) -> None
     from geartrain.numerics.files import LongTable, csv_line
 
     try:
-        with LongTable(out, csv_line(asked.position_columns), resume, force) as table:
+        with LongTable(out, csv_line(asked._position_columns), resume, force) as table:
             if resume and not table.rows:
                 tell(f"nothing to resume: there is no {table.partial}; the run begins anew")
             if table.rows:
-                asked.check_resumed(table.last(), table.rows)
+                asked._check_resumed(table.last(), table.rows)
             first = table.rows
             with progress("motion", asked.samples - first) as bar:
                 for rows in _rows(asked, first, header=False):
@@ -176,12 +176,12 @@ def _rows(asked: MotionRun, first: int, header: bool = True) -> Iterator[list[st
     from geartrain.numerics.files import csv_line
 
     if header:
-        yield [csv_line(asked.position_columns)]
-    for passage in asked.motion.passages(asked.turns, asked.samples, first):
+        yield [csv_line(asked._position_columns)]
+    for passage in asked.motion._stretches(asked.turns, asked.samples, first):
         yield _lines(asked, passage)
 
 
 def _lines(asked: MotionRun, passage: ErrorSamples) -> list[str]:
     from geartrain.numerics.files import csv_lines
 
-    return csv_lines(zip(*(column.tolist() for column in asked.values(passage)), strict=True))
+    return csv_lines(zip(*(column.tolist() for column in asked._values(passage)), strict=True))

@@ -8,11 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import zip_longest
+from itertools import islice, zip_longest
 
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import picture_maker
+from geartrain.numerics.results import picture_maker, summary_line
+
+MOST_ROWS = 120
+"""Longer tables are cut, and say so; the JSON has everything."""
 
 
 class ExactText(str):
@@ -77,6 +80,18 @@ class Table:
     """Cells, as many in each row as the header has."""
     wide: bool = False
     """True for matrices, which a terminal shows in strips of columns and never wraps."""
+
+
+def table_document(title: str, columns: Mapping[str, Sequence[object]], most: int = MOST_ROWS) -> Document:
+    """Return columns of a result as a document of one table, of which only the first rows are shown."""
+    count = len(next(iter(columns.values()), ()))
+    rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
+    more = [f"{count - most:,} more rows."] if count > most else []
+    return Document(title, [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
+
+
+def _cell(value: object) -> str:
+    return "" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value)
 
 
 def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int) -> Table:
@@ -158,7 +173,7 @@ class PageExtras:
     """Sources by key."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Document:
     """A title, a lead, and sections, independent of how they are shown.
 
@@ -184,6 +199,10 @@ class Document:
     """In the order in which they are read."""
     aside: PageExtras = field(default_factory=PageExtras)
     """Badge, pictures, viewer and sources, which only a page of HTML has room for."""
+
+    def __repr__(self) -> str:
+        count = len(self.sections)
+        return summary_line("Document", f"{self.title}: {count} section{'' if count == 1 else 's'}")
 
     def __str__(self) -> str:
         """The document as Markdown."""
@@ -223,10 +242,6 @@ def ppm(value: float | None) -> str:
     """Parts per million with sign."""
     # less than 1e-15 of the speed is what is left of rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
-
-
-MOST_ROWS = 120
-"""Longer tables are cut, and say so; the JSON has everything."""
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None) -> list[Sequence[str]]:

@@ -303,9 +303,9 @@ def _in_the_mean(stage: SceneContext, problems: Sequence[Problem]) -> MovementSt
 def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
     import numpy as np
 
-    composition = motion.ahead
+    composition = motion._forward
     _try(composition, float(motion.period or 1))
-    error, way = composition.at(np.zeros(1)).error[:, 0], motion.train.way
+    error, way = composition.at(np.zeros(1)).error[:, 0], motion._problem.way
     links = tuple(stage.train.declaration.links)
     rest = {
         link: stage.sense(link) * (stage.start(link) + way * float(each))
@@ -328,9 +328,9 @@ def _try(composition: ErrorComposition, turns: float) -> None:
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
     """How errors follow where the lead turns back, if otherwise than ahead; and why they cannot be followed."""
     try:
-        composition = motion.back
+        composition = motion._backward
         _try(composition, -float(motion.period or 1))
-        back = _written(stage, composition, motion.train.way)
+        back = _written(stage, composition, motion._problem.way)
     except GearTrainError as error:
         mean = _in_the_mean(stage, error.problems)
         return mean.movement, mean.notices

@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
-from geartrain.numerics.results import plain
+from geartrain.numerics.results import Shown, plain
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.count_formulas import SceneFormulas
 from geartrain.scene.dial_scale import DialScale
@@ -167,7 +167,7 @@ class Pointer:
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Shown):
     """A train in one state, ready to be drawn: plain data, in mm and rad.
 
     See Also

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 from geartrain.spherical.configuration import (
     Configuration,
     MeshKind,
@@ -159,7 +159,7 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 
 @dataclass(frozen=True)
-class ToothCountCompromise:
+class ToothCountCompromise(Shown):
     """One set of tooth numbers.
 
     See Also
@@ -202,6 +202,8 @@ class ToothCountSuggestions(Result):
     suggest_tooth_counts : what gives these.
     """
 
+    PAGE = "report.spherical_report:describe_suggestions"
+
     KEYS = (
         "considered",
         "removed",
@@ -232,6 +234,10 @@ class ToothCountSuggestions(Result):
     """How many each condition removed, in the order in which the conditions were asked."""
     beyond: int
     """Sets that meet every condition but are worse than the last one listed."""
+
+    def _summary(self) -> str:
+        best = f", best {self.found[0]}" if self.found else ""
+        return f"{len(self.found)} of {self.considered} tooth sets{best}"
 
     def __len__(self) -> int:
         return len(self.found)

@@ -404,6 +404,18 @@ class Train(Declared):
         wheels = (wheel.density is not None for _, wheel in self.wheels.values())
         return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
 
+    def has_torque_units(self, state: str | None) -> bool:
+        """Return True if the loads and bearings of one state are given in units.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None for the train without any.
+        """
+        bearings = (part.bearing.sliding for part in self.links.values() if part.bearing is not None)
+        torques = [torque for torque in (*self.case(state).loads.values(), *bearings) if torque.value]
+        return bool(torques) and all(torque.unit is not None for torque in torques)
+
     def is_loaded(self, state: str | None) -> bool:
         """True if torques follow from something declared: loads, or friction of bearings.
 

@@ -111,7 +111,7 @@ def test_a_run_of_a_motion_has_a_row_an_output() -> None:
 
     run = MotionRun(geartrain.load("moon-triangular").motion(outputs=["moon"]), turns=1, samples=2001)
     assert len(run.to_frame()) == 0, "before it is counted"
-    run.go()
+    run.run()
     (row,) = run.to_records()
     assert row["exact"] == "254/95"
     assert row["error p-p (rad)"] == pytest.approx(0.103, abs=5e-4)

@@ -17,6 +17,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, SeenLink
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
 from geartrain.teeth.transmission_table import folded_corners
 
@@ -51,6 +52,8 @@ class CornerPositions(NamedTuple):
     """Which pair is at a corner there, as an index into `pairs`. Shape (n,)."""
     pairs: tuple[str, ...]
     """Names of pairs and couplings."""
+
+    __repr__ = short_repr
 
     def names(self) -> list[str]:
         """The pair at each position, by name."""

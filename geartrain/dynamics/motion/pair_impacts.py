@@ -54,10 +54,10 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
 
     inertias   of links about their own axes (kg m2); links without one count as having none
     """
-    spread = motion.spread
+    spread = motion._propagation
     weight = np.array([inertias.get(link, 0.0) for link in spread.links])
     found = {}
-    for source in motion.ahead.sources:
+    for source in motion._forward.sources:
         law = source.law
         leaps = law.speed_leaps()
         if leaps is None:

@@ -16,6 +16,7 @@ from typing import Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
+from geartrain.numerics.results import Shown
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
@@ -331,7 +332,7 @@ class WheelPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(Shown):
     """All axes and wheels of a train in space.
 
     See Also

@@ -28,6 +28,7 @@ from geartrain.search.reconstruct.reconstruction_search import (
     ExplanationCount,
     Reconstructions,
     draw_candidates,
+    explanations_text,
     find_reconstructions,
     rank_of,
 )
@@ -146,6 +147,8 @@ class ReconstructionAnswer(Result):
     reconstruct : gives it.
     """
 
+    PAGE = "search.reconstruct.reconstruction_report:describe_reconstruction"
+
     KEYS = (
         "name",
         "asked",
@@ -190,6 +193,11 @@ class ReconstructionAnswer(Result):
     """The evidence that was asked of; with lost arbors what is left of the train."""
     candidates: tuple[Candidate, ...] = ()
     """Those of `best`."""
+
+    def _summary(self) -> str:
+        return f"{self.name}: {explanations_text(self.counts)}, {len(self.best)} listed" + (
+            "" if self.complete else ", incomplete"
+        )
 
     @property
     def asked(self) -> AskedQuestion:

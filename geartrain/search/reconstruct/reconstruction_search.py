@@ -56,6 +56,12 @@ class ExplanationCount(Result):
     """Trains that differ by more than which wheel drives which on the path of a dial; None likewise."""
 
 
+def explanations_text(counts: Sequence[ExplanationCount]) -> str:
+    """Return how many trains explain the evidence, by number of added wheels, in a line."""
+    found = ", ".join(f"{each.mechanisms:,} with {each.added} added wheels" for each in counts if each.mechanisms)
+    return f"explanations: {found or 'none'}"
+
+
 @dataclass(frozen=True, slots=True)
 class Candidate(Result):
     """One explanation.
@@ -110,6 +116,10 @@ class Reconstructions(Result):
     """All structures with the numbers of their trains, where each train weighs as its structure; else none."""
     weights: tuple[WeightClass, ...] = ()
     """All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself."""
+
+    def _summary(self) -> str:
+        listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
+        return f"{explanations_text(self.counts)}, {listed}"
 
 
 def find_reconstructions(

@@ -166,7 +166,7 @@ def find_budget(
     on_stage()
     jams, jams_note = _jams(plan, uncut, asked, means)
     on_stage()
-    crank = find_crank_load(train, state, motion.train.lead, {name: answer.outputs[name].of for name in names})
+    crank = find_crank_load(train, state, motion._problem.lead, {name: answer.outputs[name].of for name in names})
     on_stage()
     causes = _TrainCauses(asked, _float(train.declaration.unit_days), theories, teeth, cut, uncut)
     pointers = tuple(causes.pointer(answer.outputs[name]) for name in names)
@@ -176,7 +176,7 @@ def find_budget(
         asked.span_days,
         asked.turns,
         asked.samples,
-        motion.train.lead,
+        motion._problem.lead,
         pointers,
         crank,
         jams,
@@ -236,7 +236,7 @@ def _float(value: Fraction | None) -> float | None:
 
 def _theories(train: GearTrain, asked: BudgetQuestion, answer: Answer, motion: Motion) -> dict[str, list[TheoryError]]:
     """By pointer the anomalies of its link and of the link it is read against, each against its body."""
-    problem, days = motion.train, _float(train.declaration.unit_days)
+    problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, asked.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
     found = {}
@@ -347,7 +347,7 @@ def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, 
     found = run_trials(plan, count, seed, means)
     if not found.complete:  # interrupted: a budget of half the trials would not say so
         raise KeyboardInterrupt
-    teeth = ErrorDifference(plan.composition, without_teeth(motion).ahead)
+    teeth = ErrorDifference(plan.composition, without_teeth(motion)._forward)
     parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
     return CuttingTrials(found, np.concatenate(parts, axis=1))
 

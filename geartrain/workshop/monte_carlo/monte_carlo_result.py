@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import degrees
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from geartrain.numerics.confidence_intervals import CONFIDENCE
 from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
@@ -43,6 +43,15 @@ class MonteCarloResult(Tabular, Pictured, Result):
     run_trials : gives what it must hold
     """
 
+    MEANINGS: ClassVar = {
+        "trial": "Number of the trial, from 0.",
+        "turns": "Position of the input [turn].",
+        "* error (deg)": "Pointer error of the output [deg].",
+        "* events": "Sum of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not to be cut.",
+    }
+
+    PAGE = "workshop.monte_carlo.monte_carlo_report:describe_monte_carlo"
+
     FIGURE = "monte_carlo_figure"
     DRAWN_IN = "workshop"
 
@@ -73,6 +82,9 @@ class MonteCarloResult(Tabular, Pictured, Result):
     """Along a turn, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
     """From `find_sobol_indices`."""
+
+    def _summary(self) -> str:
+        return self.trials._summary()
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -18,7 +18,7 @@ from geartrain.numerics.confidence_intervals import (
     mean_of,
     percentiles_of,
 )
-from geartrain.numerics.results import Key, Result, finite
+from geartrain.numerics.results import Key, Result, Shown, finite
 from geartrain.workshop.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "standstill": STANDSTILL, 
 
 
 @dataclass(frozen=True)
-class TrialResults:
+class TrialResults(Shown):
     """All trials that were done, in their order.
 
     See Also
@@ -68,6 +68,12 @@ class TrialResults:
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     """Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); empty where nothing is filed to
     fit."""
+
+    def _summary(self) -> str:
+        cut = "" if self.done == self.wanted else f" of {self.wanted}"
+        outputs = ", ".join(self.plan.outputs[:4])
+        pairs = len(self.plan.pairs)
+        return f"{self.plan.name}: {self.done}{cut} trials, seed {self.seed}, {pairs} pairs, outputs {outputs}"
 
     @property
     def done(self) -> int:

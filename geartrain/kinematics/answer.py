@@ -195,10 +195,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
         if case is None or self._output is not None:
             return self.speeds
         outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]
-        fixed = {*case.inputs, *case.fixed, self._declaration.frame}
-        return [of for of, base in outputs if base == self._declaration.frame] or [
-            link for link in self.speeds if link not in fixed
-        ]
+        known = {*case.inputs, *case.fixed, self._declaration.frame}
+        shown = [of for of, base in outputs if base == self._declaration.frame and of not in known]
+        return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
         """A speed; of a train with one input that turns, over the speed of the input."""

@@ -8,7 +8,7 @@ imported when it is called."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from fnmatch import fnmatchcase
 from fractions import Fraction
@@ -116,7 +116,12 @@ def fields_summary(result: Any) -> str:
 
     Numbers have 6 digits; of containers only the length is shown, of mappings that are not made yet nothing.
     """
-    names = getattr(result, "_fields", None) or ([each.name for each in fields(result)] if is_dataclass(result) else ())
+    own = [each.name for each in fields(result)] if is_dataclass(result) else ()
+    return values_summary(result, getattr(result, "_fields", own))
+
+
+def values_summary(result: Any, names: Iterable[str]) -> str:
+    """Return some attributes that hold a value, each as `name=value`."""
     found: list[str] = []
     length = 0
     for name in names:
@@ -143,7 +148,7 @@ def brief(value: object) -> str | None:
     >>> brief(Fraction(2, 7)), brief(0.12345678), brief(["a", "b", "c", "d", "e"]), brief("two words")
     ('2/7', '0.123457', '5 items', "'two words'")
     """
-    if value is None or callable(value) or hasattr(value, "_made"):
+    if value is None or callable(value) or hasattr(value, "_made"):  # a mapping that is made when it is read
         return None
     if isinstance(value, bool | int):
         return str(value)
@@ -155,6 +160,8 @@ def brief(value: object) -> str | None:
         return text if len(text) <= _LONGEST_VALUE else f"{float(value):.6g}"
     if isinstance(value, float):
         return f"{value:.6g}"
+    if hasattr(value, "_brief"):
+        return str(value._brief())
     shape = getattr(value, "shape", None)
     if shape is not None:
         return f"{value:.6g}" if shape == () and hasattr(value, "__float__") else f"array{shape}"
@@ -206,9 +213,10 @@ class Tabular(Shown):
 
     def _meaning(self, column: str) -> str:
         """The meaning of one column; "" where none is known."""
-        row = getattr(modules[type(self).__module__], self.ROW, type(self))
+        row = getattr(modules[type(self).__module__], self.ROW or type(self).__name__)
         known = {**field_docs(type(self)), **field_docs(row), **self.MEANINGS}
-        return known.get(column) or next((text for name, text in known.items() if fnmatchcase(column, name)), "")
+        exact = known.get(column) or _property_doc(getattr(row, column, None))
+        return exact or next((text for name, text in known.items() if fnmatchcase(column, name)), "")
 
     def to_frame(self) -> Any:
         """Return the table as a pandas DataFrame.
@@ -255,6 +263,12 @@ class Tabular(Shown):
         body = "".join(f"<tr>{row}</tr>" for row in islice(rows, _SHOWN))
         more = len(next(iter(columns.values()), ())) - _SHOWN
         return f"<table><tr>{head}</tr>{body}</table>" + (f"<p>{more:,} more</p>" if more > 0 else "")
+
+
+def _property_doc(member: object) -> str:
+    """The first paragraph of a property's docstring; "" for what is not a property."""
+    maker = member if isinstance(member, property) else getattr(member, "func", None)
+    return " ".join((getattr(maker, "__doc__", None) or "").split("\n\n")[0].split())
 
 
 def _unit(meaning: str) -> str:

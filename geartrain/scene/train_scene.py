@@ -239,6 +239,10 @@ class Scene(Shown):
     waves: Sequence[SceneWave] = ()
     """What bends thin wheels into their rings."""
 
+    def _summary(self) -> str:
+        state = "" if self.state is None else f" state {self.state}"
+        return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
+
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}

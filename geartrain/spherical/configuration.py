@@ -71,9 +71,8 @@ class Configuration(Shown):
 
     def _summary(self) -> str:
         teeth = ", ".join(f"{kind} {count}" for kind, count in islice(self.teeth.items(), 4))
-        return f"{self.title or 'gears'}: {len(self.names)} gears, {len(self.meshes)} meshes" + (
-            f", teeth {teeth}" if teeth else ""
-        )
+        title = self.title or f"{len(self.names)} gears, {len(self.meshes)} meshes"
+        return title + (f", teeth {teeth}" if teeth else "")
 
     def angle(self, i: int, j: int) -> float:
         """Angle between two axes [rad], 0 to pi.

@@ -11,6 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity
+from geartrain.numerics.results import summary_line, values_summary
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
@@ -76,6 +77,10 @@ class ToothForm(BaseModel, ABC):
     damping: PairDamping | None = Field(
         None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length"
     )
+
+    def __repr__(self) -> str:
+        given = (name for name in type(self).model_fields if name in self.model_fields_set and name != "form")
+        return summary_line(type(self).__name__, values_summary(self, given))
 
     @classmethod
     def declared(cls, parameters: Mapping[str, object]) -> Self:

@@ -17,6 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import Figure, PairDamping, PairStiffness, Quantity, Speed, Torque, in_unit, same_kind
+from geartrain.numerics.results import summary_line
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train.fields import (
@@ -236,6 +237,11 @@ class Train(Declared):
     reconstruct: Reconstruction | None = Field(None, description="Makes this evidence, of a train that is to be found")
 
     _marks: Marks | None = PrivateAttr(None)
+
+    def __repr__(self) -> str:
+        counts = f"{len(self.links)} links, {len(self.gears)} gear pairs"
+        more = f", {len(self.states)} states" if self.states else ""
+        return summary_line("Train", f"{self.name}: {counts}{more}")
 
     def place(self, *loc: str | int) -> str:
         """Where a declared thing was written: `file.yaml:12`, or its path if it came from no file.

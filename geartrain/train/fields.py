@@ -21,6 +21,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.results import summary_line, values_summary
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
 
 MOST_TEETH = 10**12
@@ -37,6 +38,10 @@ class Declared(BaseModel):
     model_config = ConfigDict(
         frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
     )
+
+    def __repr__(self) -> str:
+        given = (name for name in type(self).model_fields if name in self.model_fields_set)
+        return summary_line(type(self).__name__, values_summary(self, given))
 
     def changed(self, **update: Any) -> Self:
         """A copy with other fields, which remembers nothing that was derived from the old ones.

@@ -352,6 +352,10 @@ class Layout(Shown):
     """Gear pairs whose wheels do not touch as placed: how far their pitch circles are apart [mm], negative into each
     other."""
 
+    def _summary(self) -> str:
+        notices = f", {len(self.notices)} notices" if self.notices else ""
+        return f"{len(self.axes)} axes, {len(self.wheels)} wheels{notices}"
+
     def axis_distance(self, first: str, second: str) -> float | None:
         """How far apart the axes of two wheels are, where they are parallel.
 

@@ -11,7 +11,7 @@ from random import Random
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import whole_multiple
+from geartrain.numerics.exact import plural, whole_multiple
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
@@ -58,8 +58,8 @@ class ExplanationCount(Result):
 
 def explanations_text(counts: Sequence[ExplanationCount]) -> str:
     """Return how many trains explain the evidence, by number of added wheels, in a line."""
-    found = ", ".join(f"{each.mechanisms:,} with {each.added} added wheels" for each in counts if each.mechanisms)
-    return f"explanations: {found or 'none'}"
+    found = (f"{each.mechanisms:,} with {plural(each.added, 'added wheel')}" for each in counts if each.mechanisms)
+    return f"explanations: {', '.join(found) or 'none'}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,14 @@ if TYPE_CHECKING:
     from geartrain.numerics import IntervalEstimate, ProbabilityEstimate
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics
+    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics, TrialResults
+
+
+def trials_document(found: TrialResults) -> Document:
+    """Return what `geartrain montecarlo` prints for trials."""
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+
+    return describe_monte_carlo(MonteCarloResult(found))
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:

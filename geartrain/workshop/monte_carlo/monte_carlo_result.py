@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import degrees
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from geartrain.numerics.confidence_intervals import CONFIDENCE
 from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
@@ -43,13 +43,6 @@ class MonteCarloResult(Tabular, Pictured, Result):
     run_trials : gives what it must hold
     """
 
-    MEANINGS: ClassVar = {
-        "trial": "Number of the trial, from 0.",
-        "turns": "Position of the input [turn].",
-        "* error (deg)": "Pointer error of the output [deg].",
-        "* events": "Sum of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not to be cut.",
-    }
-
     PAGE = "workshop.monte_carlo.monte_carlo_report:describe_monte_carlo"
 
     FIGURE = "monte_carlo_figure"
@@ -86,21 +79,13 @@ class MonteCarloResult(Tabular, Pictured, Result):
     def _summary(self) -> str:
         return self.trials._summary()
 
+    def _meaning(self, column: str) -> str:
+        return self.trials._meaning(column)
+
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each trial: turns of the input, errors of outputs [deg], and what it did to each pair.
-
-        A sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut.
-        """
-        found = self.trials
-        errors = zip(found.plan.outputs, found.errors.T, strict=True)
-        events = zip(found.plan.pairs, found.marks.T, strict=True)
-        return {
-            "trial": [*range(found.done)],
-            "turns": found.turns.tolist(),
-            **{f"{name} error (deg)": [degrees(each) for each in column] for name, column in errors},
-            **{f"{pair.name} events": column.tolist() for pair, column in events},
-        }
+        """A row for each trial, as of the trials."""
+        return self.trials.columns
 
     @property
     def assumptions(self) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, Problem, QuestionError
@@ -71,6 +71,10 @@ class TrainAccuracy(Tabular, TrainResult):
 
     KEYS = ("state", "positions", "methods", "left_out")
     ROW = "MethodAccuracy"
+    MEANINGS: ClassVar = {
+        "error": "Maximum error; empty for the method that others are compared with [as `unit` says].",
+        "ratio": "Run time over that of the fastest method of the stage [1].",
+    }
 
     PAGE = "report.accuracy_report:accuracy_document"
 

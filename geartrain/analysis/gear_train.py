@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, final, overload
 
-from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.results import picture_maker
@@ -685,6 +685,60 @@ class GearTrain:
         from geartrain.train.inheritance import change_declaration
 
         return GearTrain(change_declaration(self.declaration, {**(changes or {}), **more}))
+
+    def with_tooth_form(self, form: str, pairs: Sequence[str] = (), **parameters: Any) -> GearTrain:
+        """Return the train with teeth of another form.
+
+        Parameters
+        ----------
+        form : str
+            Name of the form: "involute", "cycloidal", "triangular" or another of `geartrain mesh -h`; "ideal" for teeth
+            without errors and losses.
+        pairs : sequence of str
+            Names of gear pairs; by default all pairs of the train, also those that declare a form of their own.
+        **parameters : object
+            Parameters of the form as a declaration writes them, such as ``pressure_angle="25 deg"``; by default those
+            of the form. Triangular teeth have no defaults in a declaration. Here their `half_angle` is 30 deg, the
+            equilateral tooth of figures 3 to 5 of F. Sorge, "A note on the mechanics of ancient gear systems". Without
+            another clearance their `window` is 0.5, the middle between jamming and loss of contact (docs/teeth.md,
+            section 5).
+
+        Returns
+        -------
+        GearTrain
+            A new train.
+
+        Raises
+        ------
+        QuestionError
+            For a form or a pair that does not exist.
+        DeclarationError
+            For a parameter that the form does not have, or that it cannot have.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> train = geartrain.load("planetary-24-18-60").with_tooth_form("triangular")
+        >>> [mesh.verdict.text for mesh in train.meshes]
+        ['the wheels turn', 'the wheels turn']
+        >>> train.with_tooth_form("involute", pairs=["s~p"], pressure_angle="25 deg").meshes[0].form
+        'involute'
+        """
+        from geartrain.teeth.any_tooth_form import tooth_forms
+
+        known = tooth_forms()
+        check_choice("tooth form", form, known)
+        declared = {gear.name: gear for gear in self.declaration.gears}
+        for pair in pairs:
+            check_choice("gear pair", pair, declared)
+        teeth = {"form": form, **known[form].with_defaults(parameters)}
+        own = None if not pairs else teeth
+        changes: dict[str, Any] = {} if pairs else {"tooth_form": teeth}
+        changes["gears"] = [
+            {**({"id": gear.id} if gear.id else {}), "pair": list(gear.pair), "tooth_form": own}
+            for gear in (declared[name] for name in pairs or declared)
+        ]
+        return self.with_changes(changes)
 
     @property
     def unfolded(self) -> GearTrain:

@@ -179,7 +179,8 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
     if isinstance(values, tuple) and len(values) <= 4 and not hasattr(values, "_fields"):
         parts = [brief(each) for each in values]
         text = f"({', '.join(part or '-' for part in parts)})"
-        if all(isinstance(each, str | int | float | Fraction) for each in values) and len(text) <= _LONGEST_VALUE:
+        kinds = str | int | float | Fraction
+        if len(text) <= _LONGEST_VALUE and all(isinstance(each, kinds) or hasattr(each, "_brief") for each in values):
             return text
     return f"{len(values)} item{'s' if len(values) > 1 else ''}"
 

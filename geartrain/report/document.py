@@ -12,7 +12,7 @@ from itertools import islice, zip_longest
 
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import picture_maker, summary_line
+from geartrain.numerics.results import Shown, picture_maker, summary_line
 
 MOST_ROWS = 120
 """Longer tables are cut, and say so; the JSON has everything."""
@@ -63,7 +63,7 @@ class SceneText(str):
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class Table(Shown):
     """Rows of text under a header; the first column names the row.
 
     Examples
@@ -111,7 +111,7 @@ class Branch:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class Section(Shown):
     """A heading with paragraphs, a tree, then tables.
 
     Examples
@@ -131,7 +131,7 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Shown):
     """A picture with a caption, for pages of HTML.
 
     Examples

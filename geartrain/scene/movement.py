@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, ClassVar
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.results import Key, Result, plain
+from geartrain.numerics.results import Key, Result, Shown, plain
 from geartrain.scene.context import SceneContext
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class ErrorLawTable(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorSource:
+class ErrorSource(Shown):
     """A pair whose law adds to the errors of a scene.
 
     After t turns of the lead the driver's forward angle is
@@ -107,7 +107,7 @@ class ErrorSource:
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorStep:
+class ErrorStep(Shown):
     """Errors of some bodies from those known: error[bodies] = from_known error[known] + from_sources delta[sources].
 
     See Also
@@ -130,7 +130,7 @@ class ErrorStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Movement:
+class Movement(Shown):
     """How errors of angles follow from the turns of the lead: the steps in order, then constant offsets.
 
     See Also

@@ -38,7 +38,7 @@ FORMAT = 1
 
 
 @dataclass(frozen=True, slots=True)
-class DialFace:
+class DialFace(Shown):
     """A scale over which pointers turn.
 
     See Also
@@ -80,7 +80,7 @@ class DialFace:
 
 
 @dataclass(frozen=True, slots=True)
-class PointerTarget:
+class PointerTarget(Shown):
     """What an output should show.
 
     See Also
@@ -97,7 +97,7 @@ class PointerTarget:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneEpoch:
+class SceneEpoch(Shown):
     """The date at which the lead has made some turns, and what a turn lasts.
 
     See Also
@@ -120,7 +120,7 @@ class SceneEpoch:
 
 
 @dataclass(frozen=True, slots=True)
-class Pointer:
+class Pointer(Shown):
     """An output as a pointer.
 
     See Also

@@ -52,7 +52,10 @@ class Approximants(Tabular, Result):
 
     ROWS = "search.tooth_numbers_report:approximant_rows"
     ROW = "Approximant"
-    MEANINGS: ClassVar = {"exact_error": "The error as a fraction [1]."}
+    MEANINGS: ClassVar = {
+        "error": "The fraction over the number, less 1 [1].",
+        "exact_error": "The error as a fraction [1].",
+    }
 
     PAGE = "search.tooth_numbers_report:describe_approximants"
 

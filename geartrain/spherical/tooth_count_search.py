@@ -248,11 +248,6 @@ class ToothCountSuggestions(Result):
     def __getitem__(self, at: int) -> ToothCountCompromise:
         return self.found[at]
 
-    def __str__(self) -> str:
-        lines = [str(found) for found in self.found] or ["no tooth numbers meet every condition"]
-        gone = ", ".join(f"{count} by {reason}" for reason, count in self.removed.items())
-        return "\n".join([*lines, f"of {self.considered} sets removed: {gone}"])
-
 
 class _Search:
     """The conditions on a block of tooth sets, and the count of what each one removed."""
@@ -331,7 +326,7 @@ class _Search:
 
 
 @dataclass(frozen=True)
-class NeighbourRatioWindow:
+class NeighbourRatioWindow(Shown):
     """Range of a tooth ratio in which equal neighbours do not overlap, tips not counted.
 
     See Also

@@ -111,6 +111,17 @@ class ToothForm(BaseModel, ABC):
         what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
         return Problem(what, "", str(context.get("fix", "")), str(place))
 
+    @classmethod
+    def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """Return parameters with defaults for those that a declaration of the form must have.
+
+        Parameters
+        ----------
+        parameters : mapping
+            As a declaration writes them, without `form`.
+        """
+        return dict(parameters)
+
     @property
     def words(self) -> str:
         """The name of the form as prose has it."""

@@ -68,6 +68,9 @@ class Declared(BaseModel):
 
 def _refused(error: Mapping[str, Any]) -> Problem:
     """What is wrong about a value that was to replace another."""
+    if error["type"] == "missing":
+        *parent, key = error["loc"]
+        return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")
     fix = error.get("ctx", {}).get("fix", "see docs/reference.md")
     return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"it is {str(error['input'])[:60]!r}", fix)
 

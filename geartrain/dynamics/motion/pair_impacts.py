@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class ToothImpact:
+class ToothImpact(Shown):
     """Collisions of the teeth of one pair, where its speed ratio leaps up: equation (7) of docs/motion.md.
 
     See Also

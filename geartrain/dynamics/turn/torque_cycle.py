@@ -246,6 +246,10 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
             if hasattr(value, "flags"):
                 value.flags.writeable = False
 
+    def _meaning(self, column: str) -> str:
+        text = super()._meaning(column).split(" [")[0].rstrip(".")
+        return f"{text} [{'turn' if column == 'turns' else self.unit or 'plain number'}]."
+
     def _summary(self) -> str:
         figures = [self.verdict.kind]
         if self.mean is not None:

@@ -269,7 +269,7 @@ _PARALLEL = 1e-9  # of the cosine: directions are rounded to floats
 
 
 @dataclass(frozen=True, slots=True)
-class AxisPlace:
+class AxisPlace(Shown):
     """An axis in the zero pose.
 
     See Also
@@ -290,7 +290,7 @@ class AxisPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class WheelPlace:
+class WheelPlace(Shown):
     """A wheel on its axis in the zero pose.
 
     See Also

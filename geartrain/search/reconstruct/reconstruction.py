@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.candidate_rules import check_same, find_known_train
 from geartrain.search.reconstruct.dropped_facts import (
@@ -43,7 +43,7 @@ _LOOKED_AT = 2000
 
 
 @dataclass(frozen=True, slots=True)
-class ReconstructionRequest:
+class ReconstructionRequest(Shown):
     """What is requested of a reconstruction.
 
     See Also

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from itertools import groupby, islice
 from random import Random
@@ -225,7 +225,17 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(arbor)
+    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), _written_out(arbor)
+
+
+def _written_out(value: object) -> str:
+    """A candidate with all its parts as text, which orders candidates that are alike otherwise."""
+    if isinstance(value, Arbor | PlacedWheel):
+        parts = (f"{each.name}={_written_out(getattr(value, each.name))}" for each in fields(value))
+        return f"{type(value).__name__}({', '.join(parts)})"
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_written_out, value))}{',' * (len(value) == 1)})"
+    return repr(value)
 
 
 def _all_weighed(

@@ -52,7 +52,11 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     """
 
     ROW = "WheelStrength"
-    MEANINGS: ClassVar = {"pair": "Gear pair."}
+    MEANINGS: ClassVar = {
+        "pair": "Gear pair.",
+        "root_safety": "Strength over the stress at the root [1].",
+        "contact_safety": "Pressure at which yielding begins over the pressure in the contact [1].",
+    }
 
     PAGE = "simulation.strength.strength_report:strength_document"
 

@@ -36,6 +36,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     MEANINGS: ClassVar = {
         "time (s)": "Time of the sample [s].",
+        "turns": "Turns of the driving input [turn].",
         "* angle (rad)": "Angle of the link [rad].",
         "* speed (rad/s)": "Speed of the link [rad/s].",
         "* torque (N m)": "Torque on the driven side of the contact or where power enters, mean between samples [N m].",

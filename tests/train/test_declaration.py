@@ -407,17 +407,6 @@ def test_a_tooth_form_may_be_named_alone() -> None:
         read("involut")
 
 
-def test_a_declaration_imports_the_tooth_forms_that_it_names_and_no_other() -> None:
-    code = """
-import geartrain, sys
-from geartrain.teeth.any_tooth_form import TOOTH_FORMS
-geartrain.load("moon-triangular").motion()
-print([name for name in TOOTH_FORMS if f"geartrain.teeth.{name}" in sys.modules])
-"""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "['triangular']\n"
-
-
 def test_a_tooth_form_that_was_just_read_can_be_written() -> None:
     """pydantic before 2.14 builds a member of a union without its serializer, and cannot write it."""
     code = """

@@ -100,8 +100,8 @@ def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool
               or is given before it, `head=field:digits`; or a head and a function that returns the cell of a result
     """
     rows = list(results)
-    docs = field_docs(type(rows[0])) if rows else {}
-    heads, cells = zip(*(_field_column(each, docs) for each in columns), strict=True)
+    kind: type = type(rows[0]) if rows else object
+    heads, cells = zip(*(_field_column(each, field_docs(kind)) for each in columns), strict=True)
     return Table(heads, [tuple(cell(row) for cell in cells) for row in rows], wide)
 
 

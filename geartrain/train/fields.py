@@ -207,8 +207,9 @@ def _coulomb_friction() -> TypeAdapter[Any]:
 
 if TYPE_CHECKING:
     from geartrain.teeth.friction_law import FrictionLaw
-    from geartrain.teeth.tooth_form import ToothForm as DeclaredToothForm
+    from geartrain.teeth.tooth_form import ToothForm
 
+    DeclaredToothForm = ToothForm
     DeclaredFriction = CoulombFriction | FrictionLaw
 else:
 

@@ -51,7 +51,7 @@ def _markdown(document: Document) -> Iterator[str]:
     from geartrain.numerics.markdown_text import markdown_text
 
     yield from (f"# {_line(document.title)}", "")
-    for paragraph in document.lead:
+    for paragraph in document.summary:
         yield from (markdown_text(paragraph), "")
     for section in document.sections:
         yield from (f"## {_line(section.title)}", "")
@@ -125,7 +125,7 @@ def to_terminal(documents: Sequence[Document], console: Console, marks: str = ""
     """
     for document in documents:
         _heading(document.title, "bold underline", console, marks[:1])
-        for paragraph in document.lead:
+        for paragraph in document.summary:
             console.print(_shown(paragraph))
         for section in document.sections:
             console.print()

@@ -93,7 +93,7 @@ def open_page(browser: Browser) -> Iterator[OpenPage]:
 
 
 @pytest.fixture(scope="module")
-def asked(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Asked]:
+def requested(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Asked]:
     """The page of a shipped train without teeth, opened once for tests that only ask where its parts stand."""
     context = browser.new_context(viewport={"width": 900, "height": 640})
     pages: dict[str, Shown] = {}

@@ -58,8 +58,8 @@ def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
     inputs = case.inputs if state is None else case.states[state].inputs or case.inputs
     lead = next(link for link, speed in inputs.items() if speed)
     solved = train.solve(state)
-    for output, asked in case.outputs.items():
-        of, base = asked.of or output, asked.relative_to or case.frame
+    for output, requested in case.outputs.items():
+        of, base = requested.of or output, requested.relative_to or case.frame
         ratio = (solved.speeds[of] - solved.speeds[base]) / solved.speeds[lead]
         part = ratio * turns
         yield output, TURN * float(part - part.numerator // part.denominator)
@@ -84,9 +84,9 @@ def test_a_page_opens_from_disk_without_errors_or_requests(open_page: OpenPage, 
 
 
 @pytest.mark.parametrize("name", ["price-1974", "prague-orloj", "gosper-2005", "humpage"])
-def test_pointers_of_ideal_trains_stand_where_fractions_say(asked: Asked, name: str) -> None:
+def test_pointers_of_ideal_trains_stand_where_fractions_say(requested: Asked, name: str) -> None:
     texts = ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003")
-    stand_as_fractions_say(asked(name), name, texts)
+    stand_as_fractions_say(requested(name), name, texts)
 
 
 # how far the end of a part stands out of what it ends in (mm): where a ray along its axis meets these, below the plates
@@ -113,17 +113,17 @@ OUT = """([wheel, post]) => {
     ("name", "wheel", "end"), [("cycloidal-reducer", "ring", (31.3, 0.2, 0)), ("lantern-mill", "nut20", None)]
 )
 def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
-    asked: Asked, name: str, wheel: str, end: tuple[float, float, float] | None
+    requested: Asked, name: str, wheel: str, end: tuple[float, float, float] | None
 ) -> None:
     """Two faces in one plane flicker."""
-    shown = asked(name)
+    shown = requested(name)
     at = [each.id for each in shipped.built(name).wheels].index(wheel)
     assert 0.02 < shown.run(OUT, [at, end]) < 0.1
 
 
-def test_a_dial_about_two_axes_has_a_face_for_each(asked: Asked) -> None:
+def test_a_dial_about_two_axes_has_a_face_for_each(requested: Asked) -> None:
     """They are told apart by what is read on them; on each, the one hand is in the first colour."""
-    shown = asked("price-1974")
+    shown = requested("price-1974")
     faces = shown.run("[...document.querySelectorAll('.card')].map((each) => each.querySelector('strong').textContent)")
     assert faces == ["zodiac", "lower (synodic month)", "lower (lunar year)", "upper"]
     hands = shown.run(
@@ -133,18 +133,18 @@ def test_a_dial_about_two_axes_has_a_face_for_each(asked: Asked) -> None:
     assert hands[1:] == [[["synodic month", True]], [["lunar year", True]], [["four years", True]]]
 
 
-def test_a_float_of_turns_is_taken_as_exactly_what_it_is(asked: Asked) -> None:
-    stand_as_fractions_say(asked("price-1974"), "price-1974", (0.1, -2.7, 1e9 + 0.1, 123456.789))
+def test_a_float_of_turns_is_taken_as_exactly_what_it_is(requested: Asked) -> None:
+    stand_as_fractions_say(requested("price-1974"), "price-1974", (0.1, -2.7, 1e9 + 0.1, 123456.789))
 
 
 @pytest.mark.parametrize(
     "name", ["freeth-2008", "freeth-2021", "moon-triangular", "freeth-2021-teeth", "pennestri-2002-teeth"]
 )
-def test_pins_and_real_teeth_move_as_the_motion_says(asked: Asked, name: str) -> None:
+def test_pins_and_real_teeth_move_as_the_motion_says(requested: Asked, name: str) -> None:
     motion = shipped.train(name).motion()
     turns = np.array([0.0, 0.4140625, 3.25, 1000.0, 76543.21875, 1e6 + 0.8125])
     errors = motion.at(turns).error
-    shown = asked(name)
+    shown = requested(name)
     angles = shown.angles(turns.tolist(), motion.outputs)
     for at, turn in enumerate(turns):
         mean = dict(directions(name, Fraction(turn)))
@@ -154,11 +154,11 @@ def test_pins_and_real_teeth_move_as_the_motion_says(asked: Asked, name: str) ->
     assert np.abs(errors).max() > 1e-3, "nothing rippled: this asks nothing"
 
 
-def test_backwards_the_other_flanks_drive(asked: Asked) -> None:
+def test_backwards_the_other_flanks_drive(requested: Asked) -> None:
     """Negative turns, against a run backwards; forwards the teeth stand otherwise, by their play."""
     name = "pennestri-2002-teeth"
     motion = shipped.train(name).motion()
-    shown = asked(name)
+    shown = requested(name)
     differ = 0.0
     for passage in motion.passages(-37.6875, 5, first=1):
         forwards = motion.at(passage.turns).error
@@ -172,9 +172,9 @@ def test_backwards_the_other_flanks_drive(asked: Asked) -> None:
     assert differ > 1e-4, "the way back is the way forth: this asks nothing"
 
 
-def test_a_slot_follows_its_pin_as_plane_geometry_says(asked: Asked) -> None:
+def test_a_slot_follows_its_pin_as_plane_geometry_says(requested: Asked) -> None:
     """The drawn pin stays in the drawn slot: both parts are asked where they are."""
-    shown = asked("freeth-2008")
+    shown = requested("freeth-2008")
     script = """t => {
       geartrain.setTurns(t);
       const stage = geartrain.stages[0]; stage.render(); stage.world.root.updateMatrixWorld(true);
@@ -190,9 +190,9 @@ def test_a_slot_follows_its_pin_as_plane_geometry_says(asked: Asked) -> None:
         assert shown.run(script, turns) == pytest.approx([1.0], abs=1e-9)
 
 
-def test_meshing_wheels_have_one_velocity_where_they_touch(asked: Asked) -> None:
+def test_meshing_wheels_have_one_velocity_where_they_touch(requested: Asked) -> None:
     """Spin of both wheels at the pitch point, by finite differences of what is drawn."""
-    shown = asked("planetary")
+    shown = requested("planetary")
     script = """h => {
       const stage = geartrain.stages[0], scene = geartrain.scenes[0], Vector = stage.camera.position.constructor;
       const at = t => {

@@ -56,7 +56,7 @@ def test_dragging_the_wheel_turns_the_crank_as_far_as_the_hand_went(show: Openin
     assert float(made) == pytest.approx(0.5 * 48 / 223, abs=2e-4)  # half a turn of a, clockwise
 
 
-def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> None:
+def test_backlash_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> None:
     shown = show(ANTIKYTHERA)
     shown.page.get_by_role("button", name="play", exact=True).click()
     wait(shown, "!String(geartrain.turns).startsWith('0')")
@@ -122,9 +122,9 @@ def gearing(name: str) -> float:
 
 
 @pytest.mark.parametrize("name", ["carman-thorndike-evans-2012", "al-biruni-box-of-the-moon"])
-def test_a_crank_does_not_stand_before_a_dial_about_its_axis(asked: Asked, name: str) -> None:
+def test_a_crank_does_not_stand_before_a_dial_about_its_axis(requested: Asked, name: str) -> None:
     """It hid the hands, or went through them."""
-    before = asked(name).run("""() => {
+    before = requested(name).run("""() => {
       const [{world}] = geartrain.stages, [scene] = geartrain.scenes, {point} = scene.bodies[scene.crank];
       const coaxial = scene.dials.filter(({centre}) => Math.hypot(centre[0] - point[0], centre[1] - point[1]) < 1e-6);
       return coaxial.map(({centre, normal}) => Math.sign((world.crank.end.z - centre[2]) * normal[2]));

@@ -44,7 +44,7 @@ TOWARDS = """() => {
 
 
 def blue(
-    asked: Asked,
+    requested: Asked,
     name: str,
     towards: list[float] | None,
     wheels: list[int] | None,
@@ -52,7 +52,7 @@ def blue(
     covers: bool = False,
 ) -> int:
     """Points of a picture in which wheels are seen."""
-    data: Any = asked(name).run(PICTURE, [towards, wheels, pillars, covers])
+    data: Any = requested(name).run(PICTURE, [towards, wheels, pillars, covers])
     red, _, strong = np.asarray(
         Image.open(io.BytesIO(b64decode(data.partition(",")[2]))).convert("RGB"), dtype=int
     ).transpose(2, 0, 1)
@@ -61,37 +61,39 @@ def blue(
 
 @pytest.mark.parametrize("name", ["worm", "bevel-differential", "south-pointing-chariot"])
 @pytest.mark.parametrize("towards", [USUAL, [-0.36, 0.3, 0.88], [0.1, -0.2, -0.97]])
-def test_pillars_before_wheels_hide_next_to_nothing_of_them(asked: Asked, name: str, towards: list[float]) -> None:
-    whole = blue(asked, name, towards, None, pillars=False)
+def test_pillars_before_wheels_hide_next_to_nothing_of_them(requested: Asked, name: str, towards: list[float]) -> None:
+    whole = blue(requested, name, towards, None, pillars=False)
     assert whole > 2000
-    assert blue(asked, name, towards, None) > 0.93 * whole
+    assert blue(requested, name, towards, None) > 0.93 * whole
 
 
 @pytest.mark.parametrize("name", ["bevel-differential", "pennestri-2002", "huygens-planetarium-1682"])
-def test_no_plate_hides_a_wheel(asked: Asked, name: str) -> None:
+def test_no_plate_hides_a_wheel(requested: Asked, name: str) -> None:
     """Of a differential the pinion, and of a planetarium a wheel, stood behind a plate that was none of glass."""
-    for wheel in range(asked(name).run("geartrain.scenes[0].wheels.length")):
-        alone = blue(asked, name, None, [wheel])
-        assert blue(asked, name, None, [wheel], covers=True) >= 0.7 * alone, wheel
+    for wheel in range(requested(name).run("geartrain.scenes[0].wheels.length")):
+        alone = blue(requested, name, None, [wheel])
+        assert blue(requested, name, None, [wheel], covers=True) >= 0.7 * alone, wheel
 
 
-def test_pillars_that_hide_nothing_are_no_glass(asked: Asked) -> None:
-    blue(asked, "planetary-24-18-60", [0, 0, 1], None)
-    assert asked("planetary-24-18-60").run(PILLARS) == [0, 4]
-    blue(asked, "worm", USUAL, None)
-    glass, all_ = asked("worm").run(PILLARS)
+def test_pillars_that_hide_nothing_are_no_glass(requested: Asked) -> None:
+    blue(requested, "planetary-24-18-60", [0, 0, 1], None)
+    assert requested("planetary-24-18-60").run(PILLARS) == [0, 4]
+    blue(requested, "worm", USUAL, None)
+    glass, all_ = requested("worm").run(PILLARS)
     assert 0 < glass < all_
 
 
 @pytest.mark.parametrize(("name", "times"), [("worm", 2), ("humpage", 1.4)])
-def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(asked: Asked, name: str, times: float) -> None:
+def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(
+    requested: Asked, name: str, times: float
+) -> None:
     """The wheel of a worm was seen from its edge, and a large planet stood before the small wheels."""
-    shown = asked(name)
+    shown = requested(name)
 
     def shares(towards: list[float] | None) -> list[float]:
         """Points of each wheel, as far off and as large as the others."""
         radii: list[float] = shown.run("geartrain.scenes[0].wheels.map(({radius}) => radius)")
-        seen = [blue(asked, name, towards, [wheel], pillars=False) for wheel in range(len(radii))]
+        seen = [blue(requested, name, towards, [wheel], pillars=False) for wheel in range(len(radii))]
         away: float = shown.run("geartrain.stages[0].controls.getDistance()")
         return [points * (away / radius) ** 2 for points, radius in zip(seen, radii, strict=True)]
 
@@ -99,33 +101,34 @@ def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(asked: 
 
 
 @pytest.mark.parametrize("name", ["two-k-h-10000", "ferguson-paradox"])
-def test_an_orbit_is_looked_at_from_where_it_leaves_more_of_the_picture_to_wheels(asked: Asked, name: str) -> None:
-    assert blue(asked, name, None, None) > 1.1 * blue(asked, name, USUAL, None)
+def test_an_orbit_is_looked_at_from_where_it_leaves_more_of_the_picture_to_wheels(requested: Asked, name: str) -> None:
+    assert blue(requested, name, None, None) > 1.1 * blue(requested, name, USUAL, None)
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "norton-compound"])
-def test_others_open_slantwise_from_the_front(asked: Asked, name: str) -> None:
-    asked(name).run("() => geartrain.stages[0].look('free')")
+def test_others_open_slantwise_from_the_front(requested: Asked, name: str) -> None:
+    requested(name).run("() => geartrain.stages[0].look('free')")
     x, y, z = (each / hypot(*USUAL) for each in USUAL)
-    front = asked(name).run("geartrain.scenes[0].front")
-    assert asked(name).run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
+    front = requested(name).run("geartrain.scenes[0].front")
+    assert requested(name).run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
 
 
 @pytest.mark.parametrize(("name", "times"), [("strain-wave", 1.35), ("zf-9hp48", 1.1)])
 def test_a_train_is_looked_into_from_behind_where_its_wheels_are_seen_better(
-    asked: Asked, name: str, times: float
+    requested: Asked, name: str, times: float
 ) -> None:
     """One looked into the cup of a strain wave, at whose far end its teeth are; roots, so that the worst seen weigh."""
-    wheels = range(asked(name).run("geartrain.scenes[0].wheels.length"))
+    wheels = range(requested(name).run("geartrain.scenes[0].wheels.length"))
     behind, before = (
-        sum(blue(asked, name, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels) for towards in (None, INTO)
+        sum(blue(requested, name, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels)
+        for towards in (None, INTO)
     )
     assert behind > times * before
 
 
-def test_others_that_are_cut_open_are_looked_into_from_the_front(asked: Asked) -> None:
-    asked("wolfrom-175").run("() => geartrain.stages[0].look('free')")
-    assert asked("wolfrom-175").run(TOWARDS) == pytest.approx([each / hypot(*INTO) for each in INTO], abs=1e-6)
+def test_others_that_are_cut_open_are_looked_into_from_the_front(requested: Asked) -> None:
+    requested("wolfrom-175").run("() => geartrain.stages[0].look('free')")
+    assert requested("wolfrom-175").run(TOWARDS) == pytest.approx([each / hypot(*INTO) for each in INTO], abs=1e-6)
 
 
 def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on_one_line(show: Opening) -> None:

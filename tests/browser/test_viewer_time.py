@@ -89,7 +89,7 @@ def test_the_page_turns_to_a_date_and_back_and_stops_there(show: Opening) -> Non
         assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
 
 
-def test_it_plays_backwards_and_forwards_again(show: Opening) -> None:
+def test_it_backlashes_backwards_and_forwards_again(show: Opening) -> None:
     shown = show(SIMPLE)
     back = shown.page.get_by_role("button", name="play backwards")
     back.click()

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
     from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics
 
-_EVENTS = ("jam", "clash", "standstill", "disengaged")
+_EVENTS = ("jam", "clash", "dwell", "disengaged")
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
@@ -35,15 +35,16 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     --------
     >>> import geartrain
     >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["placement=2 %"]), ("moon",))
-    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).lead[0]
+    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
+    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).summary[0]
     '2 trials, seed 1; intervals hold with 95 %.'
     """
     trials = found.trials
-    lead = [f"{trials.done} trials, seed {trials.seed}; intervals hold with 95 %.", *found.assumptions]
+    summary = [f"{trials.done} trials, seed {trials.seed}; intervals hold with 95 %.", *found.assumptions]
     if not trials.complete:
-        lead.insert(0, f"PARTIAL: stopped after {trials.done} of {trials.wanted} trials.")
-    return Document(f"Cut by hand: {trials.plan.name}", lead, list(_sections(found)))
+        summary.insert(0, f"PARTIAL: stopped after {trials.done} of {trials.wanted} trials.")
+    return Document(f"Cut by hand: {trials.plan.name}", summary, list(_sections(found)))
 
 
 def _sections(found: MonteCarloResult) -> Iterator[Section]:
@@ -116,9 +117,9 @@ def _filing(found: MonteCarloResult) -> Section:
 
 
 def _tallied(pair: PairEventRates) -> tuple[str, ...]:
-    play, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.play, pair.bound))
+    backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
     events = (share_text(pair.events[name]) for name in _EVENTS)
-    return (pair.name, play, *events, bound)
+    return (pair.name, backlash, *events, bound)
 
 
 def _pointers(found: MonteCarloResult) -> Section:
@@ -132,7 +133,7 @@ def _pointers(found: MonteCarloResult) -> Section:
                 angle_text(pointer.mean),
                 angle_text(pointer.deviation),
                 *(angle_text(ends[percent]) for percent in (2.5, 97.5)),
-                f"{degrees(pointer.greatest):.3g}",
+                f"{degrees(pointer.maximum):.3g}",
                 f"{degrees(pointer.first[0]):.2g}",
             )
         )
@@ -141,7 +142,7 @@ def _pointers(found: MonteCarloResult) -> Section:
             "* Nearly all trials jam: given is what the pushing flanks would do in all of them, were jams let pass."
         )
     texts.append("First order off: what plain superposition of the pairs' errors is off from the composed motion, rms.")
-    header = ("output", "jams", "mean", "sd", "2.5 %", "97.5 %", "greatest", "first order off")
+    header = ("output", "jams", "mean", "sd", "2.5 %", "97.5 %", "maximum", "first order off")
     return Section("Pointers", texts, (Table(header, cut(rows)),))
 
 
@@ -152,7 +153,7 @@ def _course(data: dict[str, Any]) -> Section:
 
 
 def _rounded(data: dict[str, Any]) -> Iterator[tuple[str, list[Any]]]:
-    for percent, (value, low, high) in data["greatest_deg"].items():
+    for percent, (value, low, high) in data["maximum_deg"].items():
         yield percent, [value, *("?" if each is None else f"{each:.3g}" for each in (low, high))]
 
 

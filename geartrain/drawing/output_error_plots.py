@@ -104,7 +104,7 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     ranked = sorted(erring, key=lambda trace: -float(np.ptp(trace.error))) or found
     most = {trace.name for trace in ranked[:_OUTPUTS]}
     traces = [trace for trace in found if trace.name in most]
-    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
+    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.driving_link}")
     left_out = _left_out(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
 
@@ -300,7 +300,7 @@ def _turning(values: Floats) -> NDArray[np.intp]:
 _ABOVE_LEGEND = 20  # points from the title to the upper panel
 _MOST_POSITIONS = 6000  # positions drawn of the torque: of each stretch the first, its least and its greatest
 _BINS = 900  # pixels: stretches of the run over which losses are averaged where there are more positions
-_LEAST = 1e-9  # of all that is lost: less is rounding
+_MINIMUM = 1e-9  # of all that is lost: less is rounding
 _CUT = 1.5  # times the torque that is exceeded in a fiftieth of the run: near a lock it has no bound
 _MOST_LOSSES = 6
 """Of the parts that lose most; all others are drawn as one."""
@@ -375,7 +375,7 @@ def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
         )
     if found.mean is not None:
         panel.axhline(found.mean, color=GREY, linewidth=1.0, label=f"mean {found.mean:.5g}")
-    marks = (("greatest", found.greatest, "^", RED), ("least", found.least, "v", GREEN))
+    marks = (("maximum", found.maximum, "^", RED), ("minimum", found.minimum, "v", GREEN))
     for name, extreme, marker, colour in marks:
         if extreme is not None:
             _mark(panel, name, extreme, marker, colour)
@@ -419,7 +419,7 @@ def _mean_speed(found: TorqueCycle) -> float:
     speed = np.asarray(found.speeds.values)[found.speeds.labels[0].index(found.link)]
     steps = np.diff(found.turns)
     forth, most = steps @ (speed[1:] + speed[:-1]) / 2, steps @ (abs(speed[1:]) + abs(speed[:-1])) / 2
-    return float(abs(forth) / found.span) if abs(forth) > _LEAST * most else 0.0
+    return float(abs(forth) / found.span) if abs(forth) > _MINIMUM * most else 0.0
 
 
 def _losses(found: TorqueCycle) -> list[_Loss]:
@@ -430,7 +430,7 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
     lost = sum(part.loss for part in found.parts.values())
     if not lost > 0:
         return []
-    losing = [name for name in names if found.parts[name].loss > _LEAST * lost]
+    losing = [name for name in names if found.parts[name].loss > _MINIMUM * lost]
     ranked = sorted(losing, key=lambda name: -found.parts[name].loss)
     rows = {name: values[names.index(name)] for name in names}
     shown = ranked[:_MOST_LOSSES] if len(ranked) <= _MOST_LOSSES else ranked[: _MOST_LOSSES - 1]

@@ -35,14 +35,14 @@ class PinMesh:
     """A coupling whose dimensions are declared, with its law."""
 
     coupling: Coupling
-    law: PinToSlotTransmission
+    transmission: PinToSlotTransmission
 
     @property
     def reversed(self) -> SlotToPinTransmission:
         """The law with the slot driving, which no follower can."""
         from geartrain.teeth.pin_transmission import SlotToPinTransmission
 
-        return SlotToPinTransmission(self.law.r, self.law.e, self.law.friction)
+        return SlotToPinTransmission(self.transmission.r, self.transmission.e, self.transmission.friction)
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
@@ -127,7 +127,9 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
 def find_pins(train: Train) -> tuple[PinMesh, ...]:
     """Every coupling whose dimensions are declared."""
     return tuple(
-        PinMesh(coupling, coupling.law) for coupling in train.couplings if coupling.pin_radius and coupling.law
+        PinMesh(coupling, coupling.transmission)
+        for coupling in train.couplings
+        if coupling.pin_radius and coupling.transmission
     )
 
 

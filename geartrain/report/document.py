@@ -178,7 +178,7 @@ class Document:
 
     title: str
     """The first heading."""
-    lead: Sequence[str]
+    summary: Sequence[str]
     """Paragraphs before the first section."""
     sections: Sequence[Section]
     """In the order in which they are read."""
@@ -256,17 +256,17 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
     width   characters in a line
     """
-    least = [_least(column, table.wide) for column in _columns(table)]
+    minimum = [_minimum(column, table.wide) for column in _columns(table)]
     gap, start = gap_of(table), 1
-    if len(least) < 2:
+    if len(minimum) < 2:
         yield table
         return
-    while start < len(least):
-        end, used = start + 1, least[0] + gap + least[start]
-        while end < len(least) and used + gap + least[end] <= width:
-            used += gap + least[end]
+    while start < len(minimum):
+        end, used = start + 1, minimum[0] + gap + minimum[start]
+        while end < len(minimum) and used + gap + minimum[end] <= width:
+            used += gap + minimum[end]
             end += 1
-        yield table if end - start == len(least) - 1 else _chosen(table, [0, *range(start, end)])
+        yield table if end - start == len(minimum) - 1 else _chosen(table, [0, *range(start, end)])
         start = end
 
 
@@ -278,15 +278,15 @@ def column_widths(table: Table, width: int) -> list[int]:
     """
     columns = _columns(table)
     full = [max(map(len, column)) for column in columns]
-    least = [_least(column, table.wide) for column in columns]
+    minimum = [_minimum(column, table.wide) for column in columns]
     free = width - gap_of(table) * (len(columns) - 1)
     if sum(full) <= free:
         return full
-    spare, sizes = max(0, free - sum(least)), list(least)
+    spare, sizes = max(0, free - sum(minimum)), list(minimum)
     left = len(columns)
-    for at in sorted(range(len(columns)), key=lambda each: full[each] - least[each]):
+    for at in sorted(range(len(columns)), key=lambda each: full[each] - minimum[each]):
         # a column that wants little gets all of it: the fewer columns wrap, the more rows take one line
-        given = min(full[at] - least[at], spare if left == 1 else max(spare // 2, spare // left))
+        given = min(full[at] - minimum[at], spare if left == 1 else max(spare // 2, spare // left))
         sizes[at] += given
         spare, left = spare - given, left - 1
     return sizes
@@ -296,7 +296,7 @@ def _columns(table: Table) -> list[tuple[str, ...]]:
     return list(zip_longest(table.header, *table.rows, fillvalue=""))
 
 
-def _least(column: Sequence[str], whole: bool) -> int:
+def _minimum(column: Sequence[str], whole: bool) -> int:
     """What a column takes at least: its longest word, or its longest cell where cells do not wrap."""
     pieces = column if whole else [word for cell in column for word in cell.split()]
     return max(1, *(len(piece) for piece in pieces), 0)

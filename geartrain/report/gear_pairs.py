@@ -94,17 +94,17 @@ def _drivers(pairs: Sequence[DrivenPair], used: int) -> Table:
 def _pins(train: GearTrain) -> Section:
     rows = []
     for joint in train.mechanics.pins:
-        law, coupling = joint.law, joint.coupling
-        least, most = law.speed_range()
+        transmission, coupling = joint.transmission, joint.coupling
+        minimum, most = transmission.speed_range()
         rows.append(
             (
                 coupling.name,
                 f"{coupling.pin} -> {coupling.slot}",
                 str(coupling.pin_radius),
                 str(coupling.offset),
-                str(law.ratio),
-                f"{degrees(law.amplitude):.5f}",
-                f"{least:.6f}..{most:.6f}",
+                str(transmission.ratio),
+                f"{degrees(transmission.amplitude):.5f}",
+                f"{minimum:.6f}..{most:.6f}",
             )
         )
     header = ("coupling", "pin -> slot", "pin radius", "offset", "mean ratio", "amplitude (deg)", "speed ratio")
@@ -119,4 +119,4 @@ def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
 
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
     """Pins of a train; empty where none has dimensions."""
-    return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.law)) for joint in train.mechanics.pins)
+    return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.transmission)) for joint in train.mechanics.pins)

@@ -139,7 +139,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     >>> page.sections[0].tables[0].rows[0]
     ('forward, low', '2.4545', '1')
     """
-    lead = (
+    summary = (
         f"From '{found.input}' to '{found.output}': {found.closed} elements closed, {found.combinations} ways, "
         f"{len(found.gears)} of which determine the output; all were tried, exactly."
     )
@@ -147,7 +147,7 @@ def describe_gear_search(found: GearSearch) -> Document:
         f"{_some(ways)} {told}." for ways, told in ((found.free, "leave it free"), (found.locked, "lock it")) if ways
     ]
     sections = [
-        Section("Gears", (lead, *others), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))
+        Section("Gears", (summary, *others), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))
     ]
     if found.widest is not None and found.evenest is not None:
         both = [("The widest series", found.widest), ("The most even series", found.evenest)]
@@ -155,8 +155,8 @@ def describe_gear_search(found: GearSearch) -> Document:
             both = [("The widest series, and the most even", found.widest)]
         head = "One series holds." if found.series == 1 else f"{found.series:,} series hold; of each kind one is told."
         sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
-    elif found.asked:
-        sections.append(Section("Series", (f"No series of {found.asked} gears has all its steps in the window.",)))
+    elif found.requested:
+        sections.append(Section("Series", (f"No series of {found.requested} gears has all its steps in the window.",)))
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
 
 

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def describe_sphere(found: GearSphere) -> Document:
     """Whether a set turns, closes and fits, and its sizes."""
     configuration = found.configuration
-    lead = [
+    summary = [
         f"{len(configuration.names)} gears, {len(configuration.meshes)} meshes, on a sphere of radius "
         f"{found.radius:.15g}."
     ]
-    return Document(configuration.title or "Gears on a sphere", lead, list(_sections(found)))
+    return Document(configuration.title or "Gears on a sphere", summary, list(_sections(found)))
 
 
 def _sections(found: GearSphere) -> Iterator[Section]:

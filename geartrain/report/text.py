@@ -48,7 +48,7 @@ def _line(text: str) -> str:
 
 def _markdown(document: Document) -> Iterator[str]:
     yield from (f"# {_line(document.title)}", "")
-    for paragraph in document.lead:
+    for paragraph in document.summary:
         yield from (markdown_text(paragraph), "")
     for section in document.sections:
         yield from (f"## {_line(section.title)}", "")
@@ -122,7 +122,7 @@ def to_terminal(documents: Sequence[Document], console: Console, marks: str = ""
     """
     for document in documents:
         _heading(document.title, "bold underline", console, marks[:1])
-        for paragraph in document.lead:
+        for paragraph in document.summary:
             console.print(_shown(paragraph))
         for section in document.sections:
             console.print()

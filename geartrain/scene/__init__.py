@@ -50,9 +50,9 @@ if TYPE_CHECKING:
     from geartrain.scene.layout.train_layout import Layout as Layout
     from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
     from geartrain.scene.layout.train_layout import lay_out as lay_out
-    from geartrain.scene.movement import ErrorLawTable as ErrorLawTable
     from geartrain.scene.movement import ErrorSource as ErrorSource
     from geartrain.scene.movement import ErrorStep as ErrorStep
+    from geartrain.scene.movement import ErrorTable as ErrorTable
     from geartrain.scene.movement import Movement as Movement
     from geartrain.scene.scene_run import LinkCourse as LinkCourse
     from geartrain.scene.scene_run import SceneContact as SceneContact

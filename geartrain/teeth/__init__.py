@@ -2,7 +2,7 @@
 
 In: two tooth counts, a form as a pair declares it, friction, sizes. Out: a `GearMesh`, whatever the form: verdict and
 backlash, transmission function on drive and coast flanks, efficiency, the outline to cut. Each form is one file, and
-each has a method `law` that gives the transmission function of a pair without a train.
+each has a method `transmission` that gives the transmission function of a pair without a train.
 
 tooth_form, any_tooth_form    base class of all forms; their union, from which a declaration selects by `form`
 ideal                         the ratio of tooth counts at every instant

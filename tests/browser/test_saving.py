@@ -129,7 +129,7 @@ def test_the_handle_seen_in_the_pictures_turns_as_the_input_does(show_shared: Op
 # ------------------------------------------------------------------------------- stills and films of the documentation
 
 
-def test_a_still_has_the_size_and_background_asked_for_and_the_train_in_its_middle() -> None:
+def test_a_still_has_the_size_and_background_requested_for_and_the_train_in_its_middle() -> None:
     (data,) = taken(Fraction(0), background="#0ac81e", size=(300, 200))
     shown = picture(data)
     assert shown.shape == (200, 300, 3)

@@ -208,8 +208,8 @@ def test_what_is_changed_can_be_read(opened: Any, scheme: str) -> None:
     give(shown, "s", 26)
     for name in ("Change", "Wheels"):
         tab(shown, name)
-        for where, ink, ground, least in shown.run(TEXTS):
-            assert contrast(ink, ground) >= least, (where, ink, ground)
+        for where, ink, ground, minimum in shown.run(TEXTS):
+            assert contrast(ink, ground) >= minimum, (where, ink, ground)
 
 
 def test_a_loop_that_no_longer_closes_locks_the_train(opened: Any) -> None:

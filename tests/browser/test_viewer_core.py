@@ -59,8 +59,8 @@ def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
     inputs = case.inputs if state is None else case.states[state].inputs or case.inputs
     lead = next(link for link, speed in inputs.items() if speed)
     solved = train.solve(state)
-    for output, asked in case.outputs.items():
-        of, base = asked.of or output, asked.relative_to or case.frame
+    for output, requested in case.outputs.items():
+        of, base = requested.of or output, requested.relative_to or case.frame
         ratio = (solved.speeds[of] - solved.speeds[base]) / solved.speeds[lead]
         part = ratio * turns
         yield output, TURN * float(part - part.numerator // part.denominator)

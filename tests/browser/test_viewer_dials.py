@@ -57,7 +57,7 @@ def test_hands_are_told_to_show_what_python_says(show_shared: Opening, name: str
             continue
         scale = scene.dials[pointer.dial].scale
         of, base = declared.outputs[pointer.output].links(pointer.output, declared.frame)
-        lead = scene.bodies[scene.lead or 0].id
+        lead = scene.bodies[scene.driving_link or 0].id
         speed = Fraction(solved[pointer.output]) / Fraction(solved.speeds[lead])
         assert of != base
         words = scale.told(pointer.sense * scale.way * speed * at)

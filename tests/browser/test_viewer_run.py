@@ -77,10 +77,10 @@ def glow(shown: Shown) -> float:
     return float(shown.run(script))
 
 
-def test_the_next_blow_is_found_and_seen(played: Played, shown: Shown) -> None:
+def test_the_next_impact_is_found_and_seen(played: Played, shown: Shown) -> None:
     scene = played[1]
     assert scene.run is not None
-    first = min(each.blow_times[0] for each in scene.run.contacts if len(each.blow_times))
+    first = min(each.impact_times[0] for each in scene.run.contacts if len(each.impact_times))
     assert glow(shown) == 0
     shown.page.get_by_label("to the next blow").click()
     assert shown.run("geartrain.machines[0].time()") == pytest.approx(float(first), abs=1e-6)
@@ -143,7 +143,7 @@ def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
     assert shown.run("geartrain.machines[0].time()") > later
 
 
-def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
+def test_a_run_backlashes_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
     shown.page.get_by_label("Again at the end").uncheck()
     shown.page.get_by_role("slider", name="Speed").fill("1")
     shown.page.get_by_role("button", name="play", exact=True).click()

@@ -120,8 +120,8 @@ def test_a_disc_has_holes_for_its_pins_in_place_of_arms(show: Opening) -> None:
     In its middle it sits on an eccentric of 12 mm; what runs in a hole has some play there, of 0.05 mm at most.
     """
     shown = show("cycloidal-reducer")
-    least, most = (pi * (20.5**2 - 6 * (3.5 + play) ** 2 - (6 + play) ** 2) for play in (0.05, 0.0))
-    assert least < shown.run(f"{FACE}('lobes')") < most
+    minimum, most = (pi * (20.5**2 - 6 * (3.5 + backlash) ** 2 - (6 + backlash) ** 2) for backlash in (0.05, 0.0))
+    assert minimum < shown.run(f"{FACE}('lobes')") < most
     shown = show("rv-reducer")
     assert shown.run(f"{FACE}('lobes')") is not None
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrainError, load
-from geartrain.dynamics import CornerPositions, Motion
+from geartrain.dynamics import KinkPositions, Motion
 from geartrain.teeth import TransmissionFunction
 
 ROCKING = """
@@ -31,88 +31,92 @@ outputs: {k: {}, out: {}, last: {}}
 """
 
 
-def of(corners: CornerPositions, pair: str) -> np.ndarray:
-    return corners.turns[corners.pair == corners.pairs.index(pair)]
+def of(kinks: KinkPositions, pair: str) -> np.ndarray:
+    return kinks.turns[kinks.pair == kinks.pairs.index(pair)]
 
 
-def dense_passages(S: np.ndarray, law: TransmissionFunction) -> int:
+def dense_passages(S: np.ndarray, transmission: TransmissionFunction) -> int:
     """How often a driver's angle passes a corner either way, from many samples of it."""
     found = 0
-    for corner in np.unique(np.mod(law.corners(), law.period)):
-        found += int(np.abs(np.diff(np.floor((S - corner) / law.period))).sum())
+    for kink in np.unique(np.mod(transmission.kinks(), transmission.period)):
+        found += int(np.abs(np.diff(np.floor((S - kink) / transmission.period))).sum())
     return found
 
 
-def driver_angle(motion: Motion, law: TransmissionFunction, link: str, turns: np.ndarray) -> np.ndarray:
+def driver_angle(motion: Motion, transmission: TransmissionFunction, link: str, turns: np.ndarray) -> np.ndarray:
     """Of a driver on the frame: mean motion and error; a tooth of it is on the line of centres at 0."""
     at = list(motion.outputs).index(link)
     mean = float(motion.train.ratio(link))
     return np.sign(mean or 1) * (2 * pi * mean * turns + motion.at(turns).error[at])
 
 
-def test_the_first_pair_is_at_its_corner_once_a_pitch_of_the_input() -> None:
+def test_the_first_pair_is_at_its_kink_once_a_pitch_of_the_input() -> None:
     train = load("moon-triangular")
-    law = train.meshes[0].law
-    found = of(train.motion(outputs=["moon"]).corner_positions(0.5, 2), "a~b1")
-    every = (law.corners()[0] + np.arange(-5, 200) * law.period) / (2 * pi)
+    transmission = train.meshes[0].transmission
+    found = of(train.motion(outputs=["moon"]).kink_positions(0.5, 2), "a~b1")
+    every = (transmission.kinks()[0] + np.arange(-5, 200) * transmission.period) / (2 * pi)
     assert np.allclose(found, every[(every >= 0.5) & (every <= 2)], rtol=0, atol=1e-14)
 
 
-def test_along_a_train_each_driver_stands_at_the_corner_of_its_law() -> None:
+def test_along_a_train_each_driver_stands_at_the_kink_of_its_transmission() -> None:
     train = load("moon-triangular")
     motion = train.motion(outputs=["sun", "c", "d", "moon"])
-    corners = motion.corner_positions(0, 3)
-    assert (np.diff(corners.turns) >= 0).all()
-    for name, link, mesh in zip(corners.pairs[1:], ["sun", "c", "d"], train.meshes[1:], strict=True):
-        law = mesh.law
-        found = of(corners, name)
-        pitches = (driver_angle(motion, law, link, found) - law.corners()[0]) / law.period
+    kinks = motion.kink_positions(0, 3)
+    assert (np.diff(kinks.turns) >= 0).all()
+    for name, link, mesh in zip(kinks.pairs[1:], ["sun", "c", "d"], train.meshes[1:], strict=True):
+        transmission = mesh.transmission
+        found = of(kinks, name)
+        pitches = (driver_angle(motion, transmission, link, found) - transmission.kinks()[0]) / transmission.period
         assert np.abs(pitches - np.rint(pitches)).max() < 1e-10
-        assert len(found) == dense_passages(driver_angle(motion, law, link, np.linspace(0, 3, 100_001)), law)
+        assert len(found) == dense_passages(
+            driver_angle(motion, transmission, link, np.linspace(0, 3, 100_001)), transmission
+        )
 
 
 @pytest.mark.parametrize("name", ["longcase-clock-bs978", "pennestri-2002-teeth"])
-def test_speeds_jump_at_corners_alone(name: str) -> None:
+def test_speeds_jump_at_kinks_alone(name: str) -> None:
     motion = load(name).motion()
     turns = np.linspace(0.01, 0.06, 100_001)
     rate = motion.at(turns).rate
     scale = np.ptp(rate, axis=1) + 1e-12
     jumps = (np.abs(np.diff(rate, axis=1)) > 0.02 * scale[:, None]).any(axis=0)
-    corners = motion.corner_positions(turns[0], turns[-1]).turns
-    held = np.searchsorted(corners, turns[1:] + 1e-12) > np.searchsorted(corners, turns[:-1] - 1e-12)
+    kinks = motion.kink_positions(turns[0], turns[-1]).turns
+    held = np.searchsorted(kinks, turns[1:] + 1e-12) > np.searchsorted(kinks, turns[:-1] - 1e-12)
     assert jumps.sum() > 3
     assert held[jumps].all()
 
 
-def test_a_driver_that_rocks_passes_its_corners_both_ways() -> None:
+def test_a_driver_that_rocks_passes_its_kinks_both_ways() -> None:
     motion = load(ROCKING).motion()
-    law = next(source.law for source in motion.ahead.used if source.id == "x~y")
-    found = of(motion.corner_positions(0, 1.5), "x~y")
-    dense = driver_angle(motion, law, "out", np.linspace(0, 1.5, 200_001))
-    assert len(found) == dense_passages(dense, law) > 150
-    pitches = (driver_angle(motion, law, "out", found) - np.array(law.corners())[:, None]) / law.period
+    transmission = next(source.transmission for source in motion.ahead.used if source.id == "x~y")
+    found = of(motion.kink_positions(0, 1.5), "x~y")
+    dense = driver_angle(motion, transmission, "out", np.linspace(0, 1.5, 200_001))
+    assert len(found) == dense_passages(dense, transmission) > 150
+    pitches = (
+        driver_angle(motion, transmission, "out", found) - np.array(transmission.kinks())[:, None]
+    ) / transmission.period
     assert np.abs(pitches - np.rint(pitches)).min(axis=0).max() < 1e-9
 
 
-def test_turned_back_the_corners_are_those_of_the_other_flanks() -> None:
+def test_turned_back_the_kinks_are_those_of_the_other_flanks() -> None:
     train = load("moon-triangular")
     motion = train.motion(outputs=["moon"])
-    back = motion.corner_positions(0, -2)
-    law = train.meshes[0].law.turned_back()
-    pitches = (2 * pi * of(back, "a~b1") - law.corners()[0]) / law.period
+    back = motion.kink_positions(0, -2)
+    transmission = train.meshes[0].transmission.reversed_motion()
+    pitches = (2 * pi * of(back, "a~b1") - transmission.kinks()[0]) / transmission.period
     assert np.abs(pitches - np.rint(pitches)).max() < 1e-12
     assert back.turns.min() >= -2
     assert back.turns.max() <= 0
 
 
-def test_a_stretch_in_two_parts_has_the_corners_of_the_whole() -> None:
+def test_a_stretch_in_two_parts_has_the_kinks_of_the_whole() -> None:
     motion = load("moon-triangular").motion(outputs=["moon"])
-    whole = motion.corner_positions(0, 250.25)
-    parts = [motion.corner_positions(0, 131.7), motion.corner_positions(131.7, 250.25)]
+    whole = motion.kink_positions(0, 250.25)
+    parts = [motion.kink_positions(0, 131.7), motion.kink_positions(131.7, 250.25)]
     assert np.allclose(np.concatenate([part.turns for part in parts]), whole.turns, rtol=0, atol=1e-12)
 
 
 def test_a_train_of_even_motion_has_none_and_too_many_are_not_listed() -> None:
-    assert len(load("pennestri-2002").motion().corner_positions(0, 1).turns) == 0
-    with pytest.raises(GearTrainError, match="corners"):
-        load("moon-triangular").motion().corner_positions(0, 1e9)
+    assert len(load("pennestri-2002").motion().kink_positions(0, 1).turns) == 0
+    with pytest.raises(GearTrainError, match="kinks"):
+        load("moon-triangular").motion().kink_positions(0, 1e9)

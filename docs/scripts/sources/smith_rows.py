@@ -193,9 +193,13 @@ def friction() -> Iterator[Row]:
         ("Buckingham, 2100 ft/min", "the same", "0.0385", "buckingham(2100)"),
         ("Buckingham, stationary", "the same", "0.0517", "buckingham(0)"),
     ):
-        law = expression.partition("(")[0]
+        transmission = expression.partition("(")[0]
         yield digits(
-            f"Section 11, {place}", what, printed, expression, why=f"measured; `friction: {{law: {law}}}` goes by it"
+            f"Section 11, {place}",
+            what,
+            printed,
+            expression,
+            why=f"measured; `friction: {{law: {transmission}}}` goes by it",
         )
     yield outside(
         "Section 11, formulas",

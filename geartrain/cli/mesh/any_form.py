@@ -139,7 +139,7 @@ def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, ba
         own = own | {"clearance": clearance}
     if "backlash" in model.model_fields or backlash is None:
         return read_form(model, own | ({} if backlash is None else {"backlash": backlash}))
-    return read_form(model, own).thinned(read_quantity("--backlash", backlash, "length", plain=True, least="0"))
+    return read_form(model, own).thinned(read_quantity("--backlash", backlash, "length", plain=True, minimum="0"))
 
 
 def _figure(mesh: GearMesh) -> Figure:
@@ -173,7 +173,7 @@ def pin(
     r = quantity("--pin-radius", pin_radius, "length", plain=True)
     e = quantity("--offset", offset, "length", plain=True)
     try:
-        law = pin_transmission(r, e, rub, cast(Literal["pin", "slot"], driver))
+        transmission = pin_transmission(r, e, rub, cast(Literal["pin", "slot"], driver))
     except GearTrainError as error:
         raise as_options(error, "--pin-radius") from None
-    give(to, json, lambda: pin_figures(law), lambda: [describe_pin(law)])
+    give(to, json, lambda: pin_figures(transmission), lambda: [describe_pin(transmission)])

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition, pays
-from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
+from geartrain.dynamics.motion.kink_positions import KinkPositions, KinkSearch
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
@@ -43,17 +43,19 @@ class PointerCompositions:
 
     def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
         """The composition while the input turns that way; `besides` as of `PairErrors.sources`."""
-        play, (teeth, pins) = self.errors.play(way), self._start
+        backlash, (teeth, pins) = self.errors.backlash(way), self._start
         found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
         sources = tuple(
             replace(
                 each,
-                phase=each.phase + found.driver_shift(each, play),
+                phase=each.phase + found.driver_shift(each, backlash),
                 set_back=found.driver_shift(each, teeth + pins),
             )
             for each in found.sources
         )
-        return replace(found, sources=sources, offsets=tuple(each.difference(play - teeth) for each in self.outputs))
+        return replace(
+            found, sources=sources, offsets=tuple(each.difference(backlash - teeth) for each in self.outputs)
+        )
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
@@ -61,7 +63,7 @@ class PointerCompositions:
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
         for each in self.errors.sources(1):
-            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.law.error(each.phase))
+            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.transmission.error(each.phase))
         teeth, slots = self.errors.spread.errors(deltas).T
         return teeth, slots
 
@@ -362,9 +364,9 @@ class Motion:
         chunk = composition.chunk
         parts = [composition.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
         error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
-        return ErrorSamples(turns, error, rate, frozenset().union(*(part.turned_back for part in parts)))
+        return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
-    def corner_positions(self, start: float, end: float) -> CornerPositions:
+    def kink_positions(self, start: float, end: float) -> KinkPositions:
         """Where some pair that an output depends on is at a corner of its law: between them all errors are smooth.
 
         A speed may jump there. To take its values on either side, ask a little before and a little after.
@@ -389,12 +391,12 @@ class Motion:
         A pair of triangular teeth has a corner a pitch, and the driver of the first makes 45 in one turn of the crank:
 
         >>> import geartrain
-        >>> corners = geartrain.load("moon-triangular").motion(outputs=["moon"]).corner_positions(0, 1)
-        >>> len(corners.turns), corners.names().count("a~b1")
+        >>> kinks = geartrain.load("moon-triangular").motion(outputs=["moon"]).kink_positions(0, 1)
+        >>> len(kinks.turns), kinks.names().count("a~b1")
         (160, 45)
         """
         composition = self.ahead if end >= start else self.back
-        return CornerSearch(composition).over(min(start, end), max(start, end))
+        return KinkSearch(composition).over(min(start, end), max(start, end))
 
     def ripples(
         self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None

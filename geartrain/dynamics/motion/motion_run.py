@@ -105,7 +105,7 @@ def _harmonics(superposed: Superposition, at: int) -> Complex:
     source = superposed.sources[at]
     u = np.arange(_SAMPLES) / _SAMPLES
     shift = source.start + superposed.lags[at]
-    error = source.sense * source.law.error(u * source.law.period + shift)
+    error = source.sense * source.transmission.error(u * source.transmission.period + shift)
     # twice, for half of a real wave stands at the negative frequency
     return np.asarray(2 * np.fft.rfft(error)[1 : _HARMONICS + 1] / _SAMPLES)
 
@@ -207,7 +207,7 @@ class MotionRun(Tabular, Pictured):
     """By output, the strongest lines first."""
     done: int = 0
     """Positions counted so far: fewer than `samples` in a run that was interrupted."""
-    turned_back: set[str] = field(default_factory=set)
+    reversing_drivers: set[str] = field(default_factory=set)
     """Pairs whose driver was seen turning against its mean; the play between their flanks is not followed there."""
 
     def __post_init__(self) -> None:
@@ -255,13 +255,13 @@ class MotionRun(Tabular, Pictured):
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
             peaks.add(passage)
-            self.turned_back |= passage.turned_back
+            self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
         composition = self.motion.ahead if self.turns >= 0 else self.motion.back
         search = ExtremeSearch(composition)
         count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.tallies)
-        self.turned_back |= search.turned_back
+        self.reversing_drivers |= search.reversing_drivers
 
     def try_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
         """The same run with random phases of the pairs that declare none.

@@ -223,5 +223,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
         for wheel in wheels
     }
     declared = {wheel: count for wheel in wheels if (count := found[wheel].doubt.declared) is not None}
-    asked = ", ".join(witness.name for witness in found.witnesses)
-    return corner_figure(CountProbabilities(single, pairs, before, declared), f"{found.name}: counts that give {asked}")
+    requested = ", ".join(witness.name for witness in found.witnesses)
+    return corner_figure(
+        CountProbabilities(single, pairs, before, declared), f"{found.name}: counts that give {requested}"
+    )

@@ -23,8 +23,8 @@ from geartrain.search.reconstruct.explained_facts import (
     NextFact,
 )
 from geartrain.search.reconstruct.known_rank import (
-    GREATEST,
-    LEAST,
+    MAXIMUM,
+    MINIMUM,
     AdmittingQuestion,
     KnownRank,
     TellingFact,
@@ -43,7 +43,7 @@ _MOST_SETS = 12
 _MOST_BRANCHES = 60
 _MOST_TRAINS = 6
 
-_ASKED: dict[FactKind, str] = {
+_REQUESTED: dict[FactKind, str] = {
     "pair": "whether {} mesh",
     "driver": "which arbor drives {}",
     "pointer": "which arbor carries the pointer of {}",
@@ -64,8 +64,8 @@ _FACTS = {
     "pointer": "the pointer of {} is on {}",
     "count": "{} has {}",
     "added": "{} has {}",
-    GREATEST: "no added wheel has more than {1}",
-    LEAST: "no added wheel has fewer than {1}",
+    MAXIMUM: "no added wheel has more than {1}",
+    MINIMUM: "no added wheel has fewer than {1}",
 }
 _USE = {
     "wheels": "every surviving wheel meshes",
@@ -103,15 +103,15 @@ def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turni
     'Trains that explain metonic-l-m'
     """
     aside = PageExtras(viewer=viewer, notes=[_TURNING] if viewer else [])
-    return Document(f"Trains that explain {found.name}", list(_lead(found)), list(_sections(found, turning)), aside)
+    return Document(f"Trains that explain {found.name}", list(_summary(found)), list(_sections(found, turning)), aside)
 
 
-def _lead(found: ReconstructionAnswer) -> Iterator[str]:
+def _summary(found: ReconstructionAnswer) -> Iterator[str]:
     problem, limits = found.problem, found.problem.additions
     where = "on any arbor" if limits.on == "any" else "on new arbors"
     arbors = "" if limits.arbors is None else f" and {plural(limits.arbors, 'arbor')}"
     idlers = "a driven wheel may drive" if problem.idlers else "a driven wheel drives nothing"
-    wheels = f"{plural(limits.wheels, 'wheel')} of {limits.least} to {limits.greatest} teeth"
+    wheels = f"{plural(limits.wheels, 'wheel')} of {limits.minimum} to {limits.maximum} teeth"
     added = f"at most {wheels}{arbors} may be added {where}"
     if not limits.wheels:
         added = "nothing may be added"
@@ -326,7 +326,7 @@ def _cost(changes: str, admitted: AdmittingQuestion) -> str:
     told = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
     if admitted.place is None:
         trains = f"trains are {', '.join(told)}" if told else "there is no train"
-        return f"{begins}, and with at most {plural(admitted.asked, 'wheel')} {trains}."
+        return f"{begins}, and with at most {plural(admitted.requested, 'wheel')} {trains}."
     place = admitted.place
     outweighed = "none outweighs it" if place.dearer == 1 else f"the best outweighs it {_times(place)}"
     return (
@@ -382,7 +382,7 @@ def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
 
 
 def _answers(facts: Sequence[FactMarginal]) -> Table:
-    named = {**_ASKED, "used": "whether {} is used"}
+    named = {**_REQUESTED, "used": "whether {} is used"}
     rows = [
         (named[fact.kind].format(fact.subject), _told(fact.answers), figure(fact.bits, 3))
         for fact in facts
@@ -404,7 +404,7 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
     if not facts:
         return
     rows = [
-        (_asked(one.fact), figure(one.fact.bits, 3), _told(one.fact.answers), _alike(one.same))
+        (_requested(one.fact), figure(one.fact.bits, 3), _told(one.fact.answers), _alike(one.same))
         for one in facts[:_MOST_NEXT]
     ]
     lines = [
@@ -417,12 +417,12 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
     yield Section("The next fact to look for", lines, [Table(header, rows)])
 
 
-def _asked(fact: FactMarginal | Fact) -> str:
-    return _ASKED[fact.kind].format(fact.subject)
+def _requested(fact: FactMarginal | Fact) -> str:
+    return _REQUESTED[fact.kind].format(fact.subject)
 
 
 def _alike(facts: Sequence[Fact]) -> str:
-    told = [_asked(fact) for fact in facts[:_MOST_ALIKE]]
+    told = [_requested(fact) for fact in facts[:_MOST_ALIKE]]
     return "; ".join(told) + (f" and {len(facts) - _MOST_ALIKE} more" if len(facts) > _MOST_ALIKE else "")
 
 
@@ -449,7 +449,8 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     yield Section("Why nothing fits", [line], [Table(("dial", "alone"), rows)])
     doubts = [(one.change, str(one.fewest), str(one.total)) for one in found.doubts]
     tried = (
-        f"{plural(found.asked, 'change')} to the evidence tried, one at a time: a hard fact dropped, or a surviving "
+        f"{plural(found.requested, 'change')} to the evidence tried, one at a time: a hard fact "
+        f"dropped, or a surviving "
         f"count read otherwise by up to {plural(MISREAD, 'tooth').replace('tooths', 'teeth')}."
     )
     lines = [tried] if doubts else [tried, "None of them alone leaves an explanation."]

@@ -206,13 +206,13 @@ def _contact(pair: PairStrength) -> Table:
         (
             each.where,
             figure(each.position, 3),
-            figure(each.couples, 4),
+            figure(each.tooth_pairs, 4),
             figure(each.force, 4),
             figure(each.pressure, 4) if each.pressure < float("inf") else "no bound",
         )
         for each in pair.contact
     ]
-    return Table((pair.pair, "position", "couples", "force (N)", "pressure (MPa)"), rows)
+    return Table((pair.pair, "position", "tooth_pairs", "force (N)", "pressure (MPa)"), rows)
 
 
 def _points(points: Sequence[PointContact]) -> Iterator[Table]:
@@ -298,7 +298,7 @@ def _iso(pairs: Sequence[PairStrength]) -> Iterator[Table]:
 
 def _wear_words(found: TrainStrength) -> Iterator[str]:
     K = found.wear_coefficients
-    yield f"Over {figure(found.turns, 6)} turns of the input; K from {K.least:g} to {K.greatest:g}."
+    yield f"Over {figure(found.turns, 6)} turns of the input; K from {K.minimum:g} to {K.maximum:g}."
     yield _WEAR
 
 
@@ -316,7 +316,7 @@ def _wear(pairs: Sequence[PairStrength]) -> Table:
 
 
 def _range(found: WearRange) -> str:
-    return f"{figure(found.least, 3)} to {figure(found.greatest, 3)}"
+    return f"{figure(found.minimum, 3)} to {figure(found.maximum, 3)}"
 
 
 def _arbors(arbors: Sequence[ArborStrength]) -> Table:

@@ -16,9 +16,9 @@ from geartrain.simulation.strength.iso_6336 import IsoContact, IsoRoot
 class WearRange(NamedTuple):
     """One figure for the least and the greatest wear coefficient."""
 
-    least: float
+    minimum: float
     """With the least wear coefficient."""
-    greatest: float
+    maximum: float
     """With the greatest wear coefficient."""
 
 

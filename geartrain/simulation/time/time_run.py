@@ -42,7 +42,7 @@ class TimeRun(Tabular, Pictured, Result):
         "train",
         "state",
         "model",
-        "lead",
+        "driving_link",
         "rate",
         "link",
         "driven",
@@ -54,7 +54,7 @@ class TimeRun(Tabular, Pictured, Result):
         "contacts",
         "impacts",
         group("energy", Key("", "energy")),
-        "leads",
+        "deviations",
         "spectra",
         "figures",
         "unsolved",
@@ -67,7 +67,7 @@ class TimeRun(Tabular, Pictured, Result):
     """Its name."""
     state: str | None
     """The declared state."""
-    lead: str
+    driving_link: str
     """The input that sets the scale."""
     rate: float
     """Its mean speed in the counted part of the run [rad/s], below 0 where it turns backwards."""
@@ -110,11 +110,11 @@ class TimeRun(Tabular, Pictured, Result):
     """Those of the counted part."""
     energy: EnergyAccount
     """Of the counted part."""
-    leads: tuple[OutputLead, ...]
+    deviations: tuple[OutputDeviation, ...]
     """Outputs against `motion`."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
     """By output, strongest first."""
-    figures: tuple[SettledFigure, ...]
+    figures: tuple[ConvergedFigure, ...]
     """What steps of h and h/2 say."""
     unsolved: int
     """Steps in which no consistent set of contacts was found; their last guess was taken."""
@@ -139,7 +139,7 @@ class TimeRun(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, leads."""
+        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, deviations."""
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
             (self.angles, "angle (rad)"),
@@ -150,8 +150,8 @@ class TimeRun(Tabular, Pictured, Result):
         made["drive torque (N m)"] = self.drive
         for name, drive, coast in zip(self.gaps.labels[0], self.gaps.values, self.coast_gaps.values, strict=True):
             made |= {f"{name} gap (rad)": drive, f"{name} coast gap (rad)": coast}
-        leads = zip(self.ahead.labels[0], self.ahead.values, strict=True)
-        made |= {f"output {name} ahead (rad)": row for name, row in leads}
+        deviations = zip(self.ahead.labels[0], self.ahead.values, strict=True)
+        made |= {f"output {name} ahead (rad)": row for name, row in deviations}
         return {name: column.tolist() for name, column in made.items()}
 
     def to_csv(self) -> str:
@@ -168,11 +168,11 @@ class TimeRun(Tabular, Pictured, Result):
     def _repr_html_(self) -> str:
         rows = "".join(
             f"<tr><td>{html.escape(each.name)}</td><td>{100 * each.apart:.3g}</td><td>{100 * each.coast:.3g}</td>"
-            f"<td>{each.blows:.4g}</td><td>{1e3 * each.power:.3g}</td></tr>"
+            f"<td>{each.impact_rate:.4g}</td><td>{1e3 * each.power:.3g}</td></tr>"
             for each in self.contacts
         )
         head = "<tr><th>contact</th><th>apart (%)</th><th>coast (%)</th><th>blows (1/s)</th><th>blows (mW)</th></tr>"
-        text = f"{html.escape(self.train)}: {self.rate / tau:.4g} turn/s of {html.escape(self.lead)}"
+        text = f"{html.escape(self.train)}: {self.rate / tau:.4g} turn/s of {html.escape(self.driving_link)}"
         return f"<p>{text}</p><table>{head}{rows}</table>"
 
 
@@ -194,7 +194,7 @@ class ContactInTime(Result):
     """Share of time in which no flank touches."""
     coast: float
     """Share of time on the coast flank, or nearer to it."""
-    blows: float
+    impact_rate: float
     """Impacts a second [1/s]."""
     power: float
     """What they take [W]."""
@@ -255,7 +255,7 @@ class EnergyAccount(Result):
         "bearings",
         "drag",
         "friction",
-        "blows",
+        "impact_loss",
         "steps",
         "kinetic",
         "elastic",
@@ -275,7 +275,7 @@ class EnergyAccount(Result):
     """Energy lost by viscous drag [J]."""
     friction: float
     """Energy lost by friction of teeth and pins [J]."""
-    blows: float
+    impact_loss: float
     """Taken by impacts; of teeth that yield, by their damping."""
     steps: float
     """Taken, or given, by contact that lasts: an error of the steps' length, that falls with it."""
@@ -294,19 +294,19 @@ class EnergyAccount(Result):
     @property
     def closure(self) -> float:
         """By how much the account does not close, over all that passed through it and what is stored."""
-        taken = self.bearings + self.drag + self.friction + self.blows + self.steps
+        taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
         scale = sum(abs(each) for each in (self.put_in, taken, kept, self.stored))
         return abs(self.put_in - taken - kept) / scale if scale else 0.0
 
 
 @dataclass(frozen=True)
-class OutputLead(Result):
+class OutputDeviation(Result):
     """How far an output runs ahead of the motion in which all drive flanks touch, and behind it.
 
     See Also
     --------
-    TimeRun.leads : where these stand.
+    TimeRun.deviations : where these stand.
     """
 
     output: str
@@ -320,7 +320,7 @@ class OutputLead(Result):
 
 
 @dataclass(frozen=True)
-class SettledFigure(Result):
+class ConvergedFigure(Result):
     """A figure by steps of length h and h/2, with what the length of the run leaves open.
 
     See Also
@@ -338,7 +338,7 @@ class SettledFigure(Result):
     """Value by steps of length h/2."""
     kind: Literal["mean", "extreme"]
     """A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic."""
-    settled: bool
+    converged: bool
     """Whether both agree: a mean to 5 %, an extreme to 1 %, a share of time to 0.005, an angle to 1e-6 rad if that
     is more; and whether the interval of a mean is as narrow."""
     interval: float | None = None

@@ -79,7 +79,7 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     """
     pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
     moving = _moving(run)
-    leading = [each.output for each in run.leads if degrees(max(each.ahead, each.behind)) > _FLAT]
+    leading = [each.output for each in run.deviations if degrees(max(each.ahead, each.behind)) > _FLAT]
     tall = [1.0] * (len(pairs) + len(stops)) + [1.5] * bool(leading) + [2.0] * bool(moving)
     if not tall:
         what, why = (
@@ -129,7 +129,7 @@ def _across(run: TimeRun) -> Floats:
 
 
 def _across_text(run: TimeRun) -> str:
-    return f"turns of {short(run.lead)}" if run.driven == "rate" else "time (s)"
+    return f"turns of {short(run.driving_link)}" if run.driven == "rate" else "time (s)"
 
 
 def _loose(run: TimeRun) -> list[str]:
@@ -146,10 +146,10 @@ def _loose(run: TimeRun) -> list[str]:
 
 def _moving(run: TimeRun) -> list[str]:
     """Outputs that do not turn evenly, those furthest ahead or behind first."""
-    lead = {each.output: max(each.ahead, each.behind) for each in run.leads}
-    swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in lead}
-    names = [name for name in lead if max(lead[name], swing[name]) > _SEEN]
-    return sorted(names, key=lambda name: (lead[name], swing[name]), reverse=True)[:_OUTPUTS]
+    deviation = {each.output: max(each.ahead, each.behind) for each in run.deviations}
+    swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in deviation}
+    names = [name for name in deviation if max(deviation[name], swing[name]) > _SEEN]
+    return sorted(names, key=lambda name: (deviation[name], swing[name]), reverse=True)[:_OUTPUTS]
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:

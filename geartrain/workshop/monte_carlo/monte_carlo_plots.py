@@ -94,7 +94,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     --------
     >>> import geartrain
     >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["placement=2 %"]), ("moon",))
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["pitch_deviation=2 %"]), ("moon",))
     >>> found = MonteCarloResult(run_trials(plan, trials=2, seed=1))
     >>> monte_carlo_figure(found, "convergence").axes[0].get_ylabel()
     'probability of a jam'
@@ -110,7 +110,7 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     if picture == "errors":
         return errors_figure(trials)
     if picture == "course":
-        return course_figure(findings.courses, trials.plan.lead)
+        return course_figure(findings.courses, trials.plan.driving_link)
     if picture == "convergence":
         return probability_convergence_figure(trials)
     if picture == "sobol":
@@ -134,11 +134,11 @@ def errors_figure(trials: TrialResults) -> Figure:
     return histogram_figure(found, f"at random positions{note}")
 
 
-def course_figure(courses: Sequence[PointerErrorCourse], lead: str) -> Figure:
+def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str) -> Figure:
     """Bands of pointer errors along one turn of each pointer that was followed."""
     _need(courses, "no pointer was followed along its way", "name the outputs to follow: --output")
     return pointer_error_figure(
-        {each.name: ErrorBands.of(each.turns, np.degrees(each.errors)) for each in courses}, lead
+        {each.name: ErrorBands.of(each.turns, np.degrees(each.errors)) for each in courses}, driving_link
     )
 
 
@@ -198,9 +198,9 @@ class ErrorBands:
 
     turns: Floats
     """Of the input."""
-    least: Floats
+    minimum: Floats
     """Error of any trial (deg)."""
-    greatest: Floats
+    maximum: Floats
     """Error of any trial (deg)."""
     percentiles: Floats
     """2.5, 25, 50, 75 and 97.5 percent of the trials are below (deg), (5, positions)."""
@@ -223,7 +223,7 @@ class ErrorBands:
         return cls(places, table.min(axis=0), table.max(axis=0), levels, len(table), table[0])
 
 
-def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the input") -> Figure:
+def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str = "the input") -> Figure:
     """Of each pointer: median, the middle 50 and 95 percent, and the extremes of its error over the turns of `lead`.
 
     The thin dashed line is one trial. Raises `QuestionError` where there is none to draw.
@@ -233,7 +233,7 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the in
     figure, panels = _panels(shown, sharex=len(spans) <= 1)  # each over a turn of its own pointer
     for axes, (name, bands) in zip(panels, shown.items(), strict=True):
         low, lower, middle, upper, high = bands.percentiles
-        for each in zip((bands.least, low, lower), (bands.greatest, high, upper), _SHADES, _SHARES, strict=True):
+        for each in zip((bands.minimum, low, lower), (bands.maximum, high, upper), _SHADES, _SHARES, strict=True):
             _between(axes, bands.turns, *each)
         if bands.example is not None:
             axes.plot(
@@ -243,7 +243,7 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the in
         axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
         axes.set_ylabel(f"{name}\nerror (deg)", fontsize=TEXT)
         axes.set_xlim(bands.turns[0], bands.turns[-1])
-    panels[-1].set_xlabel(f"turns of {lead}{left}", fontsize=TEXT)
+    panels[-1].set_xlabel(f"turns of {driving_link}{left}", fontsize=TEXT)
     _legend(figure, panels[0])
     return figure
 

@@ -55,8 +55,6 @@ def pytest_configure(config: pytest.Config) -> None:
         settings.load_profile("more" if config.getoption("--rest") else "hunt")
     if os.environ.get("GEARTRAIN_REQUIRE_EXTRAS"):  # all of `.[ci]` is installed: what cannot be imported is a failure
         pytest.importorskip = lambda name, *_, **__: import_module(name)
-    if kept := getattr(config, "cache", None):  # for shipped.py, which is not imported by all tests
-        os.environ["GEARTRAIN_SCENES"] = str(kept.mkdir("geartrain-scenes"))
     if getattr(config, "cache", None) and not config.getoption("--rest") and not hasattr(config, "workerinput"):
         config.pluginmanager.register(Passed(config))
 

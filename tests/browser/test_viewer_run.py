@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shipped
-from conftest import OpenPage, Shown
+from conftest import OpenPage, SharePage, Shown
 from viewing import DESK, tab, wait
 
 from geartrain import load
@@ -27,10 +27,8 @@ def played() -> Played:
 
 
 @pytest.fixture
-def shown(played: Played, open_page: OpenPage, tmp_path: Path) -> Shown:
-    path = tmp_path / "run.html"
-    path.write_text(page([played[1]], teeth=False), encoding="utf-8")
-    return open_page(path, **DESK)
+def shown(played: Played, share: SharePage) -> Shown:
+    return share(page([played[1]], teeth=False))
 
 
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:

@@ -143,7 +143,7 @@ def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
     assert shown.run("geartrain.machines[0].time()") > later
 
 
-def test_a_run_backlashes_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
+def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
     shown.page.get_by_label("Again at the end").uncheck()
     shown.page.get_by_role("slider", name="Speed").fill("1")
     shown.page.get_by_role("button", name="play", exact=True).click()

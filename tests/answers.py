@@ -62,7 +62,7 @@ RUNS = (
     "motion {} --turns -1/3 --samples 50 --csv",
     "montecarlo {} --trials 4 --json",
     "budget {} --turns 2 --samples 400 --trials 4 --json",
-    'montecarlo {} --trials 4 --set placement="0.1 deg" --set tip="0.3 %" --json',
+    'montecarlo {} --trials 4 --set pitch_deviation="0.1 deg" --set tip="0.3 %" --json',
 )
 """What is asked of every state of every shipped train."""
 
@@ -76,8 +76,8 @@ OTHERS = (
     *(f"mesh {form} --teeth 24 36 --json" for form in ("uniform_stress", "uniform_temperature", "compare")),
     *(f"mesh triangular --teeth 48 96 --{by} --friction 0.2 --json" for by in ("clearance 1.01", "window 0.3")),
     "mesh involute --teeth 36 70 --internal --shift 0.696,0.226 --json",
-    "mesh triangular --teeth 20 31 --clearance 1.012 --backwards --json",
-    "mesh triangular --teeth 48 96 --vary clearance=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
+    "mesh triangular --teeth 20 31 --clearance-factor 1.012 --backwards --json",
+    "mesh triangular --teeth 48 96 --vary clearance-factor=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
     "mesh pin --pin-radius 9.6mm --offset 1.1mm --friction 0.1 --json",
     *(
         f"teeth set 142 --kind {kind} --planets 3 --range 12:70 --best 5 --json"
@@ -160,9 +160,9 @@ class Group(NamedTuple):
 def groups() -> Iterator[Group]:
     """All that is asked today."""
     for path in train_files():
-        asked = (*EACH, *(SEARCHED if "search:" in path.read_text(encoding="utf-8") else ()))
+        requested = (*EACH, *(SEARCHED if "search:" in path.read_text(encoding="utf-8") else ()))
         yield Group(
-            path.stem, [_run(f"geartrain {each.format(path.stem)}") for each in asked], together=False, train=True
+            path.stem, [_run(f"geartrain {each.format(path.stem)}") for each in requested], together=False, train=True
         )
     yield Group("others", [_run(f"geartrain {each}") for each in OTHERS], together=False)
     for path in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))):
@@ -188,15 +188,15 @@ def _steps(page: Path) -> Iterator[dict[str, str]]:
             lines = [line for line in body.splitlines() if kind == "sh" and line.startswith("geartrain ")]
         if page.stem != "commands":
             for line in lines:
-                yield from _asked(line, texts)
+                yield from _requested(line, texts)
 
 
-def _asked(line: str, texts: dict[str, str]) -> Iterator[dict[str, str]]:
+def _requested(line: str, texts: dict[str, str]) -> Iterator[dict[str, str]]:
     """A line of a page: commands bare of pipes, with their data where there are any; other lines for the shell."""
     words = line.split()
     if words[0] == "bash":
         for each in texts[words[1]].splitlines():
-            yield from _asked(each, texts)
+            yield from _requested(each, texts)
     elif words[0] == "geartrain":
         command = re.split(r" (?:2?>|\|)", line)[0].strip()
         if words[2:] and not words[2].endswith(".yaml"):
@@ -240,16 +240,18 @@ def _searched(words: list[str]) -> list[str]:
     """What `geartrain teeth` was asked before it was said what is searched for, with the word for that."""
     if words[:2] != ["geartrain", "teeth"] or words[2] in ("ratio", "approximants", "train", "set", "orrery"):
         return words
-    asked = words[2:]
-    if "--kind" in asked:
+    requested = words[2:]
+    if "--kind" in requested:
         word = "set"
-    elif "--approximants" in asked:
+    elif "--approximants" in requested:
         word = "approximants"
-    elif "=" in asked[0]:
+    elif "=" in requested[0]:
         word = "orrery"
     else:
-        word = "train" if asked[0].endswith(".yaml") or list(ROOT.glob(f"trains/*/{asked[0]}.yaml")) else "ratio"
-    return [*words[:2], word, *(each for each in asked if each != "--approximants")]
+        word = (
+            "train" if requested[0].endswith(".yaml") or list(ROOT.glob(f"trains/*/{requested[0]}.yaml")) else "ratio"
+        )
+    return [*words[:2], word, *(each for each in requested if each != "--approximants")]
 
 
 def answers(group: Group, wanted: Callable[[str], bool]) -> list[Answer]:
@@ -464,8 +466,8 @@ def _told(old: Answer, new: Answer) -> list[str]:
 
 def _write(group: Group, folder: Path) -> tuple[str, int]:
     if group.train:
-        asked = (f"{each} --state {state}" if state else each for state in _states(group.name) for each in RUNS)
-        group.steps.extend(_run(f"geartrain {each.format(group.name)}") for each in asked)
+        requested = (f"{each} --state {state}" if state else each for state in _states(group.name) for each in RUNS)
+        group.steps.extend(_run(f"geartrain {each.format(group.name)}") for each in requested)
     found = answers(group, lambda command: True)
     kept = {"together": group.together, "steps": group.steps, "answers": found}
     text = json.dumps(kept, ensure_ascii=False, indent=0)
@@ -514,13 +516,13 @@ def main() -> int:
             print(f"{sum(each[1] for each in made)} answers of {len(made)} groups, {time.monotonic() - began:.0f} s")
             return 0
         paths = sorted(given.folder.glob("*.json"), key=_first)
-        asked = differing = 0
+        requested = differing = 0
         for name, count, lines in pool.map(_compare, paths, [given.only] * len(paths)):
-            asked += count
+            requested += count
             differing += sum(not line.startswith(" ") for line in lines)
             if lines:
                 print("\n".join((f"[{name}]", *lines, "")), flush=True)
-    print(f"{differing} of {asked} answers differ, {time.monotonic() - began:.0f} s")
+    print(f"{differing} of {requested} answers differ, {time.monotonic() - began:.0f} s")
     return 1 if differing else 0
 
 

@@ -22,9 +22,9 @@ DRIVEN = ("=", 0)
 
 def carried_trains(evidence: Evidence) -> list[set[Node]]:
     """All trains with 0, 1, ... added wheels."""
-    asked = evidence["reconstruct"]
+    requested = evidence["reconstruct"]
     root = _source(evidence)
-    found: list[set[Node]] = [set() for _ in range(asked["add"]["wheels"] + 1)]
+    found: list[set[Node]] = [set() for _ in range(requested["add"]["wheels"] + 1)]
     trees: set[Node] = {(root, (), (), ())}
     while trees:
         for tree in trees:
@@ -41,8 +41,8 @@ def _source(evidence: Evidence) -> str:
 def _grown(tree: Node, evidence: Evidence) -> Iterator[Node]:
     """The tree with one mesh more, on every arbor, by every wheel that may drive, to everything that may be driven."""
     here = {node[0] for node in _nodes(tree)}
-    least, greatest = evidence["reconstruct"]["add"]["teeth"]
-    counts = range(least, greatest + 1)
+    minimum, maximum = evidence["reconstruct"]["add"]["teeth"]
+    counts = range(minimum, maximum + 1)
     children: list[Node] = [("", ("", teeth), (), ()) for teeth in counts]
     for link in _survivors(evidence) - here:
         wheels = _wheels(evidence, link)
@@ -185,8 +185,8 @@ def random_evidence(seed: int, rings: bool = False) -> Evidence:
     rings  whether some of the wheels that survive are rings
     """
     chance = random.Random(seed)
-    least = chance.randint(5, 9)
-    greatest = least + chance.randint(1, 2)
+    minimum = chance.randint(5, 9)
+    maximum = minimum + chance.randint(1, 2)
     speed = Fraction(chance.choice((1, 1, -1, 2, -3)), chance.choice((1, 1, 2, 3)))
     source = chance.choice(("frame", "frame", "frame", "sun"))
     inputs = {CARRIER: speed}
@@ -202,9 +202,9 @@ def random_evidence(seed: int, rings: bool = False) -> Evidence:
             wheel = chance.choice(drivers)
         else:
             wheel = f"{parent}w{len(links[parent]['wheels'])}"
-            links[parent]["wheels"][wheel] = chance.randint(least, greatest)
+            links[parent]["wheels"][wheel] = chance.randint(minimum, maximum)
         name = f"a{number}"
-        links[name] = {"wheels": {f"{name}d": chance.randint(least, greatest)}}
+        links[name] = {"wheels": {f"{name}d": chance.randint(minimum, maximum)}}
         driven[name] = (wheel, f"{name}d")
         order.append(name)
         if rings and chance.random() < 0.6:
@@ -249,7 +249,7 @@ def random_evidence(seed: int, rings: bool = False) -> Evidence:
         "outputs": outputs,
         "reconstruct": {
             "carrier": CARRIER,
-            "add": {"wheels": max(1, 2 - left) if rings else 2, "teeth": [least, greatest]},
+            "add": {"wheels": max(1, 2 - left) if rings else 2, "teeth": [minimum, maximum]},
             "use": chance.choice(("wheels", "wheels", "arbors", "some")),
             "idlers": chance.random() < 0.4,
         },

@@ -194,22 +194,22 @@ def main() -> None:
     parser.add_argument("--all", action="store_true", help="with --again: also those that no test found then")
     parser.add_argument("--patience", type=float, default=1800, help="seconds after which tests are ended (1800)")
     parser.add_argument("--out", type=Path, required=True, help="file to write")
-    asked = parser.parse_args()
+    requested = parser.parse_args()
     earlier: list[dict[str, str]] = []
-    if asked.again:
-        earlier = [json.loads(line) for line in asked.again.read_text(encoding="utf-8").splitlines()]
+    if requested.again:
+        earlier = [json.loads(line) for line in requested.again.read_text(encoding="utf-8").splitlines()]
         chosen = [
             Fault(**{name: each[name] for name in Fault.__dataclass_fields__})  # type: ignore[arg-type]
             for each in earlier
-            if asked.all or each["killer"]
+            if requested.all or each["killer"]
         ]
     else:
-        chosen = drawn(asked.number, asked.seed, tuple(asked.rooms), asked.near)
+        chosen = drawn(requested.number, requested.seed, tuple(requested.rooms), requested.near)
     killed = 0
-    with tempfile.TemporaryDirectory() as folder, asked.out.open("w", encoding="utf-8") as out:
+    with tempfile.TemporaryDirectory() as folder, requested.out.open("w", encoding="utf-8") as out:
         trial = Trial(Path(folder))
         for at, fault in enumerate(chosen, 1):
-            killer = trial.killer(fault, asked.patience, asked.near)
+            killer = trial.killer(fault, requested.patience, requested.near)
             killed += bool(killer)
             print(json.dumps({**asdict(fault), "killer": killer}), file=out, flush=True)
             print(f"{at}/{len(chosen)} {killed} killed: {fault.path}:{fault.line} {killer or 'LIVES'}", flush=True)

@@ -65,7 +65,7 @@ def explanations(problem: ReconstructionProblem) -> tuple[Found, ...]:
 
 def _by_added(problem: ReconstructionProblem) -> list[frozenset[Node]]:
     found: list[set[Node]] = [set() for _ in range(problem.additions.wheels + 1)]
-    counts = range(problem.additions.least, problem.additions.greatest + 1)
+    counts = range(problem.additions.minimum, problem.additions.maximum + 1)
     trees: set[Node] = {(problem.input.name, (), (), ())}
     while trees:
         for tree in trees:
@@ -243,7 +243,7 @@ def _at_place(node: Node, dial: SearchedDial) -> bool:
 
 
 def _fits(speed: Fraction, dial: SearchedDial) -> bool:
-    return dial.least <= (speed if dial.signed else abs(speed)) <= dial.greatest
+    return dial.minimum <= (speed if dial.signed else abs(speed)) <= dial.maximum
 
 
 def _dialled(node: Node, shown: dict[int, list[str]], numbers: Iterator[int]) -> Node:
@@ -335,14 +335,14 @@ def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> Recon
         Whether a driven wheel may drive, in half of the questions.
     """
     chance = random.Random(seed)
-    least = chance.randint(6, 12)
-    greatest = least + chance.randint(1, 4)
+    minimum = chance.randint(6, 12)
+    maximum = minimum + chance.randint(1, 4)
     lost = wheels
     trees = [_Grown(0, None, None)]
     for number in range(1, chance.randint(2, 4)):
         parent = chance.choice(trees)
-        wheel = parent.driver(chance, least, greatest)
-        trees.append(_Grown(number, (parent, wheel), chance.randint(least, greatest)))
+        wheel = parent.driver(chance, minimum, maximum)
+        trees.append(_Grown(number, (parent, wheel), chance.randint(minimum, maximum)))
     speeds_of = {arbor.number: arbor.speed() for arbor in trees}
     for arbor in chance.sample(trees[1:], len(trees) - 1):
         if len(arbor.counts()) <= lost and chance.random() < 0.7:
@@ -354,7 +354,7 @@ def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> Recon
             lost -= 1
     leaves = [arbor for arbor in trees if not arbor.drivers]
     shown = leaves + [arbor for arbor in trees[1:] if arbor.drivers and chance.random() < 0.2]
-    survivors = tuple(_survivor(arbor, chance, least, greatest) for arbor in trees if arbor.survives)
+    survivors = tuple(_survivor(arbor, chance, minimum, maximum) for arbor in trees if arbor.survives)
     dials = tuple(_random_dial(chance, arbor, speeds_of[arbor.number]) for arbor in shown[:3])
     pairs = [
         frozenset((first.name, second.name))
@@ -369,8 +369,8 @@ def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> Recon
         dials=dials,
         additions=Additions(
             wheels,
-            least,
-            greatest,
+            minimum,
+            maximum,
             arbors=chance.choice((None, None, None, 1)),
             on=chance.choice(("any", "any", "new")),
         ),
@@ -396,9 +396,9 @@ class _Grown:
         self.survives = True
         self.hidden = 0
 
-    def driver(self, chance: random.Random, least: int, greatest: int) -> int:
+    def driver(self, chance: random.Random, minimum: int, maximum: int) -> int:
         if not self.drivers or chance.random() < 0.4:
-            self.drivers.append(chance.randint(least, greatest))
+            self.drivers.append(chance.randint(minimum, maximum))
         return chance.choice(self.drivers)
 
     def counts(self) -> list[int]:
@@ -411,7 +411,7 @@ class _Grown:
         return -arbor.speed() * Fraction(wheel, self.driven)
 
 
-def _survivor(arbor: _Grown, chance: random.Random, least: int, greatest: int) -> SurvivingArbor:
+def _survivor(arbor: _Grown, chance: random.Random, minimum: int, maximum: int) -> SurvivingArbor:
     counts = arbor.counts()
     if arbor.hidden:
         counts = counts[: len(counts) - arbor.hidden]
@@ -442,7 +442,7 @@ def with_rings(problem: ReconstructionProblem, seed: int) -> ReconstructionProbl
         wheels = (replace(wheel, internal=chance.random() < 0.6) for wheel in arbor.wheels)
         arbors.append(SurvivingArbor(arbor.name, tuple(wheels)))
     turned = tuple(
-        replace(dial, least=-dial.greatest, greatest=-dial.least) if dial.signed and chance.random() < 0.4 else dial
+        replace(dial, minimum=-dial.maximum, maximum=-dial.minimum) if dial.signed and chance.random() < 0.4 else dial
         for dial in problem.dials
     )
     changed = replace(problem, input=arbors[0], arbors=tuple(arbors[1:]), dials=turned)

@@ -33,8 +33,8 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 _CLOCKLESS = [HealthCheck.too_slow, HealthCheck.data_too_large]
 settings.register_profile("hunt", deadline=None, max_examples=60, suppress_health_check=_CLOCKLESS)
 settings.register_profile("more", settings.get_profile("hunt"), derandomize=True)
-settings.register_profile("laws", settings.get_profile("more"), max_examples=30)
-settings.load_profile("laws")
+settings.register_profile("transmissions", settings.get_profile("more"), max_examples=30)
+settings.load_profile("transmissions")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -55,18 +55,18 @@ def triangular(window: float | str = 0.5, half_angle: float = 30, radii: str = "
 # ----------------------------------------------------------------------------------------------------- laws, 50 digits
 
 
-def contact(couple: Couple, S: Any) -> tuple[Segment, Any]:
+def contact(tooth_pair: Couple, S: Any) -> tuple[Segment, Any]:
     """Which couple drives at the forward angle S, and its alpha_1."""
-    for segment in couple.path:
-        over = mp.floor((segment.start + S) / couple.p1 - segment.k) + segment.k
-        x = over * couple.p1 - S
+    for segment in tooth_pair.path:
+        over = mp.floor((segment.start + S) / tooth_pair.p1 - segment.k) + segment.k
+        x = over * tooth_pair.p1 - S
         if x >= segment.end:
             return segment, x
     raise AssertionError("the path has a hole")
 
 
 @cache
-def couple_of(sizes: TriangularSizes) -> Couple:
+def tooth_pair_of(sizes: TriangularSizes) -> Couple:
     """Of some sizes, with its path, made once."""
     return Couple.of(sizes)
 
@@ -75,17 +75,17 @@ class Toothed:
     """The law of triangular teeth."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
-        self.couple = couple_of(sizes)
+        self.tooth_pair = tooth_pair_of(sizes)
         self.mean = mp.mpf(sizes.z1) / sizes.z2
 
     def angle(self, S: Any) -> Any:
         """Driven angle."""
-        return self.mean * S + self.couple.error(S)
+        return self.mean * S + self.tooth_pair.error(S)
 
     def speed(self, S: Any) -> Any:
         """tau; 0 in a standstill."""
-        segment, x = contact(self.couple, S)
-        return mp.mpf(0) if segment.held is not None else self.couple.speed(x, segment.phase)
+        segment, x = contact(self.tooth_pair, S)
+        return mp.mpf(0) if segment.held is not None else self.tooth_pair.speed(x, segment.phase)
 
 
 class Pinned:
@@ -125,17 +125,17 @@ class Even:
 class Set:
     """A law whose driver is counted from S, where it stands at the start."""
 
-    law: Any
+    transmission: Any
     S: Any
-    mean = property(lambda self: self.law.mean)
+    mean = property(lambda self: self.transmission.mean)
 
     def angle(self, S: Any) -> Any:
         """Driven angle."""
-        return self.mean * self.S + self.law.angle(S - self.S)
+        return self.mean * self.S + self.transmission.angle(S - self.S)
 
     def speed(self, S: Any) -> Any:
         """Ratio of speeds."""
-        return self.law.speed(S - self.S)
+        return self.transmission.speed(S - self.S)
 
 
 # ---------------------------------------------------------------------------------------------------- trains, 50 digits
@@ -146,29 +146,34 @@ class Exactly:
 
     def __init__(self, train: Train, loaded: Any) -> None:
         self.train = train
-        sizes = {mesh.name: mesh.law.sizes for mesh in loaded.meshes}
+        sizes = {mesh.name: mesh.transmission.sizes for mesh in loaded.meshes}
         known: dict[Any, Toothed] = {}
-        self.laws = []
+        self.transmissions = []
         for at, pair in enumerate(train.pairs):
             own = sizes.get(f"d{at}~f{at}")
             if isinstance(pair.by, Slot):
-                self.laws.append(Pinned(pair.by.r, pair.by.e))
+                self.transmissions.append(Pinned(pair.by.r, pair.by.e))
             elif own is None:
-                self.laws.append(Even(pair.by))
+                self.transmissions.append(Even(pair.by))
             else:
-                self.laws.append(known.setdefault(own, Toothed(own)))
+                self.transmissions.append(known.setdefault(own, Toothed(own)))
         # each driver has a tooth, or its pin, on the line of centres where its link hangs at the start
         signs = [first * second for first, second in self.senses]
-        ratios = [sign * law.mean for sign, law in zip(signs, self.laws, strict=True)]
-        ahead = [second * law.angle(mp.mpf(0)) for (_, second), law in zip(self.senses, self.laws, strict=True)]
+        ratios = [sign * transmission.mean for sign, transmission in zip(signs, self.transmissions, strict=True)]
+        ahead = [
+            second * transmission.angle(mp.mpf(0))
+            for (_, second), transmission in zip(self.senses, self.transmissions, strict=True)
+        ]
         hung = self._solved(ratios, ahead, 0)
-        self.laws = [Set(law, self.forward(hung, at)[0]) for at, law in enumerate(self.laws)]
+        self.transmissions = [
+            Set(transmission, self.forward(hung, at)[0]) for at, transmission in enumerate(self.transmissions)
+        ]
 
     @cached_property
     def means(self) -> list[Any]:
         """Mean speeds of all links."""
         signs = [-1 if pair.by.external else 1 for pair in self.train.pairs]
-        ratios = [sign * law.mean for sign, law in zip(signs, self.laws, strict=True)]
+        ratios = [sign * transmission.mean for sign, transmission in zip(signs, self.transmissions, strict=True)]
         return self._solved(ratios, [mp.mpf(0)] * len(ratios), 1)
 
     @cached_property
@@ -205,12 +210,15 @@ class Exactly:
 
     def misfits(self, angles: Sequence[Any]) -> list[Any]:
         """How far each driven side is behind what its law asks for."""
-        places = [self.forward(angles, number) for number in range(len(self.laws))]
-        return [law.angle(S) - q for law, (S, q) in zip(self.laws, places, strict=True)]
+        places = [self.forward(angles, number) for number in range(len(self.transmissions))]
+        return [transmission.angle(S) - q for transmission, (S, q) in zip(self.transmissions, places, strict=True)]
 
     def ratios(self, angles: Sequence[Any]) -> list[Any]:
         """Instantaneous ratios, driven over driver as seen from the carrier, signed."""
-        speeds = [law.speed(self.forward(angles, number)[0]) for number, law in enumerate(self.laws)]
+        speeds = [
+            transmission.speed(self.forward(angles, number)[0])
+            for number, transmission in enumerate(self.transmissions)
+        ]
         return [first * second * tau for (first, second), tau in zip(self.senses, speeds, strict=True)]
 
     def moved(self, turns: float, errors: Sequence[float]) -> list[Any]:
@@ -237,7 +245,7 @@ class Exactly:
 
     def rates(self, angles: Sequence[Any]) -> list[Any]:
         """Speeds of all links over the lead's."""
-        return self._solved(self.ratios(angles), [mp.mpf(0)] * len(self.laws), 1)
+        return self._solved(self.ratios(angles), [mp.mpf(0)] * len(self.transmissions), 1)
 
 
 def eliminated(rows: Sequence[dict[int, Any]], right: Sequence[Any], size: int) -> list[Any]:
@@ -263,14 +271,14 @@ def eliminated(rows: Sequence[dict[int, Any]], right: Sequence[Any], size: int) 
     return found
 
 
-def composed(laws: Sequence[Any], turns: float) -> tuple[Any, Any, Any]:
+def composed(transmissions: Sequence[Any], turns: float) -> tuple[Any, Any, Any]:
     """The last wheel of a plain chain: its error, its speed over the mean, and radians of it per error of each pair."""
     S, hung, mean, gain, summed = 2 * mp.pi * mp.mpf(turns), mp.mpf(0), mp.mpf(1), mp.mpf(1), mp.mpf(0)
-    for each in laws:
-        law = Set(each, hung)
-        tau = law.speed(S)
-        S, hung, mean = law.angle(S), law.angle(hung), mean * law.mean
-        gain, summed = gain * tau / law.mean, 1 + tau * summed
+    for each in transmissions:
+        transmission = Set(each, hung)
+        tau = transmission.speed(S)
+        S, hung, mean = transmission.angle(S), transmission.angle(hung), mean * transmission.mean
+        gain, summed = gain * tau / transmission.mean, 1 + tau * summed
     return S - mean * 2 * mp.pi * mp.mpf(turns), gain, summed
 
 
@@ -439,17 +447,17 @@ def long_chain(pairs: int, places: Sequence[int]) -> Measured:
     loaded = load(declared(train).replace(f"outputs: {{{every}}}", f"outputs: {{{last}: {{}}}}"))
     found, seconds = timed(lambda: hung(loaded.motion(), 3.3, 201))
     known: dict[Any, Toothed] = {}
-    laws = [known.get(sizes) or known.setdefault(sizes, Toothed(sizes)) for sizes in _sizes(loaded)]
+    transmissions = [known.get(sizes) or known.setdefault(sizes, Toothed(sizes)) for sizes in _sizes(loaded)]
     off = 0.0
     for at in places:
-        error, _, _ = composed(laws, 3.3 * (np.float64(at) / 200))
+        error, _, _ = composed(transmissions, 3.3 * (np.float64(at) / 200))
         mine = float(found[last].error[at]) * (1 if pairs % 2 == 0 else -1)
         off = max(off, float(abs(mine / error - 1)))
     return Measured(off, seconds)
 
 
 def _sizes(loaded: Any) -> list[Any]:
-    return [mesh.law.sizes for mesh in loaded.meshes]
+    return [mesh.transmission.sizes for mesh in loaded.meshes]
 
 
 def at_the_edge(window: float) -> Measured:
@@ -476,31 +484,31 @@ def thirty(z1: int, z2: int, excess: float) -> TriangularSizes:
 def almost_apart(share: float) -> Measured:
     """48 and 96 teeth at nearly the clearance where tips cease to touch: the error of the law, in driven pitches."""
     sizes = thirty(48, 96, 0.01)
-    sizes = sizes.at(sizes.greatest_excess * share)
-    law, couple = TriangularTransmission(sizes), couple_of(sizes)
+    sizes = sizes.at(sizes.maximum_excess * share)
+    transmission, tooth_pair = TriangularTransmission(sizes), tooth_pair_of(sizes)
     S = np.array(DRAWN) * sizes.p1
-    errors, seconds = timed(lambda: law.error(S))
+    errors, seconds = timed(lambda: transmission.error(S))
     pairs = zip(S.tolist(), errors.tolist(), strict=True)
-    return Measured(max(float(abs(error - couple.error(x)) / couple.p2) for x, error in pairs), seconds)
+    return Measured(max(float(abs(error - tooth_pair.error(x)) / tooth_pair.p2) for x, error in pairs), seconds)
 
 
 def near_friction_locking(teeth: tuple[int, int], digits: int, at_load: bool) -> Measured:
     """The mean efficiency with friction a little below the one that locks, relative."""
     sizes = thirty(*teeth, 0.01)
     friction = TriangularTransmission(sizes).locking_friction * (1 - 10.0**-digits)
-    law = TriangularTransmission(sizes, friction)
-    mine, seconds = timed(law.efficiency_at_constant_load if at_load else law.efficiency_mean)
-    true = couple_of(sizes).mean_efficiency(mp.mpf(friction))[int(at_load)]
+    transmission = TriangularTransmission(sizes, friction)
+    mine, seconds = timed(transmission.efficiency_at_constant_load if at_load else transmission.efficiency_mean)
+    true = tooth_pair_of(sizes).mean_efficiency(mp.mpf(friction))[int(at_load)]
     return Measured(float(abs(mine / true - 1)), seconds)
 
 
 def locking(teeth: tuple[int, int]) -> Measured:
     """The friction that locks: flank and friction before the line of centres, relative."""
     sizes = thirty(*teeth, 0.01)
-    couple = couple_of(sizes)
+    tooth_pair = tooth_pair_of(sizes)
     mine, seconds = timed(lambda: TriangularTransmission(sizes).locking_friction)
-    starts = [segment.start for segment in couple.path if segment.phase == APPROACH]
-    most = max(mp.tan(couple.lean(x, APPROACH)) for x in starts if couple.angle(x, APPROACH) > 0)
+    starts = [segment.start for segment in tooth_pair.path if segment.phase == APPROACH]
+    most = max(mp.tan(tooth_pair.lean(x, APPROACH)) for x in starts if tooth_pair.angle(x, APPROACH) > 0)
     return Measured(float(abs(mine * most - 1)), seconds)
 
 
@@ -550,7 +558,7 @@ def lost_in_circulation(friction: float) -> Measured:
     """Efficiency from the arm to the slow sun, of teeth that rub: relative."""
     train = circulating(f"{triangular()}, friction: {friction}")
     torques, seconds = timed(lambda: train.driven("right", ARM))
-    means = [couple_of(sizes).mean_efficiency(mp.mpf(friction)) for sizes in _sizes(train)]
+    means = [tooth_pair_of(sizes).mean_efficiency(mp.mpf(friction)) for sizes in _sizes(train)]
     # the moment on the right sun is given, then that on the planet: on what is driven (1), or on the driver (-1)
     (true,) = balanced(CIRCULATING, [{1: Fraction(str(load)), -1: Fraction(str(drive))} for drive, load in means])
     return Measured(float(abs(torques.efficiency / true - 1)), seconds)

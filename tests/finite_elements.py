@@ -101,8 +101,8 @@ def plane_stress(
     plane = 2 * lam * mu / (lam + 2 * mu)  # of plane stress
     stiffness = linear_elasticity(plane, mu).assemble(basis)
     load = np.zeros(basis.N)
-    corner = int(np.argmin(np.hypot(*(mesh.p.T - spot).T)))
-    load[basis.nodal_dofs[:, corner]] = force
+    kink = int(np.argmin(np.hypot(*(mesh.p.T - spot).T)))
+    load[basis.nodal_dofs[:, kink]] = force
     fixed = basis.get_dofs(lambda x: held(x))
     moved = skfem.solve(*skfem.condense(stiffness, load, D=fixed))
     return _tension(skfem, mesh, basis, moved, (plane, mu), near, 2 * fine)
@@ -177,7 +177,7 @@ def _border(polygon: Floats, spacing: Spacing, kept: Floats) -> Floats:
     """The border again, its edges as long as wanted; corners and kept points stay."""
     closed = np.concatenate((polygon, polygon[:1]))
     s = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))))
-    fixed = np.union1d(s[_corners(polygon)], [_along(closed, s, point) for point in kept])
+    fixed = np.union1d(s[_kinks(polygon)], [_along(closed, s, point) for point in kept])
     fixed = fixed[fixed < s[-1] - 1e-9]
     found = []
     for start, end in zip(fixed, [*fixed[1:], fixed[0] + s[-1]], strict=True):
@@ -191,7 +191,7 @@ def _border(polygon: Floats, spacing: Spacing, kept: Floats) -> Floats:
     return np.concatenate(found)
 
 
-def _corners(polygon: Floats) -> Integers:
+def _kinks(polygon: Floats) -> Integers:
     """Points at which a polygon turns by more than some 15 degrees."""
     ahead, behind = np.roll(polygon, -1, axis=0) - polygon, polygon - np.roll(polygon, 1, axis=0)
     turn = np.arctan2(_cross(behind, ahead), (behind * ahead).sum(axis=1))

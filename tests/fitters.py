@@ -54,13 +54,13 @@ def declared(data: Mapping[str, Any]) -> Train:
 
 
 def rules_of(
-    train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **asked: Any
+    train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **requested: Any
 ) -> tuple[CountConstraint, ...]:
     """The rules with some wheels free, by default all."""
     found = train if isinstance(train, Train) else declared(train)
     wheels = found.wheels if free is None else free
     return find_constraints(
-        found, {wheel: (found.wheels[wheel][1].count or 17,) for wheel in wheels}, ConstraintOptions(**asked)
+        found, {wheel: (found.wheels[wheel][1].count or 17,) for wheel in wheels}, ConstraintOptions(**requested)
     )
 
 

@@ -27,7 +27,7 @@ def explanations_with_couplings(problem: ReconstructionProblem, pairs: Pairs) ->
     names = [arbor.name for arbor in (problem.input, *problem.arbors)]
     first = {name: min(group(name, pairs), key=names.index) for name in names}
     found: list[set[Node]] = [set() for _ in range(problem.additions.wheels + 1)]
-    counts = range(problem.additions.least, problem.additions.greatest + 1)
+    counts = range(problem.additions.minimum, problem.additions.maximum + 1)
     trees: set[Node] = {coupled(problem.input.name, (), pairs)}
     while trees:
         for tree in trees:

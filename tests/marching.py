@@ -57,7 +57,9 @@ class Teeth:
     @property
     def form(self) -> str:
         """As a pair declares it."""
-        return f", tooth_form: {{form: triangular, half_angle: {self.half_angle} deg, clearance: {self.clearance}}}"
+        return (
+            f", tooth_form: {{form: triangular, half_angle: {self.half_angle} deg, clearance_factor: {self.clearance}}}"
+        )
 
     @cached_property
     def sizes(self) -> tuple[float, float, float, float]:

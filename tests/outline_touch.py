@@ -46,14 +46,14 @@ class Outlines:
         """Where the front flanks touch while a tip of the driver stands at t, (n,)."""
         pitch = 2 * np.pi / self.z1
         whole = np.round(t / pitch)
-        found = [self._couple(t - whole * pitch + k * pitch, k) for k in range(-3, 4)]
+        found = [self._tooth_pair(t - whole * pitch + k * pitch, k) for k in range(-3, 4)]
         ahead = np.array([each.driven for each in found])
         best = ahead.argmax(axis=0)
         assert np.isfinite(ahead.max(axis=0)).all(), "no tooth touches"
         chosen = [np.take_along_axis(np.array(values), best[None], 0)[0] for values in zip(*found, strict=True)]
         return Places(chosen[0] + whole * 2 * np.pi / self.z2, *chosen[1:])
 
-    def _couple(self, theta: np.ndarray, k: int) -> Places:
+    def _tooth_pair(self, theta: np.ndarray, k: int) -> Places:
         """One tooth of the driver at theta with the k-th tooth of the driven wheel; -inf where they do not reach."""
         one, other = self._tip_of_driver(theta), self._tip_of_driven(theta)
         first = one.driven >= other.driven

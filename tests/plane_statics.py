@@ -137,7 +137,7 @@ class Mechanism:
         return {FRAME: (0.0, 0.0, 0.0), **speeds}
 
     def balances(
-        self, motions: Mapping[str, float], loads: Mapping[str, float], asked: str, held: Sequence[str] = ()
+        self, motions: Mapping[str, float], loads: Mapping[str, float], requested: str, held: Sequence[str] = ()
     ) -> list[Balance]:
         """All ways in which the bodies balance while they turn so, with the torque of one body asked for.
 
@@ -147,7 +147,7 @@ class Mechanism:
         for used in itertools.product(*(range(len(pair)) for pair in self.joints)):
             motion = self.motion(motions, used)
             for ways in itertools.product(*(self._directions(self.joints[k][side]) for k, side in enumerate(used))):
-                balance = self._balance(used, ways, motion, loads, asked, held)
+                balance = self._balance(used, ways, motion, loads, requested, held)
                 if balance is not None and not any(_same(balance, other) for other in found):
                     found.append(balance)
         return found
@@ -162,7 +162,7 @@ class Mechanism:
         ways: tuple[int, ...],
         motion: Mapping[str, Vector3],
         loads: Mapping[str, float],
-        asked: str,
+        requested: str,
         held: Sequence[str],
     ) -> Balance | None:
         names = self.bodies
@@ -179,7 +179,7 @@ class Mechanism:
         for touch, way in zip(touches, ways, strict=True):
             point, force = self._force(touch, way, motion)
             columns.append(self._row(at, touch.first, touch.second, point, force))
-        for name in (asked, *held):
+        for name in (requested, *held):
             column = np.zeros(3 * len(names))
             column[at[name] + 2] = 1.0
             columns.append(column)
@@ -202,7 +202,7 @@ class Mechanism:
         for hinge in self.hinges:
             lost.append(abs(hinge.friction * _relative_turning(motion, hinge)))
         torque, *others = map(float, solved[start + len(touches) :])
-        acting = [*loads.items(), *zip((asked, *held), (torque, *others), strict=True)]
+        acting = [*loads.items(), *zip((requested, *held), (torque, *others), strict=True)]
         put_in = sum(acts * motion[name][2] for name, acts in acting)
         return Balance(torque, tuple(others), tuple(map(float, pressing)), used, tuple(lost), put_in)
 

@@ -59,12 +59,12 @@ class RandomTrain:
         return tuple(self.data.get("states", ())) or (None,)
 
 
-def random_train(seed: int, most: int = 9, oblique: bool = True, asked: bool = True) -> RandomTrain:
+def random_train(seed: int, most: int = 9, oblique: bool = True, requested: bool = True) -> RandomTrain:
     """A train from a seed.
 
     most      the most moving links
     oblique   whether half of the trains have axes in several directions, with bevel wheels
-    asked     whether something is prescribed: inputs, fixed links, locks, clutches and states, outputs
+    requested     whether something is prescribed: inputs, fixed links, locks, clutches and states, outputs
     """
     random = Random(seed)
     grown = _Growing(random, slanted=oblique and random.random() < 0.5)
@@ -81,8 +81,8 @@ def random_train(seed: int, most: int = 9, oblique: bool = True, asked: bool = T
             if placed or direction != Z
         }
     train = RandomTrain(seed, data, grown.directions, grown.positions, placed)
-    if asked:
-        _Asking(random, grown, train).ask()
+    if requested:
+        _Requesting(random, grown, train).ask()
     return train
 
 
@@ -91,7 +91,7 @@ def driven_train(seed: int, **options: Any) -> RandomTrain:
     from joint_rates import drive, inputs_of, rest
 
     for at in itertools.count(seed * 1000):
-        found = random_train(at, asked=False, **options)
+        found = random_train(at, requested=False, **options)
         random = Random(at)
         if random.random() < 0.3:
             found.data["fixed"] = [random.choice([link for link in found.data["links"] if _on_the_frame(found, link)])]
@@ -273,7 +273,7 @@ class _Growing:
         }
 
 
-class _Asking:
+class _Requesting:
     """What is prescribed and what is asked."""
 
     def __init__(self, random: Random, grown: _Growing, train: RandomTrain) -> None:

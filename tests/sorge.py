@@ -22,7 +22,7 @@ import numpy as np
 mp = mpmath.mp.clone()
 mp.dps = 50
 
-APPROACH, RECESS, STANDSTILL = "approach", "recess", "standstill"
+APPROACH, RECESS, DWELL = "approach", "recess", "dwell"
 TINY = mp.mpf(10) ** -30  # of a pitch: ends of smooth stretches are looked at from this far within
 
 
@@ -54,8 +54,8 @@ class Pair:
         h1 = self.R1 * (1 - self.sin_b1 / m.sin(self.b1 + pi / z1))
         h2 = self.R2 * (1 - self.sin_b2 / m.sin(self.b2 + pi / z2))
         self.h = min(h1, h2)
-        self.least = self.R1 + self.R2 - self.h
-        self.D = self.least + self.excess * self.least
+        self.minimum = self.R1 + self.R2 - self.h
+        self.D = self.minimum + self.excess * self.minimum
         self.p1, self.p2 = 2 * pi / z1, 2 * pi / z2
         self.ratio = self.p2 / self.p1
 
@@ -187,13 +187,13 @@ class Pair:
 
     # -------------------------------------------------------------------------------------------------- every couple
 
-    def couples(self, t: Any) -> range:
+    def tooth_pairs(self, t: Any) -> range:
         """Every couple whose driver tooth is within the reach at position t."""
         return range(int(mp.ceil((self.exit - t) / self.p1)), int(mp.floor((self.entry - t) / self.p1)) + 1)
 
     def first(self, t: Any) -> Any:
         """U(t) = min over every couple of f(t + k p1) - k p2; infinite where none is in reach."""
-        return min((self.angle(t + k * self.p1) - k * self.p2 for k in self.couples(t)), default=mp.inf)
+        return min((self.angle(t + k * self.p1) - k * self.p2 for k in self.tooth_pairs(t)), default=mp.inf)
 
     @cached_property
     def envelope(self) -> list[Segment]:
@@ -209,7 +209,7 @@ class Pair:
 
     def _cell(self, high: Any, low: Any) -> list[Segment]:
         """A stretch of t in which every couple stays in reach and in one phase."""
-        ks = self.couples((high + low) / 2)
+        ks = self.tooth_pairs((high + low) / 2)
         phases = {k: self.phase((high + low) / 2 + k * self.p1) for k in ks}
 
         def value(k: int, t: Any) -> Any:
@@ -271,7 +271,7 @@ class Pair:
                 )
             if held:
                 until = x + (held.k - s.k) * self.p1
-                found.append(Segment(STANDSTILL, held.end, until, held.k, self.angle(held.end, held.phase)))
+                found.append(Segment(DWELL, held.end, until, held.k, self.angle(held.end, held.phase)))
                 held = None
             found.append(Segment(s.phase, x, s.end, s.k))
             y, t = low, s.end - s.k * self.p1
@@ -441,12 +441,12 @@ def angles(pair: Pair, x: np.ndarray) -> np.ndarray:
 
 def others(pair: Pair, x: float) -> float:
     """The least angle any other couple allows where one is at alpha_1 = x, as that couple's alpha_2."""
-    least = np.inf
+    minimum = np.inf
     for k in range(int(np.floor((pair.exit - x) / pair.p1)), int(np.ceil((pair.entry - x) / pair.p1)) + 1):
         at = x + k * pair.p1
         if k and pair.exit <= at <= pair.entry:
-            least = min(least, float(angles(pair, np.array([at]))[0]) - k * pair.p2)
-    return least
+            minimum = min(minimum, float(angles(pair, np.array([at]))[0]) - k * pair.p2)
+    return minimum
 
 
 def pushed(pair: Pair, t: np.ndarray) -> np.ndarray:
@@ -455,20 +455,20 @@ def pushed(pair: Pair, t: np.ndarray) -> np.ndarray:
     return np.minimum(first_of_all(pair, t), leaves)
 
 
-def least_play(pair: Pair) -> float:
+def minimum_backlash(pair: Pair) -> float:
     """The least of y(t) - L(t), L(t) = -U(-t) - p2: a grid, then closer and closer about its lowest places."""
 
-    def play(t: np.ndarray) -> np.ndarray:
+    def backlash(t: np.ndarray) -> np.ndarray:
         return pushed(pair, t) + first_of_all(pair, -t) + pair.p2
 
     step = pair.p1 / 400
     grid = (np.arange(401) + 0.001) * step
-    found = play(grid)
+    found = backlash(grid)
     centres, width = grid[np.argsort(found)[:4]], step
     best = np.inf
     for _ in range(8):
         t = np.linspace(centres - width, centres + width, 41)
-        here = play(t)
+        here = backlash(t)
         centres, width = t[here.argmin(axis=0), np.arange(4)], width / 10
         best = min(best, here.min())
     return float(best)
@@ -490,10 +490,10 @@ def exit_margin(pair: Pair) -> float:
 
 def verdict(pair: Pair, rounding: float = 1e-9) -> str:
     """What the scan says of a pair whose flanks lean nowhere beyond the perpendicular; empty within rounding."""
-    margins = least_play(pair), entry_margin(pair), exit_margin(pair)
+    margins = minimum_backlash(pair), entry_margin(pair), exit_margin(pair)
     if any(abs(margin) < rounding * pair.p2 for margin in margins):
         return ""
-    for kind, margin in zip(("jam", "clash", "standstill"), margins, strict=True):
+    for kind, margin in zip(("jam", "clash", "dwell"), margins, strict=True):
         if margin < 0:
             return kind
     return "runs"
@@ -538,7 +538,7 @@ def drawn(random: Random, most: float, shape: str = "any") -> Given:
         if shape == "near" and not 0.67 < R2 * z1 / (R1 * z2) < 1.5:
             continue
         pair = Pair(z1, z2, R1, R2, b1, b2, 0.0)
-        most_excess = float(pair.h / pair.least)
+        most_excess = float(pair.h / pair.minimum)
         share = random.uniform(0.001, 0.999) if random.random() < 0.7 else _spread(random, 1e-6, 0.999)
         return Given(z1, z2, R1, R2, b1, b2, most_excess * share)
 

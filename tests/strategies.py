@@ -95,7 +95,7 @@ def _wheels(draw: st.DrawFn, data: Data, one_wheel: dict[str, int], i: str, j: s
 
 
 @st.composite
-def asked_trains(draw: st.DrawFn) -> Data:
+def requested_trains(draw: st.DrawFn) -> Data:
     """A train with prescriptions at random: determined, free, locked or contradictory."""
     data = draw(trains())
     moving = [link for link in data["links"] if link != "frame"]

@@ -210,5 +210,5 @@ def claims() -> Iterator[str]:
     yield f"**Section 15**, work of one engagement of involutes of 24 and 36 teeth, {note.shared_work().text}."
     yield ""
     yield "**Section 21**, 24 and 36 teeth, half a pitch to either side. Stress: "
-    yield f"{note.least_height('stress').text}. Heat: {note.least_height('temperature').text}."
+    yield f"{note.minimum_height('stress').text}. Heat: {note.minimum_height('temperature').text}."
     yield ""

@@ -7,7 +7,7 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
 import numpy as np
 from sources.sorge import eq_31
-from sources.sorge_contacts import FRICTION, contacts, law
+from sources.sorge_contacts import FRICTION, contacts, transmission
 
 import geartrain
 from geartrain.dynamics.motion.pair_impacts import collision_energies
@@ -52,9 +52,9 @@ def sorge() -> Iterator[str]:
 
 def equation_16() -> Iterator[str]:
     """The distance of the apices with either root, against the two apices themselves."""
-    pair = law(48, 96, "1.01")
-    sizes, couple, x = pair.sizes, pair.contact.path.couple, radians(-5)
-    y = couple.recess_angle(x)
+    pair = transmission(48, 96, "1.01")
+    sizes, tooth_pair, x = pair.sizes, pair.contact.path.tooth_pair, radians(-5)
+    y = tooth_pair.recess_angle(x)
     apart = hypot(sizes.R1 * cos(x) + sizes.R2 * cos(y) - sizes.D, sizes.R1 * sin(x) - sizes.R2 * sin(y))
     square = sizes.D**2 + sizes.R1**2 - 2 * sizes.D * sizes.R1 * cos(x)
     root = sqrt(square - (sizes.R2 * sin(sizes.beta2)) ** 2)
@@ -68,15 +68,15 @@ def equation_16() -> Iterator[str]:
 
 def equation_33() -> Iterator[str]:
     """The printed efficiency of recess, along the ideal path."""
-    pair = law(48, 96, "1.01")
-    couple, sizes = pair.contact.path.couple, pair.sizes
+    pair = transmission(48, 96, "1.01")
+    tooth_pair, sizes = pair.contact.path.tooth_pair, pair.sizes
     x = np.linspace(-sizes.reach1, -1e-9, 20001)
-    y, tau = couple.recess_angle(x, np), couple.recess_speed(x, np)
+    y, tau = tooth_pair.recess_angle(x, np), tooth_pair.recess_speed(x, np)
     turned = atan2(FRICTION, 1) * np.sign(x)
     cc = np.cos(sizes.beta2 - x - y) * np.cos(sizes.beta2 - y + turned)
     ss = np.sin(x) * np.sin(turned)
     printed, right = (cc + tau * ss) / (cc - ss), (cc - tau * ss) / (cc + ss)
-    own = couple.recess_friction(x, np)
+    own = tooth_pair.recess_friction(x, np)
     ours = (1 - FRICTION * own[0] * own[1]) / (1 - FRICTION * own[0] * own[2])
     yield (
         f"**Eq. (33)**, the same pair, recess: as printed the efficiency rises to {printed.max():.3f}; with its "
@@ -114,7 +114,7 @@ def line_of_action() -> Iterator[str]:
 
 def equation_26() -> Iterator[str]:
     """The jump of Fig. 5a with the -1 outside and inside."""
-    pair = law(96, 96, "1.01")
+    pair = transmission(96, 96, "1.01")
     jump = next(each for each in pair.jumps if each.kind == "approach")
     outside = 1 - jump.before / (jump.after + 1) - 1
     yield (
@@ -129,7 +129,7 @@ def jumps() -> Iterator[str]:
     train = geartrain.load("sorge-pairs")
     body = []
     for mesh in train.meshes:
-        found = mesh.law.jumps
+        found = mesh.transmission.jumps
         same = [f"{jump.value:.4f}" for jump in found] == list(PRINTED[mesh.name])
         body.append(
             (
@@ -150,7 +150,7 @@ def windows() -> Iterator[str]:
     yield ""
     body = []
     for z1, z2 in ((48, 96), (96, 72), (96, 96), (15, 60), (45, 225), (8, 64)):
-        found = find_window(law(z1, z2, "1.01").sizes)
+        found = find_window(transmission(z1, z2, "1.01").sizes)
         kind = f"{1 + found.run:.5f} ({found.run_kind})"
         body.append(
             (
@@ -166,7 +166,7 @@ def windows() -> Iterator[str]:
 
 def impacts() -> Iterator[str]:
     """The energies of one collision, per J2 w1^2."""
-    (jump,) = law(48, 96, "1.01").jumps
+    (jump,) = transmission(48, 96, "1.01").jumps
     handed, lost = (jump.after**2 - jump.before**2) / 2, (jump.after - jump.before) ** 2 / 2
     yield (
         f"**IV**, 48/96 at a = 1.01, in J2 w1^2: the printed work hands {handed:.5f} to the driven side; {lost:.5f} is "
@@ -177,11 +177,11 @@ def impacts() -> Iterator[str]:
 
 def equation_25() -> Iterator[str]:
     """The jump of Fig. 3a by the printed equation, alpha_2 read at either end of the path, and at both."""
-    pair = law(48, 96, "1.01")
-    couple, sizes = pair.contact.path.couple, pair.sizes
+    pair = transmission(48, 96, "1.01")
+    tooth_pair, sizes = pair.contact.path.tooth_pair, pair.sizes
     (interval,) = pair.intervals
     x = np.array([interval.start, interval.end])
-    y = couple.recess_angle(x, np)
+    y = tooth_pair.recess_angle(x, np)
 
     def jump(first: float, last: float) -> float:
         upper, lower = (
@@ -212,9 +212,10 @@ def sub_regions() -> Iterator[str]:
     yield from table(("a", "approach apart", "astride", "recess apart"), body)
     born, alone = edge(lambda found: found[1] > 0), edge(lambda found: found[0] == found[2] == 0)
     whole = [shares(f"{a:.7f}") for a in np.linspace(1.001, born - 1e-7, 51)]
-    least, most = (f(each for found in whole for each in (found[0], found[2])) for f in (min, max))
+    minimum, most = (f(each for found in whole for each in (found[0], found[2])) for f in (min, max))
     yield (
-        f"Each keeps {least:.3f} to {most:.3f} of a pitch until, at a = {born:.6f}, a third piece is born astride the "
+        f"Each keeps {minimum:.3f} to {most:.3f} of a pitch until, at a = {born:.6f}, a third piece "
+        f"is born astride the "
         f"matching position; it eats both, and is alone from a = {alone:.6f}."
     )
     yield ""
@@ -222,7 +223,7 @@ def sub_regions() -> Iterator[str]:
 
 def shares(clearance: str) -> tuple[float, float, float]:
     """Parts of a pitch of 96/96: contact in approach by itself, astride the matching position, in recess by itself."""
-    pair = law(96, 96, clearance)
+    pair = transmission(96, 96, clearance)
     apart = {"approach": 0.0, "recess": 0.0}
     astride = 0.0
     for each in pair.intervals:
@@ -247,7 +248,7 @@ def edge(true: Callable[[tuple[float, float, float]], bool]) -> float:
 def best_clearance() -> Iterator[str]:
     """Where 96/96 loses least by sliding, and where by collisions."""
     rows = [("printed as best", 1.025)]
-    rows += [("least friction", least_of(lost)), ("least dissipated by collisions", least_of(dissipated))]
+    rows += [("least friction", minimum_of(lost)), ("least dissipated by collisions", minimum_of(dissipated))]
     yield "**V**, 96/96: a = 1.025 is not best, neither for friction (0.2) nor for collisions:"
     yield ""
     body = [(name, f"{a:.7g}", f"{100 * lost(a):.3f} %", f"{dissipated(a):.2e}") for name, a in rows]
@@ -256,15 +257,15 @@ def best_clearance() -> Iterator[str]:
 
 def lost(a: float) -> float:
     """Part of the power that sliding takes from 96/96."""
-    return 1 - law(96, 96, f"{a:.12f}").efficiency_mean()
+    return 1 - transmission(96, 96, f"{a:.12f}").efficiency_mean()
 
 
 def dissipated(a: float) -> float:
     """What the collisions of a pitch dissipate, over J2 w1^2."""
-    return collision_energies(law(96, 96, f"{a:.12f}").speed_leaps(), 1.0, 1.0)[1]
+    return collision_energies(transmission(96, 96, f"{a:.12f}").speed_leaps(), 1.0, 1.0)[1]
 
 
-def least_of(what: Callable[[float], float]) -> float:
+def minimum_of(what: Callable[[float], float]) -> float:
     """The clearance at which something is least: a scan of the pair's window, then finer ones around the best."""
     low, high = 1.001, 1.0265
     for _ in range(6):

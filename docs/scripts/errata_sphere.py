@@ -46,7 +46,7 @@ def positions() -> Iterator[tuple[str, str]]:
         "the number of vertices, which are the loops of four",
     )
     wrong, right = 2 * asin(sin(radians(18)) / cos(radians(36))), 2 * atan(sin(radians(18)) / cos(radians(36)))
-    beta = least_angle(faces, "3")
+    beta = minimum_angle(faces, "3")
     assert abs(beta - right) < 1e-12 > abs(beta - asin(2 / 3))
     yield (
         f"the angle between triangles by an arcsine of the wrong side, {degrees(wrong):.7f}°",
@@ -64,7 +64,7 @@ def positions() -> Iterator[tuple[str, str]]:
     )
 
 
-def least_angle(faces: Configuration, kind: str) -> float:
+def minimum_angle(faces: Configuration, kind: str) -> float:
     """The least angle (rad) between two gears of a kind."""
     axes = np.asarray(faces.axes)[[at for at, each in enumerate(faces.kinds) if each == kind]]
     cosines = axes @ axes.T
@@ -96,9 +96,9 @@ def radii() -> Iterator[tuple[str, str]]:
 def middle_of_an_edge(faces: Configuration) -> float:
     """Angle (rad) from a pentagon's axis to the middle of the edge that it shares with a triangle."""
     five, three = sorted(faces.meshes[0], key=lambda at: faces.kinds[at], reverse=True)
-    corners = np.asarray(from_polyhedron(NOTE, "vertices").axes)
-    ends = np.argsort(-(corners @ (np.asarray(faces.axes)[five] + np.asarray(faces.axes)[three])))[:2]
-    middle = corners[ends].sum(axis=0)
+    kinks = np.asarray(from_polyhedron(NOTE, "vertices").axes)
+    ends = np.argsort(-(kinks @ (np.asarray(faces.axes)[five] + np.asarray(faces.axes)[three])))[:2]
+    middle = kinks[ends].sum(axis=0)
     return float(np.arccos(middle @ np.asarray(faces.axes)[five] / np.linalg.norm(middle)))
 
 

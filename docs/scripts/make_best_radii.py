@@ -47,7 +47,7 @@ def find() -> list[dict[str, float | None]]:
             if not 1 / STEEPEST <= z1 / z2 <= STEEPEST:
                 continue
             try:
-                best = SizeSearch(design(z1, z2, 1.0), {"radii": (0.8, 1.25)}).least("loss")
+                best = SizeSearch(design(z1, z2, 1.0), {"radii": (0.8, 1.25)}).minimum("loss")
             except GearTrainError:
                 continue
             equal = equal_depth_radii(z1, z2, (HALF_ANGLE, HALF_ANGLE))
@@ -67,7 +67,7 @@ def fit(rows: list[Row]) -> tuple[float, float]:
     return round(float(found[0]), 2), round(float(found[1]), 2)
 
 
-def law(z1: float, z2: float, A: float, B: float) -> float:
+def transmission(z1: float, z2: float, A: float, B: float) -> float:
     """The radii of the law."""
     return exp(-A * (1 / z1 - 1 / z2) - B * (1 / z1 + 1 / z2) ** 2)
 
@@ -76,8 +76,8 @@ def page(rows: list[Row]) -> Iterator[str]:
     """The page, line by line."""
     A, B = fit(rows)
     pairs = [(int(row["z1"]), int(row["z2"])) for row in rows]
-    off = [law(*pair, A, B) / row["radii"] - 1 for pair, row in zip(pairs, rows, strict=True)]
-    spent = {pair: loss(*pair, law(*pair, A, B)) for pair in pairs}
+    off = [transmission(*pair, A, B) / row["radii"] - 1 for pair, row in zip(pairs, rows, strict=True)]
+    spent = {pair: loss(*pair, transmission(*pair, A, B)) for pair in pairs}
     times = [(spent[pair] or 1.0) / row["loss"] for pair, row in zip(pairs, rows, strict=True)]
     large = [at for at, row in enumerate(rows) if min(row["z1"], row["z2"]) >= 20]
     equal = [row["equal_depth"] / row["loss"] for row in rows if row["equal_depth"] is not None]
@@ -124,7 +124,7 @@ def table(
         if pair in SHOWN:
             losses = (row["loss"], spent[pair], row["pitch_true"], row["equal_depth"])
             cells = " | ".join("does not turn" if each is None else f"{100 * each:.2f} %" for each in losses)
-            yield f"| {pair[0]}/{pair[1]} | {row['radii']:.4f} | {law(*pair, *constants):.4f} | {cells} |"
+            yield f"| {pair[0]}/{pair[1]} | {row['radii']:.4f} | {transmission(*pair, *constants):.4f} | {cells} |"
 
 
 WHY = r"""## Why

@@ -25,8 +25,8 @@ PITCH_TRUE = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5, ra
 FRICTION = "friction: 0.2"
 DRAG = "1 N mm"
 """Friction torque of the bearing of a pointer."""
-CUTTING = "cutting: {placement: {normal: 0.1 deg}}"
-ASKED = BudgetQuestion(samples=10_000, clearances=(0.3, 0.5, 0.7))
+CUTTING = "cutting: {pitch_deviation: {normal: 0.1 deg}}"
+REQUESTED = BudgetQuestion(samples=10_000, clearances=(0.3, 0.5, 0.7))
 WHOLE = "freeth-2021"
 """The reconstruction by which the literature is judged."""
 
@@ -104,7 +104,7 @@ def _drag(train: GearTrain) -> list[str]:
 
 
 def _budgets(train: GearTrain) -> tuple[TrainBudget, ...]:
-    return tuple(find_budget(train, ASKED, state) for state in train.states or (None,))
+    return tuple(find_budget(train, REQUESTED, state) for state in train.states or (None,))
 
 
 # --------------------------------------------------------------------------------------------------------------- pages
@@ -212,8 +212,8 @@ def _filled(text: str) -> str:
 
 def _pitch_true() -> TrainBudget:
     text = f"extends: {WHOLE}\nname: {WHOLE}-pitch-true\n{PITCH_TRUE}\n"
-    asked = BudgetQuestion(outputs=("moon",), samples=ASKED.samples)
-    return find_budget(geartrain.load(text), asked)
+    requested = BudgetQuestion(outputs=("moon",), samples=REQUESTED.samples)
+    return find_budget(geartrain.load(text), requested)
 
 
 def _of(pointer: PointerBudget, cause: str) -> float:

@@ -15,7 +15,7 @@ WAYS = {"rigid steps": (HUES[0], "o"), "teeth that yield": (HUES[1], "^")}
 def main() -> None:
     """Read the run, write page and picture."""
     (records,) = read(DynamicsRecords, "dynamics")
-    parts = [HEAD, which(records), PLOT, orders(records), settled(records)]
+    parts = [HEAD, which(records), PLOT, orders(records), converged(records)]
     write_page("dynamics-accuracy", [*parts, "## All measurements\n", lowered(records.tables())])
     draw(records)
 
@@ -28,7 +28,7 @@ def of(records: DynamicsRecords, restitution: float, method: str) -> list[PairRe
 def order(rows: list[PairRecord]) -> float:
     """By what power of the step the energy of blows comes right, from the second row to the last."""
     first, last = rows[1], rows[-1]
-    return log(first.blows / last.blows) / log(last.steps / first.steps)
+    return log(first.impacts / last.impacts) / log(last.steps / first.steps)
 
 
 def which(records: DynamicsRecords) -> str:
@@ -51,13 +51,13 @@ def orders(records: DynamicsRecords) -> str:
         order=span(found, ".2f"),
         steps=f"{last[0].steps:,}",
         apart=span([abs(row.apart) for row in last], ".0e"),
-        blows=span([abs(row.blows) for row in last], ".0e"),
-        stiff_blows=span([abs(row.blows) for row in stiff], ".0e"),
+        impacts=span([abs(row.impacts) for row in last], ".0e"),
+        stiff_impacts=span([abs(row.impacts) for row in stiff], ".0e"),
         stiff_apart=span([abs(row.apart) for row in stiff], ".0e"),
     )
 
 
-def settled(records: DynamicsRecords) -> str:
+def converged(records: DynamicsRecords) -> str:
     """Which figures of a train settle."""
 
     def pair(restitution: float) -> tuple[TrainRecord, TrainRecord]:
@@ -69,7 +69,7 @@ def settled(records: DynamicsRecords) -> str:
         return abs(getattr(one, what) - getattr(other, what))
 
     return "## What settles, and what is chaotic\n\n" + paragraphs(
-        SETTLED,
+        CONVERGED,
         steps=f"{pair(0.0)[0].steps:,}",
         calm_apart=100 * off(0.0, "apart"),
         calm=off(0.0, "stands"),
@@ -84,7 +84,7 @@ def draw(records: DynamicsRecords) -> None:
     """Error of the energy of blows, and of the share of time apart, over seconds."""
     with picture("dynamics-accuracy", 2, 2, figsize=(9.4, 7.4), sharex=True) as (figure, axes):
         for row, (what, label) in zip(
-            axes, {"blows": "energy of blows", "apart": "share of time apart"}.items(), strict=True
+            axes, {"impacts": "energy of blows", "apart": "share of time apart"}.items(), strict=True
         ):
             for ax, restitution in zip(row, RESTITUTIONS, strict=True):
                 for method, (colour, marker) in WAYS.items():
@@ -147,7 +147,7 @@ little even where rigid ones do not, since a spring and damper that never pull t
 The greatest gap of a flight is off as one over the stiffness, which the tests hold.
 """
 
-SETTLED = """
+CONVERGED = """
 Two runs of the Moon's train with {steps} steps a turn and one more tell what depends on the step. Without restitution
 shares of time apart differ by {calm_apart:.2g} percentage points, and where the Moon stands after 4.9 turns by
 {calm:.2g} degrees: blows without bounce forget how they came about, so that the whole motion is robust.

@@ -15,7 +15,15 @@ from rich.console import Console
 from stills import can_draw, gif, stills
 
 import geartrain
-from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
+from geartrain.drawing import (
+    motion_figure,
+    picture,
+    power_figure,
+    render,
+    sphere_figure,
+    teeth_figure,
+    triangular_figure,
+)
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.report import Document, collect_report, describe_train
 from geartrain.report.text import to_terminal
@@ -68,7 +76,10 @@ def trains() -> None:
 def teeth() -> None:
     """The pair of Fig. 5a of Sorge's note: its law, and its wheels in approach."""
     mesh = next(mesh for mesh in geartrain.load("sorge-pairs").meshes if mesh.name == "5a")
-    for name, figure in (("law", law_figure(mesh.law)), ("teeth", teeth_figure(mesh.law, radians(3)))):
+    for name, figure in (
+        ("law", triangular_figure(mesh.transmission)),
+        ("teeth", teeth_figure(mesh.transmission, radians(3))),
+    ):
         (IMAGES / f"{name}.svg").write_bytes(render(figure, ".svg"))
         print(f"wrote docs/images/{name}.svg")
 
@@ -107,7 +118,7 @@ def sphere() -> None:
 def report() -> None:
     """Part of the report on the Antikythera train."""
     whole = describe_train(collect_report(geartrain.load("pennestri-2002")))
-    part = Document(whole.title, whole.lead, [section for section in whole.sections if section.title in SECTIONS])
+    part = Document(whole.title, whole.summary, [section for section in whole.sections if section.title in SECTIONS])
     console = Console(record=True, width=100, highlight=False, file=io.StringIO(), force_terminal=True)
     to_terminal([part], console)
     title = "geartrain report trains/antikythera/pennestri-2002.yaml"

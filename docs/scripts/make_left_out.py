@@ -124,7 +124,7 @@ def page(records: LeftOutRecords) -> list[str]:
         "best": sum(rank[0] == 1 for rank in told),
         "only": sum(rank[1] == 1 for rank in told),
         "alone": sum(rank[1] == 1 for rank in ranks),
-        "more": sum(row.least is not None and row.least < row.added for row in records.rows),
+        "more": sum(row.minimum is not None and row.minimum < row.added for row in records.rows),
     }
     found = paragraphs(
         FOUND, lost=lost if records.lost else "", **{name: f"{number:,}" for name, number in numbers.items()}
@@ -149,27 +149,27 @@ def _keep(found: LeftOutRecords) -> None:
 
 def from_command_line() -> None:
     """Write the page; with `--measure` after its run was made anew, with `--quick` print a short run instead."""
-    asked = argparse.ArgumentParser(description="Write docs/left-out.md from its kept run.")
-    asked.add_argument("--measure", action="store_true", help="ask anew, which takes minutes to hours")
-    asked.add_argument("--quick", action="store_true", help="print the tables of a short run, and write nothing")
-    asked.add_argument(
+    requested = argparse.ArgumentParser(description="Write docs/left-out.md from its kept run.")
+    requested.add_argument("--measure", action="store_true", help="ask anew, which takes minutes to hours")
+    requested.add_argument("--quick", action="store_true", help="print the tables of a short run, and write nothing")
+    requested.add_argument(
         "--limit", type=float, default=LIMIT, help="processor seconds for a question (default %(default)g)"
     )
-    asked.add_argument("--workers", type=int, default=1, help="questions at once (default %(default)s)")
-    asked.add_argument(
+    requested.add_argument("--workers", type=int, default=1, help="questions at once (default %(default)s)")
+    requested.add_argument(
         "--train",
         action="append",
         default=[],
         help="ask of this train alone, and write nothing; with --measure put it among the others",
     )
-    asked.add_argument(
+    requested.add_argument(
         "--short",
         type=float,
         default=SHORT,
         help="processor seconds for what is asked of an unfinished question (default %(default)g)",
     )
-    asked.add_argument("--more", type=float, help="ask for so many minutes what the kept run has not, and keep it")
-    given = asked.parse_args()
+    requested.add_argument("--more", type=float, help="ask for so many minutes what the kept run has not, and keep it")
+    given = requested.parse_args()
     if given.more:
         (kept,) = read(LeftOutRecords, DATA.stem)
         _keep(more_left_out(kept, given.train, given.limit, given.short, given.more))

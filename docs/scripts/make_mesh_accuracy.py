@@ -40,10 +40,10 @@ def pairs(rows: Rows) -> list[str]:
 
 def per_angle(rows: Rows, pair: str, method: str) -> float | None:
     """Nanoseconds an angle for the transmission error at a million angles, building included."""
-    built, asked = rows.get((pair, method, "path")), rows.get((pair, method, "error"))
-    if built is None or asked is None or built.seconds is None or asked.seconds is None:
+    built, requested = rows.get((pair, method, "path")), rows.get((pair, method, "error"))
+    if built is None or requested is None or built.seconds is None or requested.seconds is None:
         return None
-    return (built.seconds / MANY + asked.seconds / asked.angles) * 1e9
+    return (built.seconds / MANY + requested.seconds / requested.angles) * 1e9
 
 
 def seconds(rows: Rows, pair: str, method: str, quantity: str) -> float:
@@ -57,8 +57,8 @@ def errors(rows: Rows, pattern: str, quantity: str = "error") -> list[float]:
     """True errors over all pairs of the methods whose name matches."""
     return [
         row.error
-        for (_, method, asked), row in rows.items()
-        if asked == quantity and re.fullmatch(pattern, method) and row.error is not None
+        for (_, method, requested), row in rows.items()
+        if requested == quantity and re.fullmatch(pattern, method) and row.error is not None
     ]
 
 
@@ -83,7 +83,7 @@ def default(rows: Rows) -> str:
         gain=span(gain),
         table=max(errors(rows, TABULATED)),
         pays=round(max(more), -3),
-        least=round(min(more), -3),
+        minimum=round(min(more), -3),
     )
     return HEADING + fill(text, 120) + "\n"
 
@@ -98,12 +98,12 @@ def growth(rows: Rows) -> str:
     families = list(dict.fromkeys(family for family, *_ in rows if family.startswith("growth")))
     for family in families:
         cells = [f"{seconds(rows, family, *method) * 1e3:.3g} ms" for method in methods]
-        lines.append(f"| {family.split()[1]} | {rows[family, DIRECT, 'path'].couples} | {' | '.join(cells)} |")
+        lines.append(f"| {family.split()[1]} | {rows[family, DIRECT, 'path'].tooth_pairs} | {' | '.join(cells)} |")
     first, last = families[0], families[-1]
     ratios = [seconds(rows, last, *method) / seconds(rows, first, *method) for method in methods]
-    couples = rows[last, DIRECT, "path"].couples / rows[first, DIRECT, "path"].couples
+    tooth_pairs = rows[last, DIRECT, "path"].tooth_pairs / rows[first, DIRECT, "path"].tooth_pairs
     teeth = int(last.split("/")[1]) / int(first.split("/")[1])
-    return "\n".join(lines) + "\n\n" + fill(GROWTH.format(*ratios, couples=couples, teeth=teeth), 120) + "\n"
+    return "\n".join(lines) + "\n\n" + fill(GROWTH.format(*ratios, tooth_pairs=tooth_pairs, teeth=teeth), 120) + "\n"
 
 
 def findings(rows: Rows) -> str:
@@ -150,8 +150,8 @@ def draw(rows: Rows) -> None:
                 alone = 13 if marker == "*" else 9
                 size = 6 if len(points) > 1 else alone
                 ax.plot(*zip(*points, strict=True), color=colour, marker=marker, ms=size, lw=1.6, label=name)
-            couples = rows[pair, DIRECT, "error"].couples
-            ax.set_title(f"{pair}, {couples} {'couple' if couples == 1 else 'couples'} in reach", fontsize=11)
+            tooth_pairs = rows[pair, DIRECT, "error"].tooth_pairs
+            ax.set_title(f"{pair}, {tooth_pairs} {'couple' if tooth_pairs == 1 else 'couples'} in reach", fontsize=11)
             ax.set(xscale="log", yscale="log", ylim=(1e-16, 1e-1), xlim=(8, 8000))
         figure.supxlabel("ns an angle over a million angles, building included")
         figure.supylabel("greatest true error, pitches of the driven wheel")
@@ -180,7 +180,8 @@ The methods:
 
 - **direct**: `TriangularTransmission`. Of all couples of teeth only those that can be lowest are asked, the switching
   points are roots found to rounding, and each angle takes one formula.
-- **tabulated**: `TabulatedTransmission(law)`. Polynomials of degree 4 on uniform cells cut at the corners of the law,
+- **tabulated**: `TabulatedTransmission(transmission)`. Polynomials of degree 4 on uniform cells cut at the corners
+of the law,
   from the law's own answers at Chebyshev nodes within each cell. As many cells as it takes for 1e-12 of a driven pitch
   (default), or as many as given.
 - **sampled**: the lowest of all couples in reach at so many positions of a pitch, linear between.

@@ -22,7 +22,7 @@ from studies.motion_study import motion
 from studies.page import HUES, INK, QUIET, from_command_line, lowered, paragraphs, picture, read, span, write_page
 
 MARCHED = ("marching, 1 a position", "marching, 10 a position")
-LEAST = 1e-14  # degrees: what is less is drawn here
+MINIMUM = 1e-14  # degrees: what is less is drawn here
 # a colour of the palette and a marker for each; a line joins the methods of one name
 LOOKS = {
     "direct composition": (INK, "X", (DIRECT,)),
@@ -49,8 +49,8 @@ def main() -> None:
 
 def thousands(values: list[float]) -> str:
     """Least to greatest with two digits that count."""
-    least, greatest = (f"{float(f'{each:.2g}'):,.0f}" for each in (min(values), max(values)))
-    return f"{least} to {greatest}"
+    minimum, maximum = (f"{float(f'{each:.2g}'):,.0f}" for each in (min(values), max(values)))
+    return f"{minimum} to {maximum}"
 
 
 def every(rows: Rows, families: list[str], methods: tuple[str, ...], what: str) -> list[float]:
@@ -143,7 +143,7 @@ def costs(records: MotionRecords, rows: Rows) -> str:
         lines.append(f"| {train.family} | " + " | ".join(f"{each:.1f} MB" for each in train.peaks.values()) + " |")
     text = paragraphs(
         COSTS,
-        least=min(rates) / 1e6,
+        minimum=min(rates) / 1e6,
         verdict="is met by all four trains" if min(rates) >= 1e6 else "is not met",
         chains=chains(records),
         direct=span([1e3 * each for each in every(rows, families, (DIRECT,), "prepared")]),
@@ -187,7 +187,7 @@ def draw(records: MotionRecords, rows: Rows) -> None:
         times = [row.seconds for row in records.rows if row.seconds]
         for ax, train in zip(axes.flat, records.trains, strict=True):
             panel(ax, train, rows)
-            ax.set(xscale="log", yscale="log", ylim=(LEAST / 3, 3e3), xlim=(min(times) / 3, max(times) * 3))
+            ax.set(xscale="log", yscale="log", ylim=(MINIMUM / 3, 3e3), xlim=(min(times) / 3, max(times) * 3))
         positions = records.trains[0].positions
         figure.supxlabel(f"seconds for {positions:,} positions, preparation apart")
         figure.supylabel("greatest error, degrees at the output")
@@ -203,7 +203,7 @@ def panel(ax: Axes, train: TrainRecord, rows: Rows) -> None:
         ax.plot(*zip(*points, strict=True), color=colour, marker=marker, ms=size, lw=width, label=name)
     if rows[train.family, LAGGED].error == 0:
         seconds = rows[train.family, LAGGED].seconds
-        ax.annotate("none", (seconds, LEAST), (10, -1), textcoords="offset points", va="center", fontsize=9)
+        ax.annotate("none", (seconds, MINIMUM), (10, -1), textcoords="offset points", va="center", fontsize=9)
     most = max(each["peak_to_peak"] for each in train.outputs.values())
     ax.axhline(most, color=QUIET, lw=1, ls="--")
     ax.text(0.98, most * 1.6, "ripple itself", transform=ax.get_yaxis_transform(), ha="right", color=QUIET, fontsize=9)
@@ -216,7 +216,7 @@ def point(row: MotionRecord) -> tuple[float, float]:
     error = row.rms if row.error is None else row.error
     assert row.seconds is not None
     assert error is not None
-    return row.seconds, max(error, LEAST)
+    return row.seconds, max(error, MINIMUM)
 
 
 HEAD = """# Error against run time: the motion of whole trains

@@ -100,7 +100,7 @@ def _proved(name: str, kind: str) -> dict[str, Any]:
         "obstacles": [each.problem.text for each in proof.findings if each.is_error],
         "notes": [each.problem.text for each in proof.findings if not each.is_error],
         "meshes": [
-            {"pair": mesh.pair, "declared": mesh.declared, "least": mesh.least, "overlap": mesh.overlap}
+            {"pair": mesh.pair, "declared": mesh.declared, "minimum": mesh.minimum, "overlap": mesh.overlap}
             | {"clearance": mesh.clearance, "tip_width": mesh.tip_width}
             for mesh in proof.meshes
         ],
@@ -140,7 +140,7 @@ def _assembled(name: str) -> dict[str, Any]:
 def _span(fits: Sequence[Any]) -> dict[str, Any]:
     """How many, and the least and the greatest clearance (mm)."""
     gaps = [fit.clearance for fit in fits]
-    return {"count": len(gaps), "least": min(gaps, default=0.0), "most": max(gaps, default=0.0)}
+    return {"count": len(gaps), "minimum": min(gaps, default=0.0), "most": max(gaps, default=0.0)}
 
 
 def page(kept: Mapping[str, Any]) -> Iterator[str]:
@@ -174,10 +174,10 @@ def _row(found: Mapping[str, Any]) -> str:
     meshes, seconds = found["meshes"], found["seconds"]
     many = len(found["obstacles"])
     verdict = "ready to cut" if found["ready"] else f"{many} thing{'s' if many > 1 else ''} in the way"
-    least = min(meshes, key=lambda mesh: mesh["least"], default=None)
-    play = "-" if least is None else f"{least['least']:.4f} ({least['pair']})"
+    minimum = min(meshes, key=lambda mesh: mesh["minimum"], default=None)
+    backlash = "-" if minimum is None else f"{minimum['least']:.4f} ({minimum['pair']})"
     room = min((mesh["clearance"] for mesh in meshes), default=None)
-    cells = found["train"], verdict, len(meshes), play, "-" if room is None else f"{room:.3f}", found["parts"]
+    cells = found["train"], verdict, len(meshes), backlash, "-" if room is None else f"{room:.3f}", found["parts"]
     return f"| {' | '.join(map(str, cells))} | {seconds['proof']:.0f} | {seconds['all']:.0f} |"
 
 
@@ -200,9 +200,9 @@ def main() -> None:
 
 def from_command_line() -> None:
     """Write the page; with `--measure` after its run was made anew."""
-    asked = argparse.ArgumentParser(description="Write docs/ready-to-cut.md from its kept run.")
-    asked.add_argument("--measure", action="store_true", help="export all trains anew, which takes minutes")
-    if asked.parse_args().measure:
+    requested = argparse.ArgumentParser(description="Write docs/ready-to-cut.md from its kept run.")
+    requested.add_argument("--measure", action="store_true", help="export all trains anew, which takes minutes")
+    if requested.parse_args().measure:
         DATA.write_text(json.dumps(measure(), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     main()
 

@@ -23,7 +23,7 @@ WAYS = {
     "direct search": (HUES[2], "X"),
 }
 TIMED = [way for way in WAYS if way != "direct search"]
-LEAST = 1e-16
+MINIMUM = 1e-16
 
 
 def main() -> None:
@@ -168,7 +168,7 @@ def work(ax: Axes, records: ShapeRecords, problem: str) -> None:
     for way, (colour, marker) in WAYS.items():
         rows = [row for row in of(records, problem, way) if row.error < 1]
         if rows:
-            times, errors = [1e3 * row.seconds for row in rows], [max(row.error, LEAST) for row in rows]
+            times, errors = [1e3 * row.seconds for row in rows], [max(row.error, MINIMUM) for row in rows]
             size = 12 if way == "package" else 5
             ax.plot(times, errors, color=colour, marker=marker, ms=size, lw=1.3, label=way, zorder=3 if size > 5 else 2)
     ax.axhline(2.2e-16, color=QUIET, lw=1, ls="--")

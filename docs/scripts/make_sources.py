@@ -84,18 +84,18 @@ def table(header: tuple[str, ...], body: list[tuple[str, ...]]) -> Iterator[str]
     yield ""
 
 
-def show(asked: str) -> None:
+def show(requested: str) -> None:
     """Print the rows whose source and place hold the words."""
     for source in SOURCES:
         for row in source.rows:
-            if asked.lower() in f"{source.name} {row.place}".lower():
+            if requested.lower() in f"{source.name} {row.place}".lower():
                 print(" | ".join(cell for cell in cells(source, row) if cell), "" if row.stands else "DOES NOT STAND")
 
 
-def main(asked: str = "") -> None:
+def main(requested: str = "") -> None:
     """Write the page, or print what is asked for."""
-    if asked:
-        show(asked)
+    if requested:
+        show(requested)
         return
     PAGE.write_text(page(), encoding="utf-8")
     print("wrote docs/sources.md")

@@ -73,9 +73,9 @@ def of(rows: Sequence[PackRecord], family: str) -> list[PackRecord]:
     return sorted((row for row in rows if row.family == family), key=lambda row: row.gears)
 
 
-def fits_of(records: SphereRecords, aim: str, least: int, family: str = "") -> list[FitRecord]:
+def fits_of(records: SphereRecords, aim: str, minimum: int, family: str = "") -> list[FitRecord]:
     """The fits for one aim, all families or one, by size."""
-    found = [row for row in records.fits if row.aim == aim and row.least == least and family in ("", row.family)]
+    found = [row for row in records.fits if row.aim == aim and row.minimum == minimum and family in ("", row.family)]
     return sorted(found, key=lambda row: row.gears)
 
 
@@ -106,9 +106,9 @@ def by_family(records: SphereRecords, what: str) -> dict[str, list[tuple[int, fl
     return {family: [(row.gears, getattr(row, what)) for row in of(records.packings, family)] for family in FAMILIES}
 
 
-def fit_growth(records: SphereRecords, aim: str, least: int) -> str:
+def fit_growth(records: SphereRecords, aim: str, minimum: int) -> str:
     """The exponents of the time from the graph to the sizes."""
-    return exponents({f: [(row.gears, row.whole) for row in fits_of(records, aim, least, f)] for f in FAMILIES})
+    return exponents({f: [(row.gears, row.whole) for row in fits_of(records, aim, minimum, f)] for f in FAMILIES})
 
 
 def which(records: SphereRecords) -> str:
@@ -129,9 +129,9 @@ def which(records: SphereRecords) -> str:
     )
 
 
-def exact_of(records: SphereRecords, least: int) -> int:
+def exact_of(records: SphereRecords, minimum: int) -> int:
     """How many of the largest graphs were brought to one pitch."""
-    return sum(row.exact and row.gears > 900 for row in fits_of(records, "pitch", least))
+    return sum(row.exact and row.gears > 900 for row in fits_of(records, "pitch", minimum))
 
 
 def circles(records: SphereRecords) -> str:
@@ -200,7 +200,7 @@ def failures(records: SphereRecords) -> str:
     if not bad:
         return "Every fit is exact."
     told = [
-        f"{row.family} of {row.gears}, {row.aim} from {row.least} teeth ({row.steps} steps, {row.residual:.1e} left)"
+        f"{row.family} of {row.gears}, {row.aim} from {row.minimum} teeth ({row.steps} steps, {row.residual:.1e} left)"
         for row in bad
     ]
     return "Not exact: " + "; ".join(told) + "."
@@ -231,7 +231,7 @@ def loops(records: SphereRecords) -> str:
         CLOSURE,
         loops=f"{sum(row.loops for row in exact):,}",
         wrong=count(sum(row.wrong for row in exact), "is wrong"),
-        least=at[1].error,
+        minimum=at[1].error,
         most=at[12].error,
         axes_off=next(row.error for row in axes if row.power == 12 and row.family == PRISM),
         axes=first_wrong(axes),

@@ -82,8 +82,8 @@ def middle(values: Sequence[float]) -> float:
 
 def took(values: Sequence[float]) -> str:
     """Least to greatest time."""
-    least, greatest = seconds_text(min(values)), seconds_text(max(values))
-    return least if least == greatest else f"{least} to {greatest}"
+    minimum, maximum = seconds_text(min(values)), seconds_text(max(values))
+    return minimum if minimum == maximum else f"{minimum} to {maximum}"
 
 
 def question(records: TeethRecords, name: str, stages: int, counts: str = WIDE) -> list[TeethRecord]:

@@ -134,7 +134,7 @@ def estimates(records: UncertaintyRecords) -> str:
         exact=f"{first.truth:.10f}",
         other=f"{other.truth:.4f} +- {other.truth_error:.4f}",
         slopes="; ".join(f"{case}: {power:.3f} +- {off:.3f}" for case, (power, off) in records.slopes.items()),
-        least=f"{min(row.rms / row.expected for row in records.errors):.2f}",
+        minimum=f"{min(row.rms / row.expected for row in records.errors):.2f}",
         most=f"{max(row.rms / row.expected for row in records.errors):.2f}",
         covered=f"{100 * min(covered):.1f} to {100 * max(covered):.1f}",
     )

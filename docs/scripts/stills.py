@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from geartrain.scene import Scene
 
 NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-ASKED = "GEARTRAIN_BROWSER"
+REQUESTED = "GEARTRAIN_BROWSER"
 """The variable of the environment that names another program."""
 
 SWITCHES = (
@@ -68,8 +68,8 @@ _STILL = """(turns) => {
 
 def find_browser() -> str | None:
     """The browser's program: that of GEARTRAIN_BROWSER, else the first on the path; None if there is none."""
-    asked = os.environ.get(ASKED)
-    return shutil.which(asked) if asked else next(filter(None, map(shutil.which, NAMES)), None)
+    requested = os.environ.get(REQUESTED)
+    return shutil.which(requested) if requested else next(filter(None, map(shutil.which, NAMES)), None)
 
 
 def can_draw() -> bool:
@@ -78,7 +78,7 @@ def can_draw() -> bool:
         from playwright.sync_api import sync_playwright
     except ImportError:
         return False
-    if os.environ.get(ASKED) or find_browser():
+    if os.environ.get(REQUESTED) or find_browser():
         return find_browser() is not None
     with sync_playwright() as playwright:
         return os.path.exists(playwright.chromium.executable_path)

@@ -176,9 +176,9 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Every pair's transmission function evaluated directly, and interpolated in tables."""
-    laws = {mesh.name: mesh.law for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
-    laws |= {pin.coupling.name: pin.law for pin in train.mechanics.pins}
-    if not laws:
+    transmissions = {mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
+    transmissions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
+    if not transmissions:
         what = "each pair with a tooth form has its exact ratio" if train.meshes else _NO_FORM
         raise QuestionError(Problem(what))
     import numpy as np
@@ -187,25 +187,28 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
     # equal steps could fall on the nodes of the tables, and miss their error; seeded, so that it is the same each time
     random = np.random.default_rng(1)
-    S = {name: random.uniform(0, 10 * law.period, positions) for name, law in laws.items()}
-    pitches = {name: abs(float(law.ratio) or 1.0) * law.period for name, law in laws.items()}
+    S = {name: random.uniform(0, 10 * transmission.period, positions) for name, transmission in transmissions.items()}
+    pitches = {
+        name: abs(float(transmission.ratio) or 1.0) * transmission.period
+        for name, transmission in transmissions.items()
+    }
 
     def evaluate(functions: dict[str, Any]) -> dict[str, Floats]:
         return {name: each.error(S[name]) for name, each in functions.items()}
 
     def tabulate(tolerance: float) -> dict[str, Any]:
-        tables = {name: TabulatedTransmission(law, tolerance) for name, law in laws.items()}
+        tables = {name: TabulatedTransmission(transmission, tolerance) for name, transmission in transmissions.items()}
         for table in tables.values():
             _ = table.error_table
         return tables
 
     stage: Stage = "transmission functions"
-    seconds, direct = _best_of(partial(evaluate, laws))
-    yield MethodAccuracy(stage, f"direct, {len(laws)} laws", seconds, None, "pitches", _REFERENCE)
+    seconds, direct = _best_of(partial(evaluate, transmissions))
+    yield MethodAccuracy(stage, f"direct, {len(transmissions)} laws", seconds, None, "pitches", _REFERENCE)
     for tolerance in _TOLERANCES:
         prepared, tables = _best_of(partial(tabulate, tolerance))
         seconds, read = _best_of(partial(evaluate, tables))
-        off = {name: float(np.nanmax(np.abs(read[name] - direct[name]))) / pitches[name] for name in laws}
+        off = {name: float(np.nanmax(np.abs(read[name] - direct[name]))) / pitches[name] for name in transmissions}
         name = max(off, key=lambda each: off[each])
         method, reference = f"tabulated, {tolerance:.0e}", f"direct, of {name}"
         yield MethodAccuracy(stage, method, seconds, off[name], "pitches", reference, prepared)

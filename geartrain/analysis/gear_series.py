@@ -93,7 +93,7 @@ class GearSearch(Tabular, Result):
 
     KEYS = (
         *("name", "title", "input", "output", "closed", "combinations"),
-        *("gears", "free", "locked", "asked", "series", "widest", "evenest"),
+        *("gears", "free", "locked", "requested", "series", "widest", "evenest"),
     )
 
     name: str
@@ -114,7 +114,7 @@ class GearSearch(Tabular, Result):
     """Number of other combinations of this size that leave the train free."""
     locked: tuple[tuple[str, ...], ...] = ()
     """Number of other combinations of this size that lock the train."""
-    asked: int = 0
+    requested: int = 0
     """Gears of the series asked for; 0 where none was."""
     series: int = 0
     """How many series there are with all steps inside the window, shifts as asked; 0 where none was asked for."""
@@ -192,7 +192,7 @@ def find_gears(
     links = _links(forward, low, high, single)
     widest, evenest = _widest(forward, links, gears), _evenest(forward, links, gears)
     count = _count(forward, links, gears)
-    return replace(found, asked=gears, series=count, widest=widest, evenest=evenest)
+    return replace(found, requested=gears, series=count, widest=widest, evenest=evenest)
 
 
 def _falling(gear: PossibleGear) -> Fraction:

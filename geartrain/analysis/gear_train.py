@@ -444,7 +444,7 @@ class GearTrain:
         """Whether the teeth of every loop meet, where positions of axes are declared, and angles to put wheels in."""
         from geartrain.kinematics.phasing import find_phasing
 
-        backlash = {mesh.name: mesh.play for mesh in self.mechanics.teeth}
+        backlash = {mesh.name: mesh.backlash for mesh in self.mechanics.teeth}
         found = find_phasing(self.declaration, self.kinematics.tree, self.circuits, backlash)
         _ = found.kind  # judged here, so that its line at the prompt computes nothing
         return found
@@ -615,9 +615,9 @@ class GearTrain:
         )
         return driven.simulation(step, fast)
 
-    def _driven(self, *asked: Any) -> Any:
+    def _driven(self, *requested: Any) -> Any:
         """The train driven in time in one state, from the wing `simulation`."""
-        return wing("simulation.time.train_in_time").DrivenTrain(self.mechanics, *asked)
+        return wing("simulation.time.train_in_time").DrivenTrain(self.mechanics, *requested)
 
     # ----------------------------------------------------------------------------------------------------- other trains
 

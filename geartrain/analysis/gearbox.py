@@ -315,12 +315,12 @@ def _shifts(states: Sequence[GearState]) -> Iterator[Shift]:
 def _elements(train: TrainMechanics, states: Sequence[GearState]) -> Iterator[ShiftElement]:
     for name, clutch in train.declaration.clutches.items():
         closed = tuple(each.state for each in states if name in each.engaged)
-        torque, at = _greatest((each.state, each.torques.get(name)) for each in states)
-        slip, where = _greatest((each.state, each.slips.get(name)) for each in states)
+        torque, at = _maximum((each.state, each.torques.get(name)) for each in states)
+        slip, where = _maximum((each.state, each.slips.get(name)) for each in states)
         kind: ElementKind = "brake" if clutch.fixes is not None else "clutch"
         yield ShiftElement(name, kind, closed, torque, at, slip, where)
 
 
-def _greatest(values: Iterable[tuple[str, Fraction | None]]) -> tuple[Fraction | None, str]:
+def _maximum(values: Iterable[tuple[str, Fraction | None]]) -> tuple[Fraction | None, str]:
     known = [(value, state) for state, value in values if value is not None]
     return max(known, key=lambda each: abs(each[0]), default=(None, ""))

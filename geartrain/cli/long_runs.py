@@ -209,10 +209,10 @@ class TimeRequest:
         }
 
 
-def run_in_time(train: GearTrain, state: str | None, asked: dict[str, Any]) -> TimeRun:
+def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) -> TimeRun:
     """The run, with a bar that tells how far it is; Ctrl-C ends it after the step that it is in."""
     with interruptible("motion in time") as on_done:
-        return train.dynamics(state=state, **asked, on_done=on_done)
+        return train.dynamics(state=state, **requested, on_done=on_done)
 
 
 @contextmanager

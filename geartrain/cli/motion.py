@@ -79,22 +79,22 @@ def run(
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance, fast)
-    asked = MotionRun(motion, _turns(turns, motion), samples)
+    requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
-        _write_table(asked, to.path, resume, force)
+        _write_table(requested, to.path, resume, force)
     elif csv:
-        for rows in _rows(asked, 0):
+        for rows in _rows(requested, 0):
             emit("\n".join(rows))
     else:
         from geartrain.report.motion_report import separation_rates
 
         of = train.name, state, partial(separation_rates, train, state, without or ())
-        _report(asked, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
+        _report(requested, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
     if plot is not None:
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            draw(motion_figure(asked, bar.advance, f"{train.name}: what real teeth do to outputs"), picture)
+            draw(motion_figure(requested, bar.advance, f"{train.name}: what real teeth do to outputs"), picture)
 
 
 def _turns(text: str, motion: Motion) -> float:
@@ -107,15 +107,15 @@ def _turns(text: str, motion: Motion) -> float:
 
 def _partial(to: Sink) -> Sink:
     """Where the figures of an interrupted run go. A table has a partial file of its own, which can be taken up."""
-    from geartrain.numerics.files import partial_name
-
     if to.path is None or to.suffix == ".csv":
         return STANDARD
+    from geartrain.numerics.files import partial_name
+
     return sink(partial_name(to.path), to.force)
 
 
 def _report(
-    asked: MotionRun,
+    requested: MotionRun,
     json: bool,
     into: tuple[Sink, Sink],
     of: tuple[str, str | None, Callable[[], Any]],
@@ -128,60 +128,60 @@ def _report(
     """The figures, into the second place where they are cut short."""
     from geartrain.report.motion_report import collect_motion, describe_motion
 
-    work = asked.samples * (1 + phases + estimates + spectrum)
+    work = requested.samples * (1 + phases + estimates + spectrum)
     stopped = False
     with progress("motion", work) as bar:
         try:
-            asked.run(bar.advance)
-            asked.run_random_phases(phases, seed, bar.advance)
+            requested.run(bar.advance)
+            requested.run_random_phases(phases, seed, bar.advance)
             if estimates:
-                asked.find_estimates(bar.advance)
+                requested.find_estimates(bar.advance)
             if spectrum:
-                asked.find_spectra(bar.advance)
+                requested.find_spectra(bar.advance)
         except KeyboardInterrupt:
-            if not asked.done:
+            if not requested.done:
                 raise
             stopped = True
     to = into[stopped]
     name, state, separation = of
-    found = collect_motion(asked, name, state, None if stopped else separation())
+    found = collect_motion(requested, name, state, None if stopped else separation())
     give(to, json, lambda: found, lambda: [describe_motion(found, every_output)])
     if stopped:
-        tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")
+        tell(f"stopped after {requested.done} of {requested.samples} positions; the figures are of those")
         raise typer.Exit(INTERRUPTED)
 
 
-def _write_table(asked: MotionRun, out: Path, resume: bool, force: bool) -> None:
+def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> None:
     from geartrain.numerics.files import LongTable, csv_line
 
     try:
-        with LongTable(out, csv_line(asked._position_columns), resume, force) as table:
+        with LongTable(out, csv_line(requested._position_columns), resume, force) as table:
             if resume and not table.rows:
                 tell(f"nothing to resume: there is no {table.partial}; the run begins anew")
             if table.rows:
-                asked._check_resumed(table.last(), table.rows)
+                requested._check_resumed(table.last(), table.rows)
             first = table.rows
-            with progress("motion", asked.samples - first) as bar:
-                for rows in _rows(asked, first, header=False):
+            with progress("motion", requested.samples - first) as bar:
+                for rows in _rows(requested, first, header=False):
                     table.write(rows)
                     bar.advance(len(rows))
     except KeyboardInterrupt:
-        tell(f"stopped after {table.rows} of {asked.samples} positions: {table.partial}")
+        tell(f"stopped after {table.rows} of {requested.samples} positions: {table.partial}")
         tell("give the same command with --resume to go on")
         raise typer.Exit(INTERRUPTED) from None
     tell(f"wrote {out}")
 
 
-def _rows(asked: MotionRun, first: int, header: bool = True) -> Iterator[list[str]]:
+def _rows(requested: MotionRun, first: int, header: bool = True) -> Iterator[list[str]]:
     from geartrain.numerics.files import csv_line
 
     if header:
-        yield [csv_line(asked._position_columns)]
-    for passage in asked.motion._stretches(asked.turns, asked.samples, first):
-        yield _lines(asked, passage)
+        yield [csv_line(requested._position_columns)]
+    for passage in requested.motion._stretches(requested.turns, requested.samples, first):
+        yield _lines(requested, passage)
 
 
-def _lines(asked: MotionRun, passage: ErrorSamples) -> list[str]:
+def _lines(requested: MotionRun, passage: ErrorSamples) -> list[str]:
     from geartrain.numerics.files import csv_lines
 
-    return csv_lines(zip(*(column.tolist() for column in asked._values(passage)), strict=True))
+    return csv_lines(zip(*(column.tolist() for column in requested._values(passage)), strict=True))

@@ -19,18 +19,18 @@ from geartrain.scene.palette import ThemeName
 Theme = Annotated[ThemeName, typer.Option("--theme", help="Colours of pictures: light, dark, or print without colour.")]
 
 
-Least = Literal["0", "above 0"] | None
+Minimum = Literal["0", "above 0"] | None
 _MOST = 1e30  # squares and products of such numbers are floats
 MOST_COUNT = 10**9
 """More of anything than a run ends within a lifetime."""
 
 
-def quantity(place: str, text: str, dimension: str, plain: bool = False, least: Least = None) -> float:
-    """A quantity in SI units; `least` says that it must be 0 or more, or above 0. Raises `GearTrainError`."""
-    return read_quantity(place, text, dimension, plain, least).si
+def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> float:
+    """A quantity in SI units; `minimum` says that it must be 0 or more, or above 0. Raises `GearTrainError`."""
+    return read_quantity(place, text, dimension, plain, minimum).si
 
 
-def read_quantity(place: str, text: str, dimension: str, plain: bool = False, least: Least = None) -> Quantity:
+def read_quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> Quantity:
     """The same as it was written."""
     try:
         found = Quantity.parse(text, dimension, plain)
@@ -39,9 +39,9 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, le
     if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give one between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise GearTrainError(Problem(f"{text} is beyond all measure", "its square is lost in rounding", fix, place))
-    if found.value < 0 and least is not None:
+    if found.value < 0 and minimum is not None:
         raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
-    if found.value == 0 and least == "above 0":
+    if found.value == 0 and minimum == "above 0":
         raise GearTrainError(Problem(f"{text} is not above 0", "", f"give a {dimension} above 0", place))
     return found
 
@@ -63,7 +63,7 @@ def restitution(text: str) -> float:
 
 def input_rate(text: str) -> float:
     """A speed of the input (rad/s); a plain number is turns a second."""
-    found = read_quantity("--rate", text, "speed", plain=True, least="above 0")
+    found = read_quantity("--rate", text, "speed", plain=True, minimum="above 0")
     return tau * float(found.value) if found.unit is None else found.si
 
 

@@ -100,5 +100,5 @@ def formula(
     give(to, json, lambda: report, lambda: [describe_formulas(report, latex, inverse)])
     # a state that is free, as it says, need not determine its outputs
     bound = [name for name in states if train.solve(name).verdict or not train.solve(name).as_expected]
-    asked = sum(len(output or train.declaration.case(name).outputs) for name in bound)
-    raise typer.Exit(GOOD if sum(each.state in bound for each in report.formulas) == asked else VERDICT)
+    requested = sum(len(output or train.declaration.case(name).outputs) for name in bound)
+    raise typer.Exit(GOOD if sum(each.state in bound for each in report.formulas) == requested else VERDICT)

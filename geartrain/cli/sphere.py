@@ -45,7 +45,7 @@ def run(
     exact: Annotated[bool, typer.Option("--exact", help="Move the axes until all pitches are equal.")] = False,
     graph: Annotated[Path | None, typer.Option("--graph", help="Gears of a graph: two names a line.")] = None,
     aim: Annotated[str, typer.Option("--aim", help="With --graph: equal 'pitch' or closed 'phases'.")] = "pitch",
-    least: Annotated[int, typer.Option("--least", help="With --graph: teeth of the smallest gear.")] = 12,
+    minimum: Annotated[int, typer.Option("--minimum", help="With --graph: minimum tooth count of a gear.")] = 12,
     radius: Annotated[str, typer.Option("--radius", help="Of the sphere, or of a wheel: 5=1.25.")] = "1",
     suggest: Annotated[int, typer.Option("--suggest", help="List the best tooth sets up to so many teeth.")] = 0,
     best: Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many suggestions.")] = 20,
@@ -70,7 +70,7 @@ def run(
         return
     if (solid is None) == (graph is None):
         raise typer.BadParameter("name a solid or a graph, or ask for --survey", param_hint="SOLID")
-    made = _graph(graph, aim, least) if graph else None
+    made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
         _suggest(configuration, suggest, best, json, to)
@@ -129,11 +129,11 @@ def _solid(solid: str, gears: Any, teeth: str | None, drop: list[str], exact: bo
     return from_polyhedron(shape, gears, teeth=_teeth(teeth), drop=drop, exact=exact)
 
 
-def _graph(file: Path, aim: Any, least: int) -> GraphSet:
+def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
     from geartrain.numerics.files import read_edges
     from geartrain.spherical import from_graph
 
-    return from_graph(read_edges(file), least, aim)
+    return from_graph(read_edges(file), minimum, aim)
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:

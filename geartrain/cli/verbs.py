@@ -228,11 +228,11 @@ def _kept(text: str) -> str:
     from importlib.metadata import version
 
     head = f"geartrain {version('geartrain')}, Python {platform.python_version()}, {platform.platform()}\n"
-    asked = f"asked: {sys.argv!r}\n\n"
+    requested = f"asked: {sys.argv!r}\n\n"
     try:
         handle, name = tempfile.mkstemp(prefix="geartrain-fault-", suffix=".txt", text=True)
         with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
-            file.write(head + asked + text)
+            file.write(head + requested + text)
     except OSError:
         return ""
     return name

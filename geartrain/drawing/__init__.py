@@ -42,12 +42,11 @@ if TYPE_CHECKING:
     from geartrain.drawing.style import render as render
     from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
     from geartrain.drawing.train_pictures import picture as picture
-    from geartrain.drawing.transmission_curves import law_figure as law_figure
     from geartrain.drawing.transmission_curves import shapes_figure as shapes_figure
     from geartrain.drawing.transmission_curves import transmission_figure as transmission_figure
+    from geartrain.drawing.transmission_curves import triangular_figure as triangular_figure
 
 __all__ = [
-    "law_figure",
     "motion_figure",
     "outline_text",
     "outputs_figure",
@@ -60,6 +59,7 @@ __all__ = [
     "teeth_figure",
     "torque_cycle_figure",
     "transmission_figure",
+    "triangular_figure",
 ]
 
 _PLACES = {
@@ -73,7 +73,7 @@ _PLACES = {
     "teeth_figure": "tooth_contact",
     "torque_cycle_figure": "output_error_plots",
     "picture": "train_pictures",
-    **dict.fromkeys(("law_figure", "transmission_figure"), "transmission_curves"),
+    **dict.fromkeys(("triangular_figure", "transmission_figure"), "transmission_curves"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -344,12 +344,12 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
     """Places near those of what is named, in an order in which no line crosses another, as far as one is found."""
     order = _shortest(callouts, edge, bounds)
-    best, least = _stacked(order, bounds), inf
+    best, minimum = _stacked(order, bounds), inf
     for _ in range(len(order) + 1):
         placed = _stacked(order, bounds)
         crossed = _crossings(placed, edge)
-        if len(crossed) < least:
-            best, least = placed, len(crossed)
+        if len(crossed) < minimum:
+            best, minimum = placed, len(crossed)
         if not len(crossed):
             break
         one, other = crossed[0]

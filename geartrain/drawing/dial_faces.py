@@ -108,7 +108,7 @@ def dials_figure(
     ]
     wide = max(_FACE, max(keys) + 0.3) if labels else _FACE
     width = max(wide * columns, 5.0)
-    title = title_of(scene.name, scene.title) + (f", after {turns} turns of {_lead(scene)}" if turns else "")
+    title = title_of(scene.name, scene.title) + (f", after {turns} turns of {_driving_link(scene)}" if turns else "")
     figure, axes = sheet(width, _HEAD + sum(tall) + 0.1, title)
     top = sum(tall) + 0.1
     for row, high in zip(rows, tall, strict=True):
@@ -122,8 +122,8 @@ def dials_figure(
     return figure
 
 
-def _lead(scene: Scene) -> str:
-    return scene.bodies[scene.lead].id if scene.lead is not None else "nothing"
+def _driving_link(scene: Scene) -> str:
+    return scene.bodies[scene.driving_link].id if scene.driving_link is not None else "nothing"
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:

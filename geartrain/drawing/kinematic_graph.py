@@ -155,9 +155,11 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
         for end in edge.ends:
             degree[end] += 1
     pairs = [edge.ends for edge in edges]
-    least = _EDGE + _ROOMY / len(links)
+    minimum = _EDGE + _ROOMY / len(links)
     lengths = {
-        edge.ends: max(least + _HUB * max(sum(degree[end] for end in edge.ends) - 6, 0), text_width(edge.label) + 0.55)
+        edge.ends: max(
+            minimum + _HUB * max(sum(degree[end] for end in edge.ends) - 6, 0), text_width(edge.label) + 0.55
+        )
         for edge in edges
     }
     places = settle(links, pairs, lengths)

@@ -47,7 +47,7 @@ class Point(NamedTuple):
 
 
 _MOST = 120  # panels
-_LEAST, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
+_MINIMUM, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
 _NARROW, _EDGE = 5.0, 0.45  # inches: least width of a page, and what is free at its right
 _GAP, _HEAD = 0.7, 0.95  # inches between panels, and for the names above and below one
 _FINE = 8.5  # points
@@ -142,7 +142,7 @@ def _width(points: Sequence[Point]) -> float:
     """Inches in which the words above and below a panel stand side by side."""
     above = sum(_letters(max([*point.names, _said(point.speed)], key=len)) for point in points)
     below = sum(_letters(_said(point.x)) for point in points)
-    return max(above, below, _LEAST)
+    return max(above, below, _MINIMUM)
 
 
 def _letters(text: str) -> float:

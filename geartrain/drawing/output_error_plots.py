@@ -25,6 +25,7 @@ from geartrain.drawing.style import (
     kept_extremes,
     legend_above,
     name_axes,
+    plain,
     short,
 )
 from geartrain.dynamics.motion.motion_run import MotionRun
@@ -104,7 +105,7 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     ranked = sorted(erring, key=lambda trace: -float(np.ptp(trace.error))) or found
     most = {trace.name for trace in ranked[:_OUTPUTS]}
     traces = [trace for trace in found if trace.name in most]
-    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion._problem.lead}")
+    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion._problem.driving_link}")
     left_out = _left_out(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
 
@@ -162,7 +163,7 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
         parts = [(trace, [*drawers[-2:], *drawers[:-2]]) for trace, drawers in parts]
     rows = sum(len(drawers) for _, drawers in parts) if across == 1 else len(parts)
     size = WIDTH if across == 1 else _WIDE * across, max(2, rows) * _ROW / 100 + 0.3
-    figure = Figure(figsize=size, dpi=100, layout="constrained")
+    figure = Figure(figsize=size, layout="constrained")
     grid = figure.subplots(rows, across, squeeze=False)
     column = iter(grid[:, 0])
     for row, (trace, drawers) in enumerate(parts):
@@ -176,10 +177,9 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
 def _framed(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
     """One panel of one output."""
     drawer(panel, trace)
-    panel.set_xlabel(below, fontsize=SMALL, parse_math=False)
+    name_axes(panel, below, size=SMALL, parse_math=False)
     panel.locator_params(axis="x", nbins=_TICKS)
-    panel.grid(color=GREY, alpha=0.25)
-    panel.spines[["top", "right"]].set_visible(False)
+    plain(panel)
 
 
 def _drawers(trace: _Trace) -> list[_Drawer]:
@@ -237,7 +237,7 @@ def _angle(panel: Any, trace: _Trace) -> None:
     if np.isfinite(back).any():
         panel.plot(*_broken(trace.turns, back), color=RED, linewidth=2, label="going back")
     _dial(panel, f"{trace.name}\nangle (deg)")
-    panel.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize="small", ncols=3)
+    legend_above(panel, 3)
 
 
 def _arcs(panel: Any, trace: _Trace) -> None:
@@ -300,7 +300,7 @@ def _turning(values: Floats) -> NDArray[np.intp]:
 _ABOVE_LEGEND = 20  # points from the title to the upper panel
 _MOST_POSITIONS = 6000  # positions drawn of the torque: of each stretch the first, its least and its greatest
 _BINS = 900  # pixels: stretches of the run over which losses are averaged where there are more positions
-_LEAST = 1e-9  # of all that is lost: less is rounding
+_MINIMUM = 1e-9  # of all that is lost: less is rounding
 _CUT = 1.5  # times the torque that is exceeded in a fiftieth of the run: near a lock it has no bound
 _MOST_LOSSES = 6
 """Of the parts that lose most; all others are drawn as one."""
@@ -375,7 +375,7 @@ def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
         )
     if found.mean is not None:
         panel.axhline(found.mean, color=GREY, linewidth=1.0, label=f"mean {found.mean:.5g}")
-    marks = (("greatest", found.greatest, "^", RED), ("least", found.least, "v", GREEN))
+    marks = (("maximum", found.maximum, "^", RED), ("minimum", found.minimum, "v", GREEN))
     for name, extreme, marker, colour in marks:
         if extreme is not None:
             _mark(panel, name, extreme, marker, colour)
@@ -383,7 +383,7 @@ def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label=f"locked, {100 * found.locked_share:.3g} %")
     low, high = panel.get_ylim() if not found.locked else _bounds(found.turns, found.torque)
     panel.set_ylim(min(low, 0.0), max(high, 0.0))
-    panel.set_ylabel(f"torque at {short(found.link)}{unit}", fontsize=SMALL, parse_math=False)
+    name_axes(panel, y=f"torque at {short(found.link)}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 5)
 
 
@@ -407,7 +407,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
     )
     panel.set_ylim(0.0, _bounds(turns, powers.sum(axis=0))[1] if found.locked else None)
     of = f"as torque at {short(found.link)}" if ratio else "a radian of the input"
-    panel.set_ylabel(f"lost, {of}{unit}", fontsize=SMALL, parse_math=False)
+    name_axes(panel, y=f"lost, {of}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 4)
 
 
@@ -419,7 +419,7 @@ def _mean_speed(found: TorqueCycle) -> float:
     speed = np.asarray(found.speeds.values)[found.speeds.labels[0].index(found.link)]
     steps = np.diff(found.turns)
     forth, most = steps @ (speed[1:] + speed[:-1]) / 2, steps @ (abs(speed[1:]) + abs(speed[:-1])) / 2
-    return float(abs(forth) / found.span) if abs(forth) > _LEAST * most else 0.0
+    return float(abs(forth) / found.span) if abs(forth) > _MINIMUM * most else 0.0
 
 
 def _losses(found: TorqueCycle) -> list[_Loss]:
@@ -430,7 +430,7 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
     lost = sum(part.loss for part in found.parts.values())
     if not lost > 0:
         return []
-    losing = [name for name in names if found.parts[name].loss > _LEAST * lost]
+    losing = [name for name in names if found.parts[name].loss > _MINIMUM * lost]
     ranked = sorted(losing, key=lambda name: -found.parts[name].loss)
     rows = {name: values[names.index(name)] for name in names}
     shown = ranked[:_MOST_LOSSES] if len(ranked) <= _MOST_LOSSES else ranked[: _MOST_LOSSES - 1]

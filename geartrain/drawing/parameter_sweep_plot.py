@@ -14,7 +14,6 @@ from geartrain.drawing.style import (
     HALO,
     PALE,
     SCALE,
-    SMALL,
     TEXT,
     WIDTH,
     Axes,
@@ -45,13 +44,13 @@ _SHOWN = {
 _FAULTS = {  # hatches of the verdicts on pairs that do not run
     "jam": "xx",
     "clash": "\\\\",
-    "standstill": "//",
+    "dwell": "//",
     "overhang": "++",
     "no valley": "..",
     "apart": "--",
     "none": "",
 }
-_STANDS = "standstill"  # a fault with which the pair still turns
+_STANDS = "dwell"  # a fault with which the pair still turns
 _KNOWN = {  # ways of running: series and how strong its veil is, so that in print no two are like grey
     "approach": (0, 0.08),
     "recess": (1, 0.27),
@@ -63,7 +62,7 @@ _CUT = 0.8  # points: the line between two bands
 _NAMES = {  # of parameters, and the unit of one that has none of its own
     "z1": ("teeth of wheel 1", ""),
     "z2": ("teeth of wheel 2", ""),
-    "clearance": ("clearance factor", ""),
+    "clearance_factor": ("clearance factor", ""),
     "excess": ("clearance factor less 1", ""),
     "backlash": ("backlash", "modules"),
     "centre_distance": ("centre distance", "modules"),
@@ -245,7 +244,6 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
     mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap=SCALE, rasterized=shown.size > _MANY, gid="map")
     colour_bar(figure, axes, mesh, _SHOWN.get(name, name))
     name_axes(axes, first, second)
-    axes.tick_params(labelsize=SMALL)
     if min(verdicts.shape) > 1:
         _regions(axes, x, y, verdicts)
     faults = [kind for kind in _FAULTS if (verdicts == kind).any()]

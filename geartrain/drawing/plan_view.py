@@ -312,7 +312,7 @@ def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[n
     return np.asarray((np.hypot(apart[..., 0], apart[..., 1]) < reach[near]).any(axis=1))
 
 
-_LEAST, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average
+_MINIMUM, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average
 _RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
 _SIDE = 1.1  # inches: least width of the side view
 _TOLD = 8.5  # points: what is told above the plan
@@ -386,7 +386,7 @@ class _PlanSize:
         points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in wheels), *_hubs(standing)])
         low, high = points.min(0), points.max(0)
         size = np.maximum(high - low, 1e-6)  # of points alone: the scale divides by it
-        side = min(max(_LEAST, _WHEEL * len(wheels) ** 0.5 * 1.7), _MOST)
+        side = min(max(_MINIMUM, _WHEEL * len(wheels) ** 0.5 * 1.7), _MOST)
         scale = side / float(size[:2].max())
         layered = standing.flat and size[2] > 1e-9 and len({wheel.layer for wheel in wheels}) > 1
         deep = max(float(size[2]) * scale, _SIDE) if layered else 0.0
@@ -437,7 +437,8 @@ def _title(scene: Scene, turns: Fraction) -> str:
     if scene.state is not None:
         title += f" (state {scene.state})"
     if turns:
-        title += f", after {turns} turns of {scene.bodies[scene.lead].id if scene.lead is not None else 'nothing'}"
+        driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
+        title += f", after {turns} turns of {driver}"
     return title
 
 

@@ -108,7 +108,7 @@ class SankeyLayout:
     height: float
 
 
-_LEAST_GAP = 0.62  # between columns
+_MINIMUM_GAP = 0.62  # between columns
 _CLEAR = 0.06  # between words and a band that turns back beside them
 
 
@@ -135,7 +135,7 @@ def turns(
 
 
 def abscissae(
-    table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], least: float
+    table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
     """The middle of each column: wide enough apart for names and turns, and spread to fill the least width."""
     left = [max(spot.left for spot in column) for column in table]
@@ -145,10 +145,10 @@ def abscissae(
         names = right[at] + left[at + 1] + 0.12
         behind, before = room.get((at, True), 0.0), room.get((at + 1, False), 0.0)
         turning = behind + before + (left[at + 1] if behind else 0.0) + (right[at] if before else 0.0)
-        gaps.append(max(names, _LEAST_GAP, turning + 0.2))
+        gaps.append(max(names, _MINIMUM_GAP, turning + 0.2))
     edges = left[0] + right[-1] + 0.2
     x = [left[0] + 0.1]
-    for gap in _widened(gaps, least - edges):
+    for gap in _widened(gaps, minimum - edges):
         x.append(x[-1] + gap)
     return x
 
@@ -301,15 +301,15 @@ def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
 def _untangle(table: Sequence[list[SankeySpot]]) -> None:
     """Order columns by what they depend on, to and fro; then swap spots while that uncrosses bands."""
     whole = range(len(table))
-    best, least = [list(column) for column in table], _tangle(table, whole)
+    best, minimum = [list(column) for column in table], _tangle(table, whole)
     for sweep in range(_SWEEPS):
         forth = sweep % 2 == 0
         places = _ranks(table)
         for column in table if forth else reversed(table):
             column.sort(key=lambda spot: _middle(spot, forth, places))
             places |= _ranks([column])
-        if (tangle := _tangle(table, whole)) < least:
-            best, least = [list(column) for column in table], tangle
+        if (tangle := _tangle(table, whole)) < minimum:
+            best, minimum = [list(column) for column in table], tangle
     for column, order in zip(table, best, strict=True):
         column[:] = order
     for _ in range(_SWEEPS):
@@ -453,11 +453,11 @@ __all__ = [
 Width = Callable[[PowerNode, Fraction], float]
 
 
-def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, least: float) -> SankeyLayout:
+def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, minimum: float) -> SankeyLayout:
     """All parts of a flow in their places.
 
     name    width of the words above a node that some power passes; `loss`, of those below one that loses some power
-    least   width of the whole at least
+    minimum   width of the whole at least
     """
     sheds, streams = collapsed(flow)
     ahead, back = direct(streams)
@@ -481,7 +481,7 @@ def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, least: float) -> S
     order_columns(table)
     settle_heights(table)
     lanes, gaps = turns(table, [band[0] for band in bands if band[0].back])
-    x = abscissae(table, gaps, least)
+    x = abscissae(table, gaps, minimum)
     high = min([spot.top - spot.above for spot in every] + [turn.lane for turn in lanes])
     low = max(spot.top + spot.height + spot.below for spot in every)
     edge = max(spot.right for spot in table[-1]) + 0.1

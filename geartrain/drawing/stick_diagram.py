@@ -352,8 +352,8 @@ def _mesh(
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
     """What the lower wheel takes of the height: by its teeth, as long as the words beside both find room."""
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
-    least, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
-    return min(max(counts[0] / sum(counts), least), most) if least < most else (least + most) / 2
+    minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
+    return min(max(counts[0] / sum(counts), minimum), most) if minimum < most else (minimum + most) / 2
 
 
 _MOST = 160  # gear pairs

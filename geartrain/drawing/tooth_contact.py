@@ -36,34 +36,34 @@ from geartrain.drawing.style import (
 )
 from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import STANDSTILL, DriveInterval
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
+from geartrain.teeth.triangular.real_path import DWELL, DriveInterval
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-PHASES = {APPROACH: BLUE, RECESS: ORANGE, STANDSTILL: BLACK}
+PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
-def pair_text(law: TriangularTransmission, friction: float | None = None) -> str:
+def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
     """Tooth numbers, half angle, clearance factor and friction, by default the law's, of a pair, the driver first."""
-    sizes = law.sizes
+    sizes = transmission.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
     beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
     wheels = [f"a ring of {z}" if s < 0 else str(z) for z, s in zip((sizes.z1, sizes.z2), sizes.signs, strict=True)]
-    backwards = "" if law.direction > 0 else ", backwards"
+    backwards = "" if transmission.direction > 0 else ", backwards"
     return (
         f"{wheels[0]} drives {wheels[1]}{backwards}: half angle {beta}, clearance factor "
-        f"{sizes.clearance_factor:.10g}, friction {law.friction if friction is None else friction:.6g}"
+        f"{sizes.clearance_factor:.10g}, friction {transmission.friction if friction is None else friction:.6g}"
     )
 
 
-def require_contact(law: TriangularTransmission) -> None:
+def require_contact(transmission: TriangularTransmission) -> None:
     """Raise `GearTrainError` where the pair has no teeth, or none that touch."""
-    if not law.sizes.has_valleys or not law.intervals:
+    if not transmission.sizes.has_valleys or not transmission.intervals:
         raise GearTrainError(
-            Problem("this pair has no contact to draw", law.verdict.text, "change its teeth or its clearance")
+            Problem("this pair has no contact to draw", transmission.verdict.text, "change its teeth or its clearance")
         )
 
 
@@ -148,26 +148,26 @@ class ToothPairPose:
         return x + self.direction * y * tan(self.lean), 0.0
 
 
-def tooth_pair_pose(law: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
+def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
     """The wheels of a law when the driving couple is at `alpha1` (rad); the middle of its first interval if None.
 
     Where no couple drives at alpha1, the moment at which some driver's tooth is there.
     """
-    interval, x = _pose_at(law, alpha1)
-    couple, standing = law.contact.path.couple, interval.held
-    alpha2 = float(couple.angle(interval.phase, x)) if standing is None else standing
-    tau = law.contact.speed(interval, x)
-    return ToothPairPose(law.sizes, interval.phase, standing is None, x, alpha2, tau, law.direction)
+    interval, x = _pose_at(transmission, alpha1)
+    tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
+    alpha2 = float(tooth_pair.angle(interval.phase, x)) if standing is None else standing
+    tau = transmission.contact.speed(interval, x)
+    return ToothPairPose(transmission.sizes, interval.phase, standing is None, x, alpha2, tau, transmission.direction)
 
 
-def _pose_at(law: TriangularTransmission, alpha1: float | None) -> tuple[DriveInterval, float]:
+def _pose_at(transmission: TriangularTransmission, alpha1: float | None) -> tuple[DriveInterval, float]:
     if alpha1 is None:
-        first = law.intervals[0]
+        first = transmission.intervals[0]
         return first, (first.start + first.end) / 2
-    for interval in law.intervals:
+    for interval in transmission.intervals:
         if interval.end <= alpha1 <= interval.start:
             return interval, alpha1
-    return law.contact.locate(alpha1)
+    return transmission.contact.locate(alpha1)
 
 
 _FEW = 40  # teeth of both wheels, up to which they are drawn whole
@@ -176,12 +176,14 @@ _COLORS = {DRIVER: ORANGE, DRIVEN: SKY}
 _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 
 
-def teeth_figure(law: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None) -> Figure:
+def teeth_figure(
+    transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
+) -> Figure:
     """Triangular teeth in contact, drawn to scale, with the contact and the line of centres.
 
     Parameters
     ----------
-    law : TriangularTransmission
+    transmission : TriangularTransmission
         The pair.
     alpha1 : float, optional
         Angle of the driving tooth from the line of centres [rad]; by default in the middle of the first interval.
@@ -202,13 +204,13 @@ def teeth_figure(law: TriangularTransmission, alpha1: float | None = None, whole
     Examples
     --------
     >>> import geartrain
-    >>> law = geartrain.load("moon-triangular").meshes[0].law
-    >>> teeth_figure(law).axes[0].get_aspect()
+    >>> transmission = geartrain.load("moon-triangular").meshes[0].transmission
+    >>> teeth_figure(transmission).axes[0].get_aspect()
     1.0
     """
-    require_contact(law)
-    here = tooth_pair_pose(law, alpha1)
-    whole = law.sizes.z1 + law.sizes.z2 <= _FEW if whole is None else whole
+    require_contact(transmission)
+    here = tooth_pair_pose(transmission, alpha1)
+    whole = transmission.sizes.z1 + transmission.sizes.z2 <= _FEW if whole is None else whole
     view = _whole(here) if whole else _near(here)
     figure = Figure(figsize=(WIDTH, WIDTH * view.shape + 1.3), layout="constrained")
     axes = figure.add_subplot()
@@ -222,7 +224,7 @@ def teeth_figure(law: TriangularTransmission, alpha1: float | None = None, whole
     _line_of_centres(axes, here, view)
     if here.touching:
         _contact(axes, here, view)
-    name_axes(axes, title=f"{pair_text(law)}\n{_moment(here)}")
+    name_axes(axes, title=f"{pair_text(transmission)}\n{_moment(here)}")
     legend_below(figure, 4, list(_legend(here)))
     return figure
 
@@ -379,7 +381,7 @@ def _label(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, 
 def _moment(here: ToothPairPose) -> str:
     where = f"$\\alpha_1 = {degrees(here.alpha1):.4g}°$, $\\alpha_2 = {degrees(here.alpha2):.4g}°$"
     if not here.touching:
-        return f"standstill: {where}; no tooth touches, the driven wheel stands"
+        return f"dwell: {where}; no tooth touches, the driven wheel is at rest"
     return f"{here.phase}: {where}, speed ratio {here.tau:.4g}"
 
 

@@ -1,6 +1,7 @@
 """Curves of a pair of wheels: transmission functions over the driver's angle, and conjugate tooth forms side by side.
 
-`law_figure` shows triangular teeth, ideal and real path; `transmission_figure` any pair; `shapes_figure` flanks, paths
+`triangular_figure` shows triangular teeth, ideal and real path; `transmission_figure` any pair; `shapes_figure`
+flanks, paths
 of contact, and each cost along the path of conjugate forms.
 """
 
@@ -37,8 +38,8 @@ from geartrain.drawing.tooth_contact import PHASES, pair_text, require_contact
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import Dash, series_colour, series_dash
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
-from geartrain.teeth.triangular.real_path import STANDSTILL, SpeedJump
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
+from geartrain.teeth.triangular.real_path import DWELL, SpeedJump
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 if TYPE_CHECKING:
@@ -54,12 +55,12 @@ _LOST = 1e-12  # of the power: less is rounding
 _ANY_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "efficiency")
 
 
-def transmission_figure(law: TransmissionFunction, title: str) -> Figure:
+def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
     """Any transmission function over two periods: transmission error, speed ratio and efficiency on the drive flanks.
 
     Parameters
     ----------
-    law : TransmissionFunction
+    transmission : TransmissionFunction
         Of a pair of any form.
     title : str
         Above the first panel.
@@ -72,13 +73,19 @@ def transmission_figure(law: TransmissionFunction, title: str) -> Figure:
     Examples
     --------
     >>> import geartrain
-    >>> law = geartrain.load("moon-triangular").meshes[0].law
-    >>> transmission_figure(law, "a pair").axes[-1].get_xlabel()
+    >>> transmission = geartrain.load("moon-triangular").meshes[0].transmission
+    >>> transmission_figure(transmission, "a pair").axes[-1].get_xlabel()
     "driver's angle (deg)"
     """
-    S = np.linspace(0, 2 * law.period, _ANY_SAMPLES)
-    curves = (np.degrees(law.error(S)), law.speed(S) / float(law.ratio), law.efficiency(S))
-    corners = {(corner % law.period) + k * law.period for corner in law.corners() for k in (0, 1)}
+    S = np.linspace(0, 2 * transmission.period, _ANY_SAMPLES)
+    curves = (
+        np.degrees(transmission.error(S)),
+        transmission.speed(S) / float(transmission.ratio),
+        transmission.efficiency(S),
+    )
+    corners = {
+        (corner % transmission.period) + k * transmission.period for corner in transmission.kinks() for k in (0, 1)
+    }
     shown = len(curves) if np.abs(curves[-1] - 1).max() > _LOST else len(curves) - 1
     figure, panels = curve_panels([2.5] * shown)
     for axes, y, words in zip(panels, curves, _ANY_LABELS, strict=False):
@@ -107,7 +114,7 @@ _NEAR_RIM = 0.7  # of the panel: from here on words have more room on the left
 _BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyond it
 
 
-def law_figure(law: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
+def triangular_figure(transmission: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
     """The law of triangular teeth over the driver's angle: driven angle, speed ratio, sliding efficiency, moment arms.
 
     Thin lines are the ideal path of one couple of teeth (docs/teeth.md, equations 2 to 11), thick lines the real path
@@ -116,7 +123,7 @@ def law_figure(law: TriangularTransmission, friction: PairFriction | None = None
 
     Parameters
     ----------
-    law : TriangularTransmission
+    transmission : TriangularTransmission
         The pair.
     friction : PairFriction, optional
         In place of the law's own, where it depends on speed.
@@ -134,43 +141,43 @@ def law_figure(law: TriangularTransmission, friction: PairFriction | None = None
     Examples
     --------
     >>> import geartrain
-    >>> law = geartrain.load("moon-triangular").meshes[0].law
-    >>> [axes.get_ylabel().splitlines()[0] for axes in law_figure(law).axes]
+    >>> transmission = geartrain.load("moon-triangular").meshes[0].transmission
+    >>> [axes.get_ylabel().splitlines()[0] for axes in triangular_figure(transmission).axes]
     ['driven angle', 'speed ratio', 'sliding efficiency', 'arms of the force']
     """
-    require_contact(law)
-    rubs = law.friction > 0 if friction is None else True
+    require_contact(transmission)
+    rubs = transmission.friction > 0 if friction is None else True
     rows = [row for row in range(len(_LABELS)) if rubs or row != _EFFICIENCY]
     figure, panels = curve_panels([2.5] * len(rows), 1.5)
     for row, axes in zip(rows, panels, strict=True):
-        _panel(axes, law, row, friction)
-    _matching(panels, law)
-    _jumps(panels[1], law)
-    _instant_centre(panels[1], law.sizes.signs)
+        _panel(axes, transmission, row, friction)
+    _matching(panels, transmission)
+    _jumps(panels[1], transmission)
+    _instant_centre(panels[1], transmission.sizes.signs)
     _arms_key(panels[-1])
     _time(panels[-1])
-    name_axes(panels[0], title=_title(law, friction))
-    legend_below(figure, 4, list(_legend(law)))
+    name_axes(panels[0], title=_title(transmission, friction))
+    legend_below(figure, 4, list(_legend(transmission)))
     return figure
 
 
 # ------------------------------------------------------------------------------------------------------------- curves
 
 
-def _panel(axes: Axes, law: TriangularTransmission, row: int, friction: PairFriction | None) -> None:
+def _panel(axes: Axes, transmission: TriangularTransmission, row: int, friction: PairFriction | None) -> None:
     name_axes(axes, y=_LABELS[row])
     ideal, real = [], []
-    for phase, low, high in _phases(law):
+    for phase, low, high in _phases(transmission):
         x = np.linspace(low, high, _SAMPLES)
-        for y, (whose, style) in zip(_values(law, friction, phase, x)[row], _CURVES, strict=False):
+        for y, (whose, style) in zip(_values(transmission, friction, phase, x)[row], _CURVES, strict=False):
             line = {"linestyle": style, "gid": f"{whose}ideal {phase}"}
             axes.plot(np.degrees(x), y, color=PHASES[phase], linewidth=1.2, **line)
             ideal.append(y)
-    for interval in law.intervals:
+    for interval in transmission.intervals:
         x = np.linspace(interval.start, interval.end, _SAMPLES)
         color = PHASES[interval.phase]
         for y, (whose, style) in zip(
-            _values(law, friction, interval.phase, x, interval.held)[row], _CURVES, strict=False
+            _values(transmission, friction, interval.phase, x, interval.held)[row], _CURVES, strict=False
         ):
             line = {"linestyle": style if interval.held is None else _STANDS, "solid_capstyle": "butt"}
             line |= {"dash_capstyle": "butt", "gid": f"{whose}real {interval.phase}"}
@@ -181,16 +188,20 @@ def _panel(axes: Axes, law: TriangularTransmission, row: int, friction: PairFric
         axes.set_ylim(*_limits(np.concatenate(ideal), np.concatenate(real)))
 
 
-def _phases(law: TriangularTransmission) -> Iterator[tuple[str, float, float]]:
+def _phases(transmission: TriangularTransmission) -> Iterator[tuple[str, float, float]]:
     """Each phase of the ideal path with its least and greatest alpha_1 (rad)."""
     for phase in (RECESS, APPROACH):
-        pieces = [piece for piece in law.contact.path.pieces if piece.phase == phase]
+        pieces = [piece for piece in transmission.contact.path.pieces if piece.phase == phase]
         if pieces:
             yield phase, min(piece.low for piece in pieces), max(piece.high for piece in pieces)
 
 
 def _values(
-    law: TriangularTransmission, friction: PairFriction | None, phase: str, x: Floats, held: float | None = None
+    transmission: TriangularTransmission,
+    friction: PairFriction | None,
+    phase: str,
+    x: Floats,
+    held: float | None = None,
 ) -> tuple[tuple[Floats, ...], ...]:
     """The curves of each panel at alpha_1 = x (rad): alpha_2 (deg), tau, efficiency, the arms of driver and driven.
 
@@ -199,15 +210,15 @@ def _values(
     if held is not None:
         none = np.full_like(x, np.nan)
         return (np.full_like(x, degrees(held)),), (np.zeros_like(x),), (none,), (none, none)
-    couple, sizes = law.contact.path.couple, law.sizes
+    tooth_pair, sizes = transmission.contact.path.tooth_pair, transmission.sizes
     with np.errstate(all="ignore"):  # beyond the real path a flank may lean past the perpendicular
-        rub = law.coefficient(phase, x, friction)
-        eta = couple.efficiency(phase, x, rub, np)
+        rub = transmission.coefficient(phase, x, friction)
+        eta = tooth_pair.efficiency(phase, x, rub, np)
         eta = np.where((eta >= 0) & (eta <= 1), eta, np.nan)
-        arms = couple.moment_arms(phase, x, rub, np)
+        arms = tooth_pair.moment_arms(phase, x, rub, np)
         rolling = (sizes.D * z / sizes.pitch_sum for z in (sizes.z1, sizes.z2))
         relative = tuple(arm / radius for arm, radius in zip(arms, rolling, strict=True))
-        return (np.degrees(couple.angle(phase, x, np)),), (couple.speed(phase, x, np),), (eta,), relative
+        return (np.degrees(tooth_pair.angle(phase, x, np)),), (tooth_pair.speed(phase, x, np),), (eta,), relative
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
@@ -225,10 +236,10 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
 # -------------------------------------------------------------------------------------------------------------- marks
 
 
-def _matching(panels: list[Axes], law: TriangularTransmission) -> None:
+def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
     """A line where flank lies on flank, if that happens within reach."""
-    matching = law.sizes.matching
-    if abs(matching) >= law.sizes.reach1:
+    matching = transmission.sizes.matching
+    if abs(matching) >= transmission.sizes.reach1:
         return
     for axes in panels:
         axes.axvline(degrees(matching), color=GREY, linewidth=1.0, linestyle="-.", gid="matching")
@@ -248,11 +259,11 @@ def _matching(panels: list[Axes], law: TriangularTransmission) -> None:
     )
 
 
-def _jumps(axes: Axes, law: TriangularTransmission) -> None:
+def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
     """Each collision: tau before it where the last couple let go, tau after it where the next one drives."""
-    turns = zip(law.intervals, (*law.intervals[1:], law.intervals[0]), strict=True)
+    turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
-    for (last, new), jump in zip(hits, law.jumps, strict=True):
+    for (last, new), jump in zip(hits, transmission.jumps, strict=True):
         before, at = degrees(last.end), degrees(new.start)
         axes.plot([before, at, at], [jump.before, jump.before, jump.after], color=GREY, linewidth=1.0, linestyle=":")
         axes.plot([before], [jump.before], "o", color=BLACK, markerfacecolor="white", markersize=5, zorder=4)
@@ -297,11 +308,11 @@ def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
     """Places of the instant centre to write down between two speed ratios: round ones, far enough from each other."""
-    least, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
+    minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
-        found = MaxNLocator(nbins=bins, steps=(1, 2, 2.5, 5, 10)).tick_values(least, most)
-        ticks = [float(at) for at in found if least <= at <= most]
+        found = MaxNLocator(nbins=bins, steps=(1, 2, 2.5, 5, 10)).tick_values(minimum, most)
+        ticks = [float(at) for at in found if minimum <= at <= most]
         ratios = [float(_ratio_at(signs, at)) for at in ticks]
         if all(abs(b - a) > (high - low) / (2 * _CENTRES) for a, b in pairwise(ratios)):
             break
@@ -332,28 +343,28 @@ def _time(axes: Axes) -> None:
     )
 
 
-def _title(law: TriangularTransmission, friction: PairFriction | None) -> str:
-    losses = law if friction is None else RubbedTransmission(law, friction)
-    low, high = law.speed_range()
-    least, greatest = law.error_range()
+def _title(transmission: TriangularTransmission, friction: PairFriction | None) -> str:
+    losses = transmission if friction is None else RubbedTransmission(transmission, friction)
+    low, high = transmission.speed_range()
+    minimum, maximum = transmission.error_range()
     return "\n".join(
         (
-            pair_text(law, losses.friction),
+            pair_text(transmission, losses.friction),
             f"speed ratio {low:.4g} to {high:.4g}, mean efficiency {losses.efficiency_mean():.4g}, "
-            f"transmission error {degrees(greatest - least):.4g}° peak to peak",
-            fill(f"{law.verdict.kind}: {law.verdict.text}", 100),
+            f"transmission error {degrees(maximum - minimum):.4g}° peak to peak",
+            fill(f"{transmission.verdict.kind}: {transmission.verdict.text}", 100),
         )
     )
 
 
-def _legend(law: TriangularTransmission) -> Iterator[Line2D]:
-    driving = {interval.phase for interval in law.intervals}
-    for phase, _, _ in _phases(law):
+def _legend(transmission: TriangularTransmission) -> Iterator[Line2D]:
+    driving = {interval.phase for interval in transmission.intervals}
+    for phase, _, _ in _phases(transmission):
         if phase in driving:
             yield Line2D([], [], color=PHASES[phase], linewidth=4.0, label=f"{phase}, real path")
         yield Line2D([], [], color=PHASES[phase], linewidth=1.2, label=f"{phase}, ideal path")
-    if STANDSTILL in driving:
-        yield Line2D([], [], color=PHASES[STANDSTILL], linewidth=4.0, linestyle=_STANDS, label=STANDSTILL)
+    if DWELL in driving:
+        yield Line2D([], [], color=PHASES[DWELL], linewidth=4.0, linestyle=_STANDS, label=DWELL)
 
 
 # ----------------------------------------------------------------------------------------- conjugate forms side by side
@@ -391,8 +402,8 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     Examples
     --------
     >>> import geartrain
-    >>> law = geartrain.load("planetary-24-18-60-involute").meshes[0].law
-    >>> len(shapes_figure({"involute": law.path}).axes)
+    >>> transmission = geartrain.load("planetary-24-18-60-involute").meshes[0].transmission
+    >>> len(shapes_figure({"involute": transmission.path}).axes)
     8
     """
     if not paths:

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.corner_positions import CornerPositions as CornerPositions
     from geartrain.dynamics.motion.error_composition import ErrorSamples as ErrorSamples
+    from geartrain.dynamics.motion.kink_positions import KinkPositions as KinkPositions
     from geartrain.dynamics.motion.motion_model import Motion as Motion
     from geartrain.dynamics.motion.motion_model import TransmissionErrorCurve as TransmissionErrorCurve
     from geartrain.dynamics.motion.motion_run import MotionRun as MotionRun
@@ -50,12 +50,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BearingTorque",
-    "CornerPositions",
     "CycleEnergy",
     "DrivenWay",
     "ErrorEstimates",
     "ErrorSamples",
     "HoldingTorque",
+    "KinkPositions",
     "Motion",
     "MotionRun",
     "NeglectedEffect",
@@ -81,7 +81,7 @@ __all__ = [
 ]
 
 _PLACES = {
-    "CornerPositions": "motion.corner_positions",
+    "KinkPositions": "motion.kink_positions",
     "ErrorSamples": "motion.error_composition",
     **dict.fromkeys(("Motion", "TransmissionErrorCurve"), "motion.motion_model"),
     "MotionRun": "motion.motion_run",

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.ideal import Ideal
 from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
 from geartrain.train import GearPair, Train, Wheel
 
@@ -35,14 +34,14 @@ class PinMesh:
     """A coupling whose dimensions are declared, with its law."""
 
     coupling: Coupling
-    law: PinToSlotTransmission
+    transmission: PinToSlotTransmission
 
     @property
     def reversed(self) -> SlotToPinTransmission:
         """The law with the slot driving, which no follower can."""
         from geartrain.teeth.pin_transmission import SlotToPinTransmission
 
-        return SlotToPinTransmission(self.law.r, self.law.e, self.law.friction)
+        return SlotToPinTransmission(self.transmission.r, self.transmission.e, self.transmission.friction)
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
@@ -67,7 +66,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
         assert mesh is not None
         return mesh
 
-    real = (name for name, (_, _, form) in forms.items() if form is not None and not isinstance(form, Ideal))
+    real = (name for name, (_, _, form) in forms.items() if form is not None and form.form != "ideal")
     return ItemwiseMapping(real, made)
 
 
@@ -127,7 +126,9 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
 def find_pins(train: Train) -> tuple[PinMesh, ...]:
     """Every coupling whose dimensions are declared."""
     return tuple(
-        PinMesh(coupling, coupling.law) for coupling in train.couplings if coupling.pin_radius and coupling.law
+        PinMesh(coupling, coupling.transmission)
+        for coupling in train.couplings
+        if coupling.pin_radius and coupling.transmission
     )
 
 

@@ -25,9 +25,9 @@ def radians_per_second(train: Train, case: StateCase) -> float | None:
 
     Speeds are real where the train has a `rate`, that of the first input that turns, or its inputs have units.
     """
-    lead = next((speed for speed in case.inputs.values() if speed), None)
-    if case.rate is not None and case.rate.unit is not None and lead is not None:
-        return abs(case.rate.si / float(lead))
+    driving_speed = next((speed for speed in case.inputs.values() if speed), None)
+    if case.rate is not None and case.rate.unit is not None and driving_speed is not None:
+        return abs(case.rate.si / float(driving_speed))
     if not train.input_unit or train.unit_speed is None:
         return None
     return float(train.unit_speed * RADIANS_PER_TURN)

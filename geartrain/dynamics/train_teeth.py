@@ -22,7 +22,14 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.outlines.fixed_teeth import ESCAPE_WORDS, ESCAPEMENT, WAVE, WAVE_WORDS, escape_tooth, wave_tooth
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 from geartrain.teeth.outlines.wheel_requirement import PairRequirement, disagreement
-from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
+from geartrain.teeth.standard_teeth import (
+    BACKLASH,
+    UndeclaredWheel,
+    check_size,
+    lone_mate,
+    standard_form,
+    standard_teeth,
+)
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_mechanics import TrainMechanics
@@ -48,7 +55,7 @@ class ToothingPlace(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class PairPlay:
+class PairBacklash:
     """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels."""
 
     pair: str
@@ -72,22 +79,22 @@ class TrainTeeth:
     """Of those, teeth that the first of their pairs asks for."""
     flat: frozenset[str]
     """Wheels whose teeth stand straight in a plane."""
-    plays: tuple[PairPlay, ...]
+    backlashes: tuple[PairBacklash, ...]
     """Of all pairs of which both wheels have teeth."""
 
 
 def find_train_teeth(
     train: TrainMechanics,
     places: Mapping[str, ToothingPlace],
-    play: float | None = None,
+    backlash: float | None = None,
     apart: Mapping[str, float] = FrozenDict(),
 ) -> TrainTeeth:
     """The teeth of all wheels that lie in a plane.
 
-    play    of pairs whose form is not declared (mm); default a twentieth of the module
+    backlash    of pairs whose form is not declared (mm); default a twentieth of the module
     apart   of pairs whose wheels do not stand where they mesh: by how much (mm) they stand too far from each other
     """
-    return _Toothing(train, places, play, apart).all()
+    return _Toothing(train, places, backlash, apart).all()
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
@@ -97,9 +104,19 @@ def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace
 
 class _Toothing:
     def __init__(
-        self, train: TrainMechanics, places: Mapping[str, ToothingPlace], play: float | None, apart: Mapping[str, float]
+        self,
+        train: TrainMechanics,
+        places: Mapping[str, ToothingPlace],
+        backlash: float | None,
+        apart: Mapping[str, float],
     ) -> None:
-        self.train, self.declared, self.places, self.play, self.apart = train, train.declaration, places, play, apart
+        self.train, self.declared, self.places, self.backlash, self.apart = (
+            train,
+            train.declaration,
+            places,
+            backlash,
+            apart,
+        )
         self.unbuilt: tuple[Problem, ...] = ()
         try:
             meshes = train.meshes
@@ -146,7 +163,7 @@ class _Toothing:
         wheel = self._wheel(name)
         return UndeclaredWheel(wheel.count or 1, wheel.internal)
 
-    def _standard_asked(self, name: str) -> Iterator[PairRequirement]:
+    def _standard_requested(self, name: str) -> Iterator[PairRequirement]:
         own, teeth = self._gear(name), self.standard[name]
         mates = [(gear, self._mate(gear, name)) for gear in self.pairs[name]]
         if shaped := next(((gear, mate) for gear, mate in mates if mate in self.shaped and self._is_flat(mate)), None):
@@ -163,15 +180,15 @@ class _Toothing:
     ) -> tuple[Involute, WheelPair, int]:
         """The form of two standard wheels, a ring second, and which of them the first is."""
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
-        form = standard_form(teeth, its, self._standard_play(name))
+        form = standard_form(teeth, its, self._standard_backlash(name))
         return form, WheelPair(one.z, other.z, other.internal), 2 if first[0].internal else 1
 
-    def _standard_play(self, name: str) -> float:
-        return PLAY if self.play is None else self.play / self.places[name].module
+    def _standard_backlash(self, name: str) -> float:
+        return BACKLASH if self.backlash is None else self.backlash / self.places[name].module
 
     # ------------------------------------------------------------------------------------------------ declared forms
 
-    def _declared_asked(self, name: str) -> Iterator[PairRequirement]:
+    def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
         """Pairs in one plane; a crown wheel is taken for a spur wheel only where nothing better is to be had."""
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
@@ -193,18 +210,18 @@ class _Toothing:
         likenesses: dict[str, WheelTeeth] = {}
         for name in self.pairs:
             try:
-                asked = self._asked(name)
+                requested = self._requested(name)
                 try:
-                    found[name] = self._one(name, asked)
+                    found[name] = self._one(name, requested)
                 except GearTrainError as error:
                     problems[name] = error.problems
-                    likenesses[name] = self._cut(name, asked[:1])
+                    likenesses[name] = self._cut(name, requested[:1])
             except GearTrainError as error:
                 problems.setdefault(name, error.problems)
         flat = frozenset(name for name in self.pairs if self._is_flat(name))
-        return TrainTeeth(found, problems, likenesses, flat, tuple(self._plays(found)))
+        return TrainTeeth(found, problems, likenesses, flat, tuple(self._backlashes(found)))
 
-    def _asked(self, name: str) -> list[PairRequirement]:
+    def _requested(self, name: str) -> list[PairRequirement]:
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm's wheel"
@@ -217,9 +234,9 @@ class _Toothing:
         if not self.pairs[name] and (turning := self._let_through(name)):
             return [PairRequirement("", ESCAPEMENT, ESCAPE_WORDS, escape_tooth(wheel.count or 1, turning))]
         if waved := self._waved(name):
-            tooth = wave_tooth(wheel.count or 1, self._standard_play(name), wheel.internal)
+            tooth = wave_tooth(wheel.count or 1, self._standard_backlash(name), wheel.internal)
             return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in waved]
-        return list(self._declared_asked(name) if name in self.shaped else self._standard_asked(name))
+        return list(self._declared_requested(name) if name in self.shaped else self._standard_requested(name))
 
     def _let_through(self, name: str) -> int:
         """Which way an escapement lets a wheel turn, 1 where that is not known; 0 of other wheels."""
@@ -238,35 +255,35 @@ class _Toothing:
         found = {}
         for name in self.pairs:
             try:
-                problem = disagreement(self._asked(name)) if name in self.shaped else None
+                problem = disagreement(self._requested(name)) if name in self.shaped else None
             except GearTrainError:
                 continue  # faulty teeth, or teeth in no plane
             if problem is not None:
                 found[name] = problem
         return found
 
-    def _one(self, name: str, asked: Sequence[PairRequirement]) -> WheelTeeth:
-        if problem := disagreement(asked):
+    def _one(self, name: str, requested: Sequence[PairRequirement]) -> WheelTeeth:
+        if problem := disagreement(requested):
             raise GearTrainError(problem)
-        return self._cut(name, asked)
+        return self._cut(name, requested)
 
-    def _cut(self, name: str, asked: Sequence[PairRequirement]) -> WheelTeeth:
-        first, *others = asked
+    def _cut(self, name: str, requested: Sequence[PairRequirement]) -> WheelTeeth:
+        first, *others = requested
         cut = first.requirement.cut([each.requirement for each in others])
         z = self._wheel(name).count or 1
         return WheelTeeth(name, z, cut.kind, first.form, first.words, cut.tip, cut.root, cut.tooth, cut.pins)
 
-    def _plays(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairPlay]:
+    def _backlashes(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairBacklash]:
         """Of all pairs of which both wheels are cut."""
         for gear in self.declared.gears:
             if not set(gear.pair) <= set(found):
                 continue
-            arc = self._play(gear)
+            arc = self._backlash(gear)
             if arc is not None:
                 radii = [(self._wheel(name).count or 0) / 2 for name in gear.pair]
                 angles = arc / radii[0], arc / radii[1]
                 size = self.places[gear.pair[0]].module
-                yield PairPlay(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
+                yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
         """Contact ratio of conjugate teeth at their own distance, and what raises it; None of others."""
@@ -281,22 +298,22 @@ class _Toothing:
         form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
         return conjugate_pair_of(form, wheels).path.contact_ratio, form.more_contact
 
-    def _play(self, gear: GearPair) -> float | None:
+    def _backlash(self, gear: GearPair) -> float | None:
         """Of a pair as it stands, along the pitch circles (modules); None where it does not stand as its law has it."""
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
         if gap is not None and gear.name not in self.waves:
-            return self._misplaced_play(gear, mesh, gap / self.places[gear.pair[0]].module)
+            return self._misplaced_backlash(gear, mesh, gap / self.places[gear.pair[0]].module)
         if mesh is None:
-            return self._standard_play(gear.pair[0])
-        return mesh.verdict.play * (self._wheel(mesh.driven).count or 0) / 2
+            return self._standard_backlash(gear.pair[0])
+        return mesh.verdict.backlash * (self._wheel(mesh.driven).count or 0) / 2
 
-    def _misplaced_play(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
+    def _misplaced_backlash(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
         """Play of axes that stand `gap` modules too far apart; None for teeth that do not run there as at home."""
         if mesh is not None:
-            return mesh.play_apart(gap)
+            return mesh.backlash_apart(gap)
         first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
         form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
-        return form.play_apart(wheels, gap)
+        return form.backlash_apart(wheels, gap)
 
 
 def _half_declared(name: str, gear: GearPair, mate: str, other: str) -> GearTrainError:

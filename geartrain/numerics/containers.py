@@ -42,11 +42,11 @@ class FrozenDict(dict[K, V]):
 class LazyMapping(Mapping[K, V]):
     """A mapping that is made when it is first read; it compares as the dictionary it then is, and pickles as that.
 
-    >>> asked = []
-    >>> found = LazyMapping(lambda: asked.append("made") or {"a": 1})
-    >>> asked
+    >>> requested = []
+    >>> found = LazyMapping(lambda: requested.append("made") or {"a": 1})
+    >>> requested
     []
-    >>> found["a"], found == {"a": 1}, asked
+    >>> found["a"], found == {"a": 1}, requested
     (1, True, ['made'])
     """
 
@@ -82,9 +82,9 @@ class LazyMapping(Mapping[K, V]):
 class ItemwiseMapping(Mapping[K, V]):
     """A mapping of given keys, each value made when it is first read.
 
-    >>> asked = []
-    >>> found = ItemwiseMapping("ab", lambda key: asked.append(key) or key.upper())
-    >>> "b" in found, len(found), found["a"], found["a"], asked
+    >>> requested = []
+    >>> found = ItemwiseMapping("ab", lambda key: requested.append(key) or key.upper())
+    >>> "b" in found, len(found), found["a"], found["a"], requested
     (True, 2, 'A', 'A', ['a'])
     """
 

@@ -202,6 +202,6 @@ def _balanced(factors: list[int]) -> int:
         return 1
     heapify(factors)
     while len(factors) > 1:
-        least = heappop(factors)  # factors of like length: fast multiplication pays for those alone
-        heapreplace(factors, least * factors[0])
+        minimum = heappop(factors)  # factors of like length: fast multiplication pays for those alone
+        heapreplace(factors, minimum * factors[0])
     return factors[0]

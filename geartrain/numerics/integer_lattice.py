@@ -45,12 +45,12 @@ def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | No
     live = [key for key, column in columns.items() if at in column]
     while len(live) > 1:
         # by the smallest entry: remainders, and the numbers in `moves`, stay short
-        least = min(live, key=lambda key: abs(columns[key][at]))
-        size = columns[least][at]
+        minimum = min(live, key=lambda key: abs(columns[key][at]))
+        size = columns[minimum][at]
         for key in live:
-            if key != least:
+            if key != minimum:
                 times = columns[key][at] // size
-                add_into(columns[key], columns[least], -times)
-                add_into(moves[key], moves[least], -times)
+                add_into(columns[key], columns[minimum], -times)
+                add_into(moves[key], moves[minimum], -times)
         live = [key for key in live if at in columns[key]]
     return live[0] if live else None

@@ -32,11 +32,11 @@ class Lazy:
 class LazyDict(dict[str, Any]):
     """A dictionary that makes its `Lazy` values when they are read; others see plain values only.
 
-    >>> asked = []
-    >>> data = LazyDict(id="a", cost=Lazy(lambda: asked.append("cost") or 7))
-    >>> list(data), asked
+    >>> requested = []
+    >>> data = LazyDict(id="a", cost=Lazy(lambda: requested.append("cost") or 7))
+    >>> list(data), requested
     (['id', 'cost'], [])
-    >>> data["cost"], data.get("cost"), dict(data), asked
+    >>> data["cost"], data.get("cost"), dict(data), requested
     (7, 7, {'id': 'a', 'cost': 7}, ['cost'])
     """
 

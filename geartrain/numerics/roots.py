@@ -108,16 +108,16 @@ def sign_changes(
     together (a touch, no change of sign) halving ends without a bracket.
     """
     at_low, at_high = value(low), value(high)
-    least, greatest = bounds(low, high)
+    minimum, maximum = bounds(low, high)
     crosses = (at_low < 0) != (at_high < 0)
-    if least >= 0 or greatest <= 0:
+    if minimum >= 0 or maximum <= 0:
         if crosses:
             yield low, high
         return
     # the lowest and the highest that the function can come to between its end values with such slopes (Piyavskii)
-    width, spread = high - low, greatest - least
-    below = at_low + least * (at_low - at_high + greatest * width) / spread
-    above = at_low + greatest * (at_high - at_low - least * width) / spread
+    width, spread = high - low, maximum - minimum
+    below = at_low + minimum * (at_low - at_high + maximum * width) / spread
+    above = at_low + maximum * (at_high - at_low - minimum * width) / spread
     if not crosses and (below > 0 or above < 0):
         return
     middle = low + width / 2

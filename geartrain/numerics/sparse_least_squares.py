@@ -53,9 +53,9 @@ class SparseRows:
         x: Floats = np.zeros(self.width)
         rest, gradient = right.copy(), self._back(right)
         way, power = gradient.copy(), float(gradient @ gradient)
-        least = _REST**2 * power
+        minimum = _REST**2 * power
         for _ in range(_STEPS):
-            if power <= least:  # of a start at rest, too
+            if power <= minimum:  # of a start at rest, too
                 break
             along = self.times(way)
             # not 0: `way` is a sum of rows, and only the zero vector among those is taken to 0

@@ -10,10 +10,10 @@ from math import cos, degrees, isfinite
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, figure
-from geartrain.teeth.conjugate.path_costs import FREE, LOADED, ONE_PAIR, SHARED
+from geartrain.teeth.conjugate.path_losses import FREE, LOADED, ONE_PAIR, SHARED
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_mesh import DesignCosts, PairDesign
+    from geartrain.teeth.conjugate.conjugate_mesh import DesignLosses, PairDesign
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.form_comparison import FormComparison, MeasuredForm
 
@@ -32,8 +32,8 @@ def conjugate_verdict(design: PairDesign) -> str:
 def conjugate_sections(design: PairDesign) -> Iterator[Section]:
     """What there is to tell; of teeth that cannot run, wheels and path only."""
     yield from (_wheels(design), _path(design))
-    if design.costs is not None:
-        yield from (_costs(design.costs), _friction(design))
+    if design.losses_and_stresses is not None:
+        yield from (_costs(design.losses_and_stresses), _friction(design))
 
 
 def _wheels(design: PairDesign) -> Section:
@@ -65,7 +65,7 @@ def _wheels(design: PairDesign) -> Section:
 
 
 def _path(design: PairDesign) -> Section:
-    from geartrain.teeth.conjugate.path_costs import depth
+    from geartrain.teeth.conjugate.path_losses import depth
 
     path = design.path
     rows = []
@@ -97,8 +97,8 @@ _LOADED = {
 }
 
 
-def _costs(found: DesignCosts) -> Section:
-    from geartrain.teeth.conjugate.path_costs import ONE_PAIR, SHARED
+def _costs(found: DesignLosses) -> Section:
+    from geartrain.teeth.conjugate.path_losses import ONE_PAIR, SHARED
 
     loads = found.measures.one_pair, found.measures.shared
     loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
@@ -116,7 +116,7 @@ def _costs(found: DesignCosts) -> Section:
 
 
 def _friction(design: PairDesign) -> Section:
-    law = design.mesh.losses
+    transmission = design.mesh.losses
     if not design.mesh.rubs:
         return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
     if not design.mesh.tells_losses:
@@ -124,14 +124,18 @@ def _friction(design: PairDesign) -> Section:
     if design.locks:
         return Section(
             "Friction",
-            (f"A friction of {law.friction:.6g} locks these teeth, as any from {law.locking_friction:.6g}.",),
+            (
+                f"A friction of {transmission.friction:.6g} locks these teeth, as any from "
+                f"{transmission.locking_friction:.6g}.",
+            ),
         )
     return Section(
         "Friction",
         (
             f"{design.mesh.friction_words}. Efficiency, exact in friction, teeth in contact sharing the "
-            f"load equally: mean {law.efficiency_mean():.9f} at constant driver torque, "
-            f"{law.efficiency_at_constant_load():.9f} at constant load torque, least {law.efficiency_least():.9f}.",
+            f"load equally: mean {transmission.efficiency_mean():.9f} at constant driver torque, "
+            f"{transmission.efficiency_at_constant_load():.9f} at constant load torque, least "
+            f"{transmission.efficiency_minimum():.9f}.",
         ),
     )
 

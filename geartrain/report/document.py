@@ -5,14 +5,16 @@ Tables are fitted into a width: columns wrap at words, and a table that is still
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import islice, zip_longest
+from typing import Any
 
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import Shown, picture_maker, summary_line
+from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
 
 MOST_ROWS = 120
 """Longer tables are cut, and say so; the JSON has everything."""
@@ -94,10 +96,42 @@ def _cell(value: object) -> str:
     return "" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value)
 
 
-def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int) -> Table:
+def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
     """A table without the columns in which no row says anything, but for the first so many."""
     used = [at for at in range(len(header)) if at < always or any(row[at] for row in rows)]
-    return Table([header[at] for at in used], [[row[at] for at in used] for row in rows])
+    return _chosen(Table(header, rows, wide), used)
+
+
+_UNIT = re.compile(r"\[(.+?)\]")
+"""The unit in the docstring of a field."""
+_CellColumn = tuple[str, Callable[[Any], str]]
+"""Head of a column, and the function that returns its cell for a result."""
+
+
+def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
+    """Return a table of results of one class, one row for each.
+
+    columns   name of a field, `field:digits` of a number; its head is the name with the unit of the field's docstring,
+              or is given before it, `head=field:digits`; or a head and a function that returns the cell of a result
+    """
+    rows = list(results)
+    kind: type = type(rows[0]) if rows else object
+    heads, cells = zip(*(_field_column(each, field_docs(kind)) for each in columns), strict=True)
+    return Table(heads, [tuple(cell(row) for cell in cells) for row in rows], wide)
+
+
+def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellColumn:
+    if not isinstance(column, str):
+        return column
+    head, given, field = column.rpartition("=")
+    name, _, digits = field.partition(":")
+    unit = _UNIT.search(docs.get(name, ""))
+    head = head if given else f"{name.replace('_', ' ')} ({unit[1]})" if unit else name.replace("_", " ")
+    return head, lambda result: _field_text(getattr(result, name), digits)
+
+
+def _field_text(value: Any, digits: str) -> str:
+    return "-" if value is None else figure(value, int(digits)) if digits else str(value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,7 +227,7 @@ class Document:
 
     title: str
     """The first heading."""
-    lead: Sequence[str]
+    summary: Sequence[str]
     """Paragraphs before the first section."""
     sections: Sequence[Section]
     """In the order in which they are read."""
@@ -244,12 +278,12 @@ def ppm(value: float | None) -> str:
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 
-def cut(rows: Sequence[Sequence[str]], of: int | None = None) -> list[Sequence[str]]:
+def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
     """The first rows of a long table (of so many, if not all are given), and how many more there are."""
     count = len(rows) if of is None else of
-    if count <= MOST_ROWS:
+    if count <= most:
         return list(rows)
-    return [*rows[:MOST_ROWS], (f"... {count - MOST_ROWS} more", *("" for _ in rows[0][1:]))]
+    return [*rows[:most], (f"... {count - most} more", *("" for _ in rows[0][1:]))]
 
 
 # ------------------------------------------------------------------------------------------------ tables within a width
@@ -271,17 +305,17 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
     width   characters in a line
     """
-    least = [_least(column, table.wide) for column in _columns(table)]
+    minimum = [_minimum(column, table.wide) for column in _columns(table)]
     gap, start = gap_of(table), 1
-    if len(least) < 2:
+    if len(minimum) < 2:
         yield table
         return
-    while start < len(least):
-        end, used = start + 1, least[0] + gap + least[start]
-        while end < len(least) and used + gap + least[end] <= width:
-            used += gap + least[end]
+    while start < len(minimum):
+        end, used = start + 1, minimum[0] + gap + minimum[start]
+        while end < len(minimum) and used + gap + minimum[end] <= width:
+            used += gap + minimum[end]
             end += 1
-        yield table if end - start == len(least) - 1 else _chosen(table, [0, *range(start, end)])
+        yield table if end - start == len(minimum) - 1 else _chosen(table, [0, *range(start, end)])
         start = end
 
 
@@ -293,15 +327,15 @@ def column_widths(table: Table, width: int) -> list[int]:
     """
     columns = _columns(table)
     full = [max(map(len, column)) for column in columns]
-    least = [_least(column, table.wide) for column in columns]
+    minimum = [_minimum(column, table.wide) for column in columns]
     free = width - gap_of(table) * (len(columns) - 1)
     if sum(full) <= free:
         return full
-    spare, sizes = max(0, free - sum(least)), list(least)
+    spare, sizes = max(0, free - sum(minimum)), list(minimum)
     left = len(columns)
-    for at in sorted(range(len(columns)), key=lambda each: full[each] - least[each]):
+    for at in sorted(range(len(columns)), key=lambda each: full[each] - minimum[each]):
         # a column that wants little gets all of it: the fewer columns wrap, the more rows take one line
-        given = min(full[at] - least[at], spare if left == 1 else max(spare // 2, spare // left))
+        given = min(full[at] - minimum[at], spare if left == 1 else max(spare // 2, spare // left))
         sizes[at] += given
         spare, left = spare - given, left - 1
     return sizes
@@ -311,7 +345,7 @@ def _columns(table: Table) -> list[tuple[str, ...]]:
     return list(zip_longest(table.header, *table.rows, fillvalue=""))
 
 
-def _least(column: Sequence[str], whole: bool) -> int:
+def _minimum(column: Sequence[str], whole: bool) -> int:
     """What a column takes at least: its longest word, or its longest cell where cells do not wrap."""
     pieces = column if whole else [word for cell in column for word in cell.split()]
     return max(1, *(len(piece) for piece in pieces), 0)

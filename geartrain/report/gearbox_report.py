@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from geartrain.report.document import Document, Section, Table, exact, figure
+from geartrain.report.document import Document, Section, Table, exact, figure, result_table
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_series import GearSearch, GearSeries, PossibleGear
@@ -67,9 +67,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     yield Section("Slip of open elements", (_unit(found),), (slips,))
     torques = _by_state(found.states, names, lambda each: each.torques)
     yield Section("Torques of closed elements", (_TORQUES,), (torques,))
-    count = len(found.states)
-    header = ("element", "kind", "closed in", "torque", "in", "slip", "in")
-    yield Section("Elements", (_ELEMENTS,), (Table(header, [_element(each, count) for each in found.elements]),))
+    yield Section("Elements", (_ELEMENTS,), (_elements(found),))
 
 
 def _unit(found: Gearbox) -> str:
@@ -112,10 +110,15 @@ def _by_state(
     return Table(("state", *columns), rows)
 
 
-def _element(each: ShiftElement, count: int) -> tuple[str, ...]:
-    share = f"{len(each.states)} of {count}: {', '.join(each.states)}" if each.states else "none"
-    torque, slip = (figure(value, _DIGITS) for value in (each.torque, each.slip))
-    return each.name, each.kind, share, torque, each.torque_state, slip, each.slip_state
+def _elements(found: Gearbox) -> Table:
+    def closed(each: ShiftElement) -> str:
+        return f"{len(each.states)} of {len(found.states)}: {', '.join(each.states)}" if each.states else "none"
+
+    return result_table(
+        found.elements,
+        *("element=name", "kind", ("closed in", closed)),
+        *(f"torque:{_DIGITS}", "in=torque_state", f"slip:{_DIGITS}", "in=slip_state"),
+    )
 
 
 def describe_gear_search(found: GearSearch) -> Document:
@@ -139,7 +142,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     >>> page.sections[0].tables[0].rows[0]
     ('forward, low', '2.4545', '1')
     """
-    lead = (
+    summary = (
         f"From '{found.input}' to '{found.output}': {found.closed} elements closed, {found.combinations} ways, "
         f"{len(found.gears)} of which determine the output; all were tried, exactly."
     )
@@ -147,7 +150,7 @@ def describe_gear_search(found: GearSearch) -> Document:
         f"{_some(ways)} {told}." for ways, told in ((found.free, "leave it free"), (found.locked, "lock it")) if ways
     ]
     sections = [
-        Section("Gears", (lead, *others), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))
+        Section("Gears", (summary, *others), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))
     ]
     if found.widest is not None and found.evenest is not None:
         both = [("The widest series", found.widest), ("The most even series", found.evenest)]
@@ -155,8 +158,8 @@ def describe_gear_search(found: GearSearch) -> Document:
             both = [("The widest series, and the most even", found.widest)]
         head = "One series holds." if found.series == 1 else f"{found.series:,} series hold; of each kind one is told."
         sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
-    elif found.asked:
-        sections.append(Section("Series", (f"No series of {found.asked} gears has all its steps in the window.",)))
+    elif found.requested:
+        sections.append(Section("Series", (f"No series of {found.requested} gears has all its steps in the window.",)))
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
 
 

@@ -82,7 +82,7 @@ class MotionFigures(Result):
     PAGE = "report.motion_report:describe_motion"
 
     KEYS = (
-        *("name", "state", "input", "turns", "positions", "period", "drivers", "turned_back", "rigid", "outputs"),
+        *("name", "state", "input", "turns", "positions", "period", "drivers", "reversing_drivers", "rigid", "outputs"),
         *("separation", "phases", "partial"),
     )
 
@@ -102,7 +102,7 @@ class MotionFigures(Result):
     """Turns of the input after which everything repeats; None where nothing ripples."""
     drivers: Mapping[str, MeshDriver]
     """The driving wheel of each pair that ripples."""
-    turned_back: Sequence[str]
+    reversing_drivers: Sequence[str]
     """Pairs whose driver turns against its mean at times."""
     rigid: Sequence[str]
     """Pairs with real teeth that keep their ratio at every instant and add nothing."""
@@ -182,12 +182,12 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
         run,
         name,
         state,
-        input=motion._problem.lead,
+        input=motion._problem.driving_link,
         turns=run.turns,
         positions=run.done,
         period=motion.period,
         drivers={pair: motion._problem.drivers[pair] for pair in motion._problem.drivers if pair in used},
-        turned_back=sorted(run.turned_back),
+        reversing_drivers=sorted(run.reversing_drivers),
         rigid=[mesh.name for mesh in motion._problem.rigid],
         outputs=outputs,
         separation=separation,
@@ -273,18 +273,18 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
     """
     run = found.run
     train, period = run.motion._problem, run.motion.period
-    lead = [
-        f"While '{train.lead}' makes {run.turns:g} turns, in {run.done} positions. Speeds are over that of "
-        f"'{train.lead}'; the error is the angle less its mean motion."
+    summary = [
+        f"While '{train.driving_link}' makes {run.turns:g} turns, in {run.done} positions. Speeds are over that of "
+        f"'{train.driving_link}'; the error is the angle less its mean motion."
     ]
     if run.done < run.samples:
-        lead.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
+        summary.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
     if period is not None:
-        lead.append(f"Everything repeats after {abridged_text(period)} turns of '{train.lead}'.")
+        summary.append(f"Everything repeats after {abridged_text(period)} turns of '{train.driving_link}'.")
     sections = list(motion_sections(run, every_output))
     if found.separation is not None:
         sections.append(wing("simulation.contacts.separation_rate").separation_section(found.separation))
-    return Document("Motion with real teeth and pins", lead, sections)
+    return Document("Motion with real teeth and pins", summary, sections)
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
@@ -327,7 +327,7 @@ def moving_sections(
             yield Section(head, [f"{problem.what}: {problem.why}." for problem in each.why.problems])
             continue
         run = each.run
-        text = f"While '{run.motion._problem.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
+        text = f"While '{run.motion._problem.driving_link}' makes {run.turns:g} turns; `geartrain motion` has more."
         holds: tuple[str, ...] = ()
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
@@ -369,9 +369,9 @@ def _outputs(tallies: list[RunningStatistics]) -> Table:
 
 
 def _remarks(run: MotionRun) -> Iterator[str]:
-    if run.turned_back:
+    if run.reversing_drivers:
         composition = run.motion._forward if run.turns >= 0 else run.motion._backward
-        names = ", ".join(source.id for source in composition.used if source.id in run.turned_back)
+        names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)
         yield (
             f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
             "is not followed."
@@ -407,7 +407,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]
-        low, high = source.law.error_range()
+        low, high = source.transmission.error_range()
         given = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
     header = ("pair", "driver", "how that is known", "periods a turn", *(f"{name} (deg)" for name in outputs))
@@ -418,19 +418,9 @@ def _phased(run: MotionRun) -> Section:
     rows = []
     for at, tally in enumerate(run.statistics):
         sets = [tallies[at] for tallies in run.phase_statistics]
-        peaks, rms = (
-            [degrees(value) for value in values]
-            for values in zip(*((each.peak_to_peak, each.rms) for each in sets), strict=True)
-        )
-        speeds = [each.speeds for each in sets]
-        rows.append(
-            (
-                tally.name,
-                f"{min(peaks):.5g}..{max(peaks):.5g}",
-                f"{min(rms):.5g}..{max(rms):.5g}",
-                f"{min(low for low, _ in speeds):.5f}..{max(high for _, high in speeds):.5f}",
-            )
-        )
+        errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
+        lows, highs = zip(*(each.speeds for each in sets), strict=True)
+        rows.append((tally.name, *errors, f"{min(lows):.5f}..{max(highs):.5f}"))
     header = ("output", "error p-p (deg)", "error rms (deg)", "speed over its mean")
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     return Section("Random phases", (text,), (Table(header, rows),))
@@ -447,7 +437,7 @@ def _estimates(found: dict[str, ErrorEstimates]) -> Section:
         ]
         for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
             own, off = superposed.own, superposed.off
-            rows.append(("", how, *_degrees(own.peak_to_peak, own.rms, superposed.greatest, off.rms)))
+            rows.append(("", how, *_degrees(own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
     header = ("output", "method", "error p-p (deg)", "rms (deg)", "greatest difference (deg)", "rms of it (deg)")
     text = (
         "Cheap estimates beside the composed motion, all at the sampled positions alone; the difference is pointwise, "

@@ -139,10 +139,14 @@ def _triangular_pair(
     from geartrain.teeth.triangular.triangular_mesh import triangular_figures
     from geartrain.teeth.triangular.triangular_transmission import contact_course
 
-    impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
-    figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
+    impacts = (
+        None
+        if operation is None or not mesh.transmission.intervals
+        else find_pair_impacts(mesh.transmission, operation)
+    )
+    figures = triangular_figures(mesh.transmission, mesh.window, losses=mesh.efficiency(mesh.driver))
     return TriangularPair(
-        figures, contact_course(mesh.law, friction=pair_friction(mesh.wheels)), impacts, tuple(outlines)
+        figures, contact_course(mesh.transmission, friction=pair_friction(mesh.wheels)), impacts, tuple(outlines)
     )
 
 
@@ -150,9 +154,9 @@ def _triangular_page(
     mesh: TriangularMesh, outlines: Sequence[WheelOutline], operation: PairOperation | None
 ) -> Document:
     z1, z2 = mesh.counts
-    lead = [f"The wheel of {z1} drives the wheel of {z2}.", triangular_verdict(mesh)]
+    summary = [f"The wheel of {z1} drives the wheel of {z2}.", triangular_verdict(mesh)]
     sections = [*triangular_sections(mesh, operation), *map(_outline, outlines)]
-    return Document(f"Triangular teeth {z1}/{z2}", lead, sections)
+    return Document(f"Triangular teeth {z1}/{z2}", summary, sections)
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
@@ -168,18 +172,18 @@ def _design_page(design: PairDesign) -> Document:
     from geartrain.report.conjugate_pair_page import conjugate_sections, conjugate_verdict, pair_name
 
     driver, driven = design.mesh.counts
-    lead = [f"The wheel of {driver} drives the wheel of {driven}.", conjugate_verdict(design)]
+    summary = [f"The wheel of {driver} drives the wheel of {driven}.", conjugate_verdict(design)]
     sections = [*conjugate_sections(design), *map(_outline, design.outlines)]
-    return Document(f"{design.mesh.tooth_form.words.capitalize()} teeth {pair_name(design.path)}", lead, sections)
+    return Document(f"{design.mesh.tooth_form.words.capitalize()} teeth {pair_name(design.path)}", summary, sections)
 
 
 def _formed_page(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> Document:
     account = mesh.account()
     first, second = mesh.wheels.counts
-    lead = [f"{mesh.verdict.text.capitalize()}.", account.words, *map(fault_text, mesh.faults)]
+    summary = [f"{mesh.verdict.text.capitalize()}.", account.words, *map(fault_text, mesh.faults)]
     tables = [joined_table([each]) for each in account.tables]
     sections = [Section("Motion and losses", (), tables), *map(_outline, outlines)]
-    return Document(f"{mesh.tooth_form.words.capitalize()} teeth {first}/{second}", lead, sections)
+    return Document(f"{mesh.tooth_form.words.capitalize()} teeth {first}/{second}", summary, sections)
 
 
 def _outline(wheel: WheelOutline) -> Section:
@@ -199,12 +203,12 @@ def _outline(wheel: WheelOutline) -> Section:
     return Section("Outline", lines, (Table(("quantity", "mm"), rows),))
 
 
-def describe_pin(law: PinTransmission) -> Document:
+def describe_pin(transmission: PinTransmission) -> Document:
     """A page on a pin in a slot: mean ratio, amplitude, extreme speeds and friction.
 
     Parameters
     ----------
-    law : PinTransmission
+    transmission : PinTransmission
         Of the pin in the slot, whichever drives.
 
     Returns
@@ -220,25 +224,26 @@ def describe_pin(law: PinTransmission) -> Document:
     """
     from geartrain.teeth.pair_results import pin_figures
 
-    found = pin_figures(law)
+    found = pin_figures(transmission)
     ratio, rms, efficiency = found.speed_ratio, found.transmission_error.rms, found.efficiency
     kind = "encloses" if ratio.mean else "leaves out"
-    lead = [
-        f"The {law.driver} drives. The pin's circle, of radius {figure(found.pin_radius)}, {kind} the slot's axis at "
+    summary = [
+        f"The {transmission.driver} drives. The pin's circle, of radius {figure(found.pin_radius)}, "
+        f"{kind} the slot's axis at "
         f"{figure(found.offset)}: the mean ratio is {ratio.mean}.",
     ]
     rows = [
         ("amplitude", f"{found.amplitude:.9g} rad", f"{degrees(found.amplitude):.9g} deg"),
         ("error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
-        ("speed ratio, least", figure(ratio.least), ""),
-        ("speed ratio, greatest", figure(ratio.greatest), ""),
+        ("speed ratio, least", figure(ratio.minimum), ""),
+        ("speed ratio, greatest", figure(ratio.maximum), ""),
     ]
     if efficiency.friction:
         name = f"efficiency at friction {efficiency.friction:g}, mean"
         rows.append((name, _share(efficiency.mean), "at constant driver torque"))
         rows.append(("", _share(efficiency.at_constant_load), "at constant load torque"))
     table = Table(("quantity", "value", ""), rows)
-    return Document("Pin in a slot", lead, [Section("Law of motion", (), (table,))])
+    return Document("Pin in a slot", summary, [Section("Law of motion", (), (table,))])
 
 
 def _share(efficiency: float | None) -> str:
@@ -251,20 +256,27 @@ def _share(efficiency: float | None) -> str:
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
     """What there is to tell; of teeth that never touch, sizes and clearance only."""
-    law, window = mesh.law, mesh.window
-    yield _sizes(law)
+    transmission, window = mesh.transmission, mesh.window
+    yield _sizes(transmission)
     if window is not None:
-        yield _clearance(law, window)
-    if law.intervals:
-        yield from (_path(law), _course(mesh), _law(law), _collisions(law), _losses(mesh), *_impacts(law, operation))
+        yield _clearance(transmission, window)
+    if transmission.intervals:
+        yield from (
+            _path(transmission),
+            _course(mesh),
+            _transmission(transmission),
+            _collisions(transmission),
+            _losses(mesh),
+            *_impacts(transmission, operation),
+        )
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
     """Whether the pair can turn, why not, and what to do."""
-    law, found = mesh.law, mesh.law.verdict
+    transmission, found = mesh.transmission, mesh.transmission.verdict
     words = [f"Verdict: {found.kind}: {found.text}."]
     if not found:
-        why, fix = explain_clearance(law, mesh.window)
+        why, fix = explain_clearance(transmission, mesh.window)
         words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
     elif mesh.losses.locks:
         what, why, fix = _lock(mesh)
@@ -272,8 +284,8 @@ def triangular_verdict(mesh: TriangularMesh) -> str:
     return " ".join(word for word in words if word)
 
 
-def _sizes(law: TriangularTransmission) -> Section:
-    sizes = law.sizes
+def _sizes(transmission: TriangularTransmission) -> Section:
+    sizes = transmission.sizes
     names = [
         f"{name}, a ring" if sign < 0 else name for name, sign in zip(("driver", "driven"), sizes.signs, strict=True)
     ]
@@ -290,8 +302,8 @@ def _sizes(law: TriangularTransmission) -> Section:
     return Section("Sizes", (text,), (Table(header, rows),))
 
 
-def _clearance(law: TriangularTransmission, window: ClearanceWindow) -> Section:
-    sizes = law.sizes
+def _clearance(transmission: TriangularTransmission, window: ClearanceWindow) -> Section:
+    sizes = transmission.sizes
     turns = (
         f"These teeth turn from {window.jam_factor:.6f} ({window.jam_kind}) to {window.run_factor:.6f} "
         f"({window.run_kind})"
@@ -307,26 +319,29 @@ def _clearance(law: TriangularTransmission, window: ClearanceWindow) -> Section:
         lines.append(
             f"A ring is deepest at the maximum distance. The tips overlap by {depth:.4g} of the smaller depth."
         )
-    if law.intervals:
-        play = law.verdict.play
-        arc = play * sizes.D * sizes.z2 / sizes.pitch_sum
+    if transmission.intervals:
+        backlash = transmission.verdict.backlash
+        arc = backlash * sizes.D * sizes.z2 / sizes.pitch_sum
         lines.append(
-            f"Least play of the back flanks over a pitch: {degrees(play):.6g} deg of the driven wheel, an arc of "
+            f"Least play of the back flanks over a pitch: {degrees(backlash):.6g} deg of the driven wheel, an arc of "
             f"{arc:.6g} on its pitch circle."
         )
     return Section("Clearance", lines)
 
 
-def _path(law: TriangularTransmission) -> Section:
-    sizes = law.sizes
+def _path(transmission: TriangularTransmission) -> Section:
+    sizes = transmission.sizes
     ideal = (
         f"Ideally a couple of teeth meets from alpha_1 = {_deg(sizes.reach1)} to {_deg(-sizes.reach1)} deg (Eq. 4), "
         f"its flanks matching at {_deg(sizes.matching)} deg (Eq. 10): approach before, recess after. The real path is "
         f"one pitch, {_deg(sizes.p1)} deg; alpha_1 decreases with time."
     )
     rows = []
-    for interval in law.intervals:
-        first, last = law.contact.speed(interval, interval.start), law.contact.speed(interval, interval.end)
+    for interval in transmission.intervals:
+        first, last = (
+            transmission.contact.speed(interval, interval.start),
+            transmission.contact.speed(interval, interval.end),
+        )
         share = interval.width / sizes.p1
         rows.append(
             (interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", figure(first), figure(last))
@@ -337,7 +352,7 @@ def _path(law: TriangularTransmission) -> Section:
 
 def _course(mesh: TriangularMesh) -> Section:
     """Speed ratio, instant centre and moment arms at the ends of every interval and between them."""
-    found = contact_course(mesh.law, friction=pair_friction(mesh.wheels))
+    found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     columns = (found.speed_ratio, found.instant_centre, found.driver_arm, found.driven_arm, found.efficiency)
     rows = [
         (phase, _deg(x), _deg(y), *(figure(value) if isfinite(value) else "-" for value in values))
@@ -358,14 +373,14 @@ def _course(mesh: TriangularMesh) -> Section:
     return Section("Over the pitch", (text,), (Table(header, rows),))
 
 
-def _law(law: TriangularTransmission) -> Section:
-    least, most = law.speed_range()
-    low, high = law.error_range()
-    lag, rms = law.error_moments()
-    mean = float(law.ratio)
+def _transmission(transmission: TriangularTransmission) -> Section:
+    minimum, most = transmission.speed_range()
+    low, high = transmission.error_range()
+    lag, rms = transmission.error_moments()
+    mean = float(transmission.ratio)
     rows = [
-        ("speed ratio, mean", f"{law.ratio} = {figure(law.ratio)}", ""),
-        ("speed ratio, least", figure(least), f"{(least / mean - 1) * 100:+.3f} %"),
+        ("speed ratio, mean", f"{transmission.ratio} = {figure(transmission.ratio)}", ""),
+        ("speed ratio, least", figure(minimum), f"{(minimum / mean - 1) * 100:+.3f} %"),
         ("speed ratio, greatest", figure(most), f"{(most / mean - 1) * 100:+.3f} %"),
         ("transmission error, peak to peak", f"{high - low:.9g} rad", f"{degrees(high - low):.9g} deg"),
         ("transmission error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
@@ -378,10 +393,10 @@ def _law(law: TriangularTransmission) -> Section:
     return Section("Law of motion", (text,), (Table(("quantity", "value", ""), rows),))
 
 
-def _collisions(law: TriangularTransmission) -> Section:
+def _collisions(transmission: TriangularTransmission) -> Section:
     rows = [
         (jump.kind, _deg(jump.alpha1), figure(jump.before), figure(jump.after), f"{jump.value:.5f}")
-        for jump in law.jumps
+        for jump in transmission.jumps
     ]
     header = ("begins", "at alpha_1", "tau before", "tau after", "jump")
     text = "Jump: 1 - before/after, the leap of normal velocity over the driver's (Eqs. 22, 25, 26, 27)."
@@ -392,39 +407,39 @@ def _lock(mesh: TriangularMesh) -> tuple[str, str, str]:
     """What is said of friction that locks."""
     declared = mesh.wheels.friction_law
     if declared is None:
-        return explain_friction_lock(mesh.law)
-    fault = friction_lock_at_speed(declared.law, mesh.law.locking_friction)
+        return explain_friction_lock(mesh.transmission)
+    fault = friction_lock_at_speed(declared.law, mesh.transmission.locking_friction)
     return fault.what, fault.why, fault.fix
 
 
 def _losses(mesh: TriangularMesh) -> Section:
-    law = mesh.losses
+    transmission = mesh.losses
     if not mesh.rubs:
         return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
     if not mesh.tells_losses:
         return Section("Friction", (f"{mesh.friction_words}.",))
-    if law.locks:
+    if transmission.locks:
         what, why, _ = _lock(mesh)
         return Section("Friction", (f"{what}: {why}.",))
     lines = [
-        f"{mesh.friction_words}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
-        f"driver torque (Eq. 34), {law.efficiency_at_constant_load():.9f} at constant load torque, least "
-        f"{law.efficiency_least():.6f}.",
+        f"{mesh.friction_words}. Sliding efficiency: mean {transmission.efficiency_mean():.9f} at constant "
+        f"driver torque (Eq. 34), {transmission.efficiency_at_constant_load():.9f} at constant load torque, least "
+        f"{transmission.efficiency_minimum():.6f}.",
     ]
-    if isfinite(law.locking_friction):
-        lines.append(f"From a friction of {law.locking_friction:.6g} on these teeth lock.")
+    if isfinite(transmission.locking_friction):
+        lines.append(f"From a friction of {transmission.locking_friction:.6g} on these teeth lock.")
     return Section("Friction", lines)
 
 
-def _impacts(law: TriangularTransmission, operation: PairOperation | None) -> Iterator[Section]:
+def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> Iterator[Section]:
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
-    found = None if operation is None else find_pair_impacts(law, operation)
+    found = None if operation is None else find_pair_impacts(transmission, operation)
     if found is None or operation is None:
         return
     lines = []
     if found.work is not None:
-        watts = found.work * (operation.rate or 0) * law.sizes.z1
+        watts = found.work * (operation.rate or 0) * transmission.sizes.z1
         lines.append(
             f"At {operation.rate:g} turns of the driver a second the collisions of one pitch hand "
             f"{found.handed:.6g} J to the driven side, dissipate {found.dissipated:.6g} J, and cost the driver their "
@@ -432,7 +447,7 @@ def _impacts(law: TriangularTransmission, operation: PairOperation | None) -> It
             "the second."
         )
         lines.append(
-            f"The driven inertia stays in contact as tau falls if the load torque is at least {found.least_load:.6g} "
+            f"The driven inertia stays in contact as tau falls if the load torque is at least {found.minimum_load:.6g} "
             "N m."
         )
     if found.void is not None:

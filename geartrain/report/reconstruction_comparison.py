@@ -36,14 +36,14 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
     names = _names([answer for _, _, answer in columns], everything)
     header = ("output", *(label for label, _, _ in columns))
     rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
-    lead = [f"'{train.name}': {train.declaration.title or 'no title'}." for train in trains]
+    summary = [f"'{train.name}': {train.declaration.title or 'no title'}." for train in trains]
     units = dict.fromkeys(train.declaration.unit_name or "plain numbers" for train in trains)
-    lead += [
+    summary += [
         f"'{label}' is {answer.verdict.kind}: {answer.verdict.text}"
         for label, _, answer in columns
         if not answer.verdict
     ]
-    lead.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
+    summary.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
     sections = [Section("Outputs", (), (Table(header, rows),))]
     targets = _targets(columns)
     if targets:
@@ -57,7 +57,7 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
         sections.append(
             Section("Wheels that differ", (), (Table(("wheel", *(train.name for train in trains)), teeth),))
         )
-    return Document("Comparison", lead, sections)
+    return Document("Comparison", summary, sections)
 
 
 _MAGNITUDE = " (magnitude)"

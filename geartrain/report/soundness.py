@@ -148,10 +148,10 @@ def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
     if declared.unit_speed is not None:
         return declared.unit_speed
     case = declared.case(answer.state)
-    lead = next((speed for speed in case.inputs.values() if speed), None)
-    if case.rate is None or case.rate.unit is None or lead is None:
+    driving_speed = next((speed for speed in case.inputs.values() if speed), None)
+    if case.rate is None or case.rate.unit is None or driving_speed is None:
         return None
-    return abs(case.rate.base / lead)
+    return abs(case.rate.base / driving_speed)
 
 
 def _wanted(result: OutputResult) -> str:

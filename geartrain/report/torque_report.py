@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.numerics.exact import as_float, percent_of_text, percent_text, watts_text
 from geartrain.numerics.results import Key, Result
-from geartrain.report.document import Document, Section, Table, cut, figure
+from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -86,13 +86,13 @@ class TorqueFigures(Result):
     in_newton_metres: bool
     """Whether torques have a unit."""
     flow: PowerFlow
-    blows: Mapping[str, float]
+    impact_power: Mapping[str, float]
     """What the collisions of each pair dissipate (W), where inertias and a rate are declared."""
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
         """What each pair and bearing loses."""
-        struck = {name: Impact(power) for name, power in self.blows.items()}
+        struck = {name: Impact(power) for name, power in self.impact_power.items()}
         return tuple(
             LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None)
             for loss in self.flow.shares
@@ -156,7 +156,7 @@ def collect_torque_report(
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
     >>> data = collect_torque_report(train, [train.torques()]).to_dict()
     >>> data["states"][0]["links"]["a"]
-    {'torque': 1.5, 'power': 1.5, 'asked': True}
+    {'torque': 1.5, 'power': 1.5, 'requested': True}
     """
     states = tuple(collect_torques(train, each) for each in found)
     return TorqueReport(train.name, train.declaration.title, states, over_turn, friction_trials)
@@ -225,8 +225,8 @@ def describe_torques(found: TorqueReport) -> Document:
         sections += cycle_sections(found.over_turn)
     if found.friction_trials is not None:
         sections += wing("workshop.monte_carlo.friction_trials").trial_sections(found.friction_trials)
-    lead = [f"Train '{found.name}'. {_units(found.states)}"]
-    return Document(f"Torques of {found.name}", lead, sections)
+    summary = [f"Train '{found.name}'. {_units(found.states)}"]
+    return Document(f"Torques of {found.name}", summary, sections)
 
 
 def torques_document(found: Torques | TorqueCycle) -> Document | None:
@@ -271,11 +271,11 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
             f"the greatest power through a pair is {figure(circulating, 5)} times that."
         )
     if found.bearing_loss:
-        needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.asked)
+        needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.requested)
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     yield Section(head, lines, tuple(tables))
-    parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.blows))
+    parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))
     if any(parts):
         yield Section("Flow of power" if state is None else f"State {state}: flow of power", *parts)
 
@@ -302,7 +302,7 @@ def _units(found: Sequence[TorqueFigures]) -> str:
 def _links(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
-            link + (" (solved for)" if link in found.asked else ""),
+            link + (" (solved for)" if link in found.requested else ""),
             figure(torque, 6),
             figure(found.speeds[link], 6) if link in found.speeds else "free",
             amounts.text(found.powers[link], 6) if link in found.speeds else "open",
@@ -360,35 +360,37 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
         )
 
 
-def _losses(flow: PowerFlow, amounts: _Amounts, blows: Mapping[str, float]) -> Iterator[Table]:
+def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
     """What each pair and bearing loses, the total last; what collisions take stands in columns of its own."""
-    if not flow.losses and not blows:
+    if not flow.losses and not impact_power:
         return
-    struck = [node for node in flow.nodes if node.kind == "pair" and node.name in blows]
+    struck = [node for node in flow.nodes if node.kind == "pair" and node.name in impact_power]
     nodes = dict.fromkeys((*flow.losses, *struck))
     rows = []
     for node in nodes:
         pair = node.kind == "pair"
-        row = _loss_row(flow, amounts, flow.losses.get(node, Fraction(0)), blows.get(node.name) if pair else None)
+        row = _loss_row(
+            flow, amounts, flow.losses.get(node, Fraction(0)), impact_power.get(node.name) if pair else None
+        )
         rows.append((node.name if pair else f"bearing of {node.name}", *row))
     teeth = sum((loss for node, loss in flow.losses.items() if node.kind == "pair"), Fraction(0))
     if 0 < teeth < flow.loss:
         sums = {"all pairs": teeth, "all bearings": flow.loss - teeth}
         rows += [(name, *_loss_row(flow, amounts, lost, None)) for name, lost in sums.items()]
-    rows.append(("total", *_loss_row(flow, amounts, flow.loss, sum(blows.values()) if blows else None)))
+    rows.append(("total", *_loss_row(flow, amounts, flow.loss, sum(impact_power.values()) if impact_power else None)))
     header: tuple[str, ...] = ("where", "lost", "of power in", "of all lost")
-    if blows:
+    if impact_power:
         header = ("where", "sliding", "of power in", "of all sliding", "impact", "of power in")
     yield Table(header, cut([row[: len(header)] for row in rows]))
 
 
-def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, blow: float | None) -> tuple[str, ...]:
+def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
     """A loss with its shares, then what collisions dissipate, and its share."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
-    if blow is None:
+    if struck is None:
         return (amounts.text(lost), *parts, "", "")
     whole = float(flow.power_in) * (amounts.watts or 0.0)
-    return (amounts.text(lost), *parts, watts_text(blow), percent_text(Fraction(blow / whole)) if whole else "-")
+    return (amounts.text(lost), *parts, watts_text(struck), percent_text(Fraction(struck / whole)) if whole else "-")
 
 
 def summary_text(torques: Torques) -> str:
@@ -420,7 +422,7 @@ def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
 # --------------------------------------------------------------------------------------------------- torque over a turn
 
 
-_LEAST = 1e-12  # of all that is lost: less is rounding
+_MINIMUM = 1e-12  # of all that is lost: less is rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
@@ -490,17 +492,14 @@ def _remarks(found: TorqueCycle) -> Iterator[str]:
 
 
 def _torques(found: TorqueCycle) -> Table:
-    unit = f" ({found.unit})" if found.unit else ""
     rows = [("mean", figure(found.mean, 9), "", "")]
-    for name, extreme in (("greatest", found.greatest), ("least", found.least), ("starting", found.starting)):
+    for name, extreme in (("maximum", found.maximum), ("minimum", found.minimum), ("starting", found.starting)):
         if extreme is None:
             rows.append((name, "-", "", ""))
         else:
             days = "" if extreme.days is None else figure(extreme.days, 7)
             rows.append((name, figure(extreme.torque, 9), figure(extreme.turns, 9), days))
-    wanted = 4 if any(row[3] for row in rows) else 3
-    header = (f"torque at {found.link}", unit.strip(" ()") or "torque", "at turn", "day")
-    return Table(header[:wanted], [row[:wanted] for row in rows])
+    return filled_table((f"torque at {found.link}", found.unit or "torque", "at turn", "day"), rows, 3)
 
 
 def _locked(found: TorqueCycle) -> Iterator[Table]:
@@ -533,10 +532,17 @@ def _energies(found: TorqueCycle) -> Table:
         "lost in pins": energy.pin,
         "lost in bearings": energy.bearing,
     }
+    return energy_table("energy", amounts, whole, 9)
+
+
+def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
+    """Energies over a run with their shares of all that is put in; those that are rounding are left out."""
     rows = [
-        (name, figure(value, 9), _share(value, whole)) for name, value in amounts.items() if abs(value) > _LEAST * whole
+        (name, figure(value, digits), _share(value, whole))
+        for name, value in amounts.items()
+        if abs(value) > _MINIMUM * whole
     ]
-    return Table(("over the run", "energy", "of all put in"), rows)
+    return Table(("over the run", head, "of all put in"), rows)
 
 
 def _parts(found: TorqueCycle) -> Iterator[Table]:
@@ -547,13 +553,13 @@ def _parts(found: TorqueCycle) -> Iterator[Table]:
     rows = [
         (
             name,
-            figure(part.loss if part.loss > _LEAST * lost else 0.0, 7),
-            _share(part.loss, lost) if part.loss > _LEAST * lost else "",
+            figure(part.loss if part.loss > _MINIMUM * lost else 0.0, 7),
+            _share(part.loss, lost) if part.loss > _MINIMUM * lost else "",
             "" if part.kind == "bearing" else figure(part.passed, 7),
             "" if part.kind == "bearing" else str(part.flank_changes),
         )
         for name, part in ranked
-        if part.loss > _LEAST * lost or part.passed
+        if part.loss > _MINIMUM * lost or part.passed
     ]
     if rows:
         yield Table(("where", "lost", "of all lost", "passed on", "flank changes"), cut(rows))

@@ -91,7 +91,7 @@ def describe_train(found: TrainReport) -> Document:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         sections.append(Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),)))
     last = [*_words(sections), *_sources(declared)]
-    return Document(declared.title or declared.name, tuple(_lead(train, answers)), (*sections, *last))
+    return Document(declared.title or declared.name, tuple(_summary(train, answers)), (*sections, *last))
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
@@ -180,7 +180,7 @@ def _gearbox(train: GearTrain) -> Gearbox | None:
         return None
 
 
-def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
+def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     declared = train.declaration
     for answer in answers:
         if not answer.verdict:

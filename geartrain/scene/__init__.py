@@ -50,9 +50,9 @@ if TYPE_CHECKING:
     from geartrain.scene.layout.train_layout import Layout as Layout
     from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
     from geartrain.scene.layout.train_layout import lay_out as lay_out
-    from geartrain.scene.movement import ErrorLawTable as ErrorLawTable
     from geartrain.scene.movement import ErrorSource as ErrorSource
     from geartrain.scene.movement import ErrorStep as ErrorStep
+    from geartrain.scene.movement import ErrorTable as ErrorTable
     from geartrain.scene.movement import Movement as Movement
     from geartrain.scene.scene_run import LinkCourse as LinkCourse
     from geartrain.scene.scene_run import SceneContact as SceneContact
@@ -72,9 +72,9 @@ __all__ = [
     "CountCondition",
     "CountFormula",
     "DialFace",
-    "ErrorLawTable",
     "ErrorSource",
     "ErrorStep",
+    "ErrorTable",
     "Layout",
     "LinkCourse",
     "ManufacturingSizes",
@@ -107,7 +107,7 @@ _PLACES = {
     "CountCondition": "count_formulas",
     "CountFormula": "count_formulas",
     "DialFace": "train_scene",
-    "ErrorLawTable": "movement",
+    "ErrorTable": "movement",
     "ErrorSource": "movement",
     "ErrorStep": "movement",
     "Layout": "layout.train_layout",

@@ -89,12 +89,14 @@ Points = tuple[tuple[float, float], ...]
 
 FORM = "likeness"
 _PRESSURE = pi / 9
-_PLAY = 0.02  # of a pitch: what each tooth is thinner
-_LEAST_ROOT = 0.2  # of the pitch radius: few teeth leave little
+_BACKLASH = 0.02  # of a pitch: what each tooth is thinner
+_MINIMUM_ROOT = 0.2  # of the pitch radius: few teeth leave little
 _ROOM = 0.92  # of half a pitch: where at most a flank ends at the root
 _POINTS = 10  # on a flank
 _PASSING = 0.12  # modules for each tooth that a ring has more than its wheel
-_CROWN_PLAY = 0.06  # of a pitch: what a crown's teeth are thinner than a mate's spaces, whose flanks no rack runs with
+_CROWN_BACKLASH = (
+    0.06  # of a pitch: what a crown's teeth are thinner than a mate's spaces, whose flanks no rack runs with
+)
 _STEP = pi / 18  # between points of a thread's section, of which a few go round a worm
 _LAND = 0.08  # of a pitch: least half width of a tip
 
@@ -108,9 +110,9 @@ def ring(z: int, room: float = ADDENDUM) -> ToothProfile:
     """A tooth of a ring: what a wheel of as many teeth leaves between its own, within the pitch circle by `room`."""
     most = 1 + 2 * DEDENDUM / z
     # the space of the ring is the tooth of a wheel, higher and a little wider
-    tip = max(1 - 2 * min(ADDENDUM, room) / z, _LEAST_ROOT)
+    tip = max(1 - 2 * min(ADDENDUM, room) / z, _MINIMUM_ROOT)
     half = pi / z
-    flank = [(r, half - _half(z, r) - 2 * _PLAY * pi / z) for r in _spread(tip, most)]
+    flank = [(r, half - _half(z, r) - 2 * _BACKLASH * pi / z) for r in _spread(tip, most)]
     return ToothProfile(
         FORM, _mirrored([(r, min(max(angle, _LAND * half), _ROOM * half)) for r, angle in reversed(flank)], z)
     )
@@ -127,7 +129,7 @@ def room(z: int, mate: int, within: bool) -> float:
 
 
 def _root(z: float) -> float:
-    return max(1 - 2 * DEDENDUM / z, _LEAST_ROOT)
+    return max(1 - 2 * DEDENDUM / z, _MINIMUM_ROOT)
 
 
 def bevel(z: int, cone: float) -> ToothProfile:
@@ -150,7 +152,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
     import numpy as np
 
     r, angle = np.array([point for point in section if point[1] >= 0]).T
-    heights, halves = (1 - r) * mate / 2, 0.5 - angle * mate / (2 * pi) - _CROWN_PLAY
+    heights, halves = (1 - r) * mate / 2, 0.5 - angle * mate / (2 * pi) - _CROWN_BACKLASH
     # short of the roots of its mate; the tips of that come as far short of its own
     low, high = heights[0] - (DEDENDUM - ADDENDUM), heights[-1] - (DEDENDUM - ADDENDUM)
     at = [low, *heights[heights < high], high]
@@ -161,7 +163,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 def worm(starts: int, height: float) -> ToothProfile:
     """A thread: its section along the axle, wound round it; height over the pitch radius."""
     half = pi / starts
-    low, high = max(1 - DEDENDUM * height, _LEAST_ROOT), 1 + height
+    low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
     corners = [(low, -half), *flanks, (low, half)]
     points = [corners[0]]
@@ -190,7 +192,7 @@ def _half(z: float, r: float) -> float:
     undercut as much as a rack does it."""
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
-    involute = (pi / 2 * (1 - 2 * _PLAY)) / z + tan(_PRESSURE) - _PRESSURE - inner
+    involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
     return min(involute, pi / z - _swept(z, r))
 
 

@@ -196,7 +196,7 @@ class _Mounting:
         driver = self._driver(circuit)
         if any(self.stage.layout.wheels[wheel].cone for wheel in circuit.wheels):
             # no law knows the likeness of a crown: its teeth stand in the middle of spaces, in the mean
-            middle = sum(setting.law.error_range()) / 2
+            middle = sum(setting.transmission.error_range()) / 2
             return 0.5 + (setting.error - middle) / self._pitch(circuit.wheels[1 - driver])
         shift = 0.0 if stands is None else self._shift(circuit, stands)
         error = setting.error_past(shift * self._pitch(circuit.wheels[driver])) if shift else setting.error
@@ -272,18 +272,18 @@ def find_count_formulas(
     """
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
-    lead = next((link for link, speed in case.inputs.items() if speed), None)
+    driving_link = next((link for link, speed in case.inputs.items() if speed), None)
     free = {name: (wheel.count,) for name, (_, wheel) in declared.wheels.items() if wheel.count}
-    if lead is None or not free or len(free) > _MOST_WHEELS:
+    if driving_link is None or not free or len(free) > _MOST_WHEELS:
         return None
     frame = declared.frame
-    asked = [(bodies[each.body].id, bodies[each.base].id) for each in pointers]
+    requested = [(bodies[each.body].id, bodies[each.base].id) for each in pointers]
     links = [None if body.parent is None else (body.id, frame) for body in bodies]
     own = originals(declared)
     counted = {wheel.id: _original(wheel.id, own, bodies[wheel.body].id) for wheel in wheels}
     try:
-        train_asked = _asking(unfolded.declaration, state, [*asked, *filter(None, links)])
-        found = find_formulas(train_asked, state, {name: free[of] for name, of in counted.items() if of in free})
+        train_requested = _asking(unfolded.declaration, state, [*requested, *filter(None, links)])
+        found = find_formulas(train_requested, state, {name: free[of] for name, of in counted.items() if of in free})
     except GearTrainError:
         return None
     place = {name: at for at, name in enumerate(free)}
@@ -292,22 +292,22 @@ def find_count_formulas(
         wheels=tuple(free),
         count=tuple(table.place.get(wheel.id) for wheel in wheels),
         bodies=tuple(table.index(found, each) for each in links),
-        pointers=tuple(table.index(found, each) for each in asked),
+        pointers=tuple(table.index(found, each) for each in requested),
         conditions=_conditions(unfolded, found, table, [body.id for body in bodies]),
         formulas=tuple(table.formulas),
-        input=fraction_text(case.inputs[lead]),
+        input=fraction_text(case.inputs[driving_link]),
         exact=case.exact,
         parent=_parent(declared),
     )
 
 
-def _name(asked: tuple[str, str]) -> str:
-    return " seen from ".join(asked)
+def _name(requested: tuple[str, str]) -> str:
+    return " seen from ".join(requested)
 
 
-def _asking(train: Train, state: str | None, asked: Sequence[tuple[str, str]]) -> Train:
+def _asking(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
     """The train with other outputs: links as they are seen from links."""
-    outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in asked})
+    outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in requested})
     states = {
         name: each.changed(outputs=FrozenDict({})) if name == state else each for name, each in train.states.items()
     }
@@ -338,8 +338,8 @@ class _Table:
         self.place = place  # of each wheel, that of its count
         self.formulas: dict[CountFormula, int] = {}
 
-    def index(self, found: Formulas, asked: tuple[str, str] | None) -> int | None:
-        formula = None if asked is None else found.outputs.get(_name(asked))
+    def index(self, found: Formulas, requested: tuple[str, str] | None) -> int | None:
+        formula = None if requested is None else found.outputs.get(_name(requested))
         return None if formula is None else self.formulas.setdefault(self.plain(formula), len(self.formulas))
 
     def plain(self, formula: Formula) -> CountFormula:
@@ -430,7 +430,7 @@ def make_scene(
         unit=declared.unit_name,
         positive=declared.view.positive,
         front=stage.layout.front,
-        lead=None if stage.lead is None else stage.body[stage.lead],
+        driving_link=None if stage.driving_link is None else stage.body[stage.driving_link],
         crank=None if stage.crank is None else stage.body[stage.crank],
         step=fraction_text(stage.step),
         verdict=verdict,

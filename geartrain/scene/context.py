@@ -58,14 +58,14 @@ class SceneContext:
         return {wheel: at for at, wheel in enumerate(self.train.declaration.wheels)}
 
     @cached_property
-    def lead(self) -> str | None:
+    def driving_link(self) -> str | None:
         """The input whose turns are given; None where nothing is driven."""
         return next((link for link, speed in self.case.inputs.items() if speed), None)
 
     @cached_property
     def crank(self) -> str | None:
         """The link at which a hand would turn the train."""
-        return self.train.declaration.crank or self.lead
+        return self.train.declaration.crank or self.driving_link
 
     def speed(self, link: str) -> Fraction | None:
         """Exact speed at the declared inputs; None where it is not determined."""
@@ -75,9 +75,9 @@ class SceneContext:
     def ratio(self, link: str) -> Fraction | None:
         """Exact speed over the lead's; None where it is not determined, or nothing is driven."""
         found = self.speed(link)
-        if found is None or self.lead is None:
+        if found is None or self.driving_link is None:
             return None
-        return found / self.case.inputs[self.lead]
+        return found / self.case.inputs[self.driving_link]
 
     def shown(self, speed: Fraction | None) -> str | None:
         """A speed as text: exact where the case is."""
@@ -114,11 +114,11 @@ class SceneContext:
     @cached_property
     def step(self) -> Fraction:
         """Turns of the lead in one unit of time of the input: of `100 rpm`, in a minute. 1 where nothing is driven."""
-        if self.lead is None:
+        if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration
         turns = Fraction(1) if declared.unit is not None else turns_in(declared.input_unit)
-        return self.case.inputs[self.lead] * turns
+        return self.case.inputs[self.driving_link] * turns
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:

@@ -116,7 +116,7 @@ def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterabl
         for link in {circuits[name].i, circuits[name].j, circuits[name].carrier}:
             touching.setdefault(link, []).append(name)
     frame = stage.train.declaration.frame
-    queue = deque(link for link in (stage.lead, *stage.case.inputs) if link is not None)
+    queue = deque(link for link in (stage.driving_link, *stage.case.inputs) if link is not None)
     seen = {frame, *queue}
     found: dict[str, None] = {}
     while queue:
@@ -142,7 +142,7 @@ _NESTED = 0.74  # radius over that of the dial around it
 _OUT, _BALL = 0.5, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own radius
 _LOWEST, _STEP = 0.02, 0.018  # over the radius of its dial: how high hands stand where no pipe bears them
 _PARTS = 4000  # of a radius, in which an engraving is told
-_LEAST = 0.3  # of the train's width, that a dial on a narrow side takes for the width of this side
+_MINIMUM = 0.3  # of the train's width, that a dial on a narrow side takes for the width of this side
 _GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
 
 
@@ -260,7 +260,7 @@ def _side(stage: SceneContext, normal: Vector) -> float:
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
-    return max(min((_reach(stage, way) for way in ways), default=inf), _LEAST * _width(stage))
+    return max(min((_reach(stage, way) for way in ways), default=inf), _MINIMUM * _width(stage))
 
 
 def _reach(stage: SceneContext, way: Vector) -> float:
@@ -380,7 +380,7 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
     """The declared date as turns of the lead; None where none is declared, or nothing is driven."""
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
-    if epoch is None or unit is None or stage.lead is None:
+    if epoch is None or unit is None or stage.driving_link is None:
         return None
     return SceneEpoch(
         julian_day=fraction_text(epoch.julian_day),
@@ -397,12 +397,12 @@ def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) ->
 
     speed   its own, in the train's unit; a target without a sense is met by either, and takes that of the output
     """
-    if stage.lead is None or speed is None:
+    if stage.driving_link is None or speed is None:
         return ()
-    lead = stage.case.inputs[stage.lead]
+    driving_link = stage.case.inputs[stage.driving_link]
     found = []
     for target in output.targets:
         goal = goal_of(stage.train.declaration, target)
         wanted = -goal.speed if not goal.signed and speed < 0 else goal.speed
-        found.append(PointerTarget(goal.label, fraction_text(wanted / lead), target.source or ""))
+        found.append(PointerTarget(goal.label, fraction_text(wanted / driving_link), target.source or ""))
     return tuple(found)

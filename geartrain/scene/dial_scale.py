@@ -187,7 +187,7 @@ def _step(count: int, most: int) -> int:
 _CHORDS = 90  # of a turn
 _MARKS = 400  # divisions of a turn that are still drawn singly
 _SHORT, _LONG = 0.032, 0.05  # borders of cells; of those at numerals
-_TALL, _LEAST = 0.068, 0.03  # of letters
+_TALL, _MINIMUM = 0.068, 0.03  # of letters
 _BAND = 0.1  # from a rim to the middle of what is written along it
 _FULL = 0.86  # of its part that a name may fill
 _APART = 0.5  # of their height between numerals
@@ -271,7 +271,7 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
     named = [part for part in scale.names if part[0]]
     for every in range(1, 7):
         heights = {part: _fitting(scale, radius, part, every) for part in named[::every]}
-        kept = {part: height for part, height in heights.items() if height >= _LEAST}
+        kept = {part: height for part, height in heights.items() if height >= _MINIMUM}
         if len(kept) >= 0.8 * len(heights):  # five days at the year's end have no room for their name
             break
     height = min([_TALL, *kept.values()])

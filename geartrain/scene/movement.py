@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import CompositionStep as Composed
     from geartrain.dynamics.motion.error_composition import ErrorComposition
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.transmission import TransmissionFunction as ToothLaw
+    from geartrain.teeth.transmission import TransmissionFunction as ToothTransmission
 
 
 # ----------------------------------------------------------------------------------------------------- tables and steps
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorLawTable(Result):
+class ErrorTable(Result):
     """The periodic error of a gear pair or a pin in a slot, as polynomials between breaks.
 
     See Also
@@ -86,7 +86,7 @@ class ErrorSource(Shown):
 
     pair: str
     """Name of the gear pair or coupling."""
-    law: int
+    transmission: int
     """Index of its law in the movement."""
     driver: int
     """Index of the driving body."""
@@ -144,7 +144,7 @@ class Movement(Shown):
     """Why it is mean or still."""
     period: str | None = None
     """Turns of the lead after which all stands as before, exact; None where nothing repeats."""
-    laws: Sequence[ErrorLawTable] = ()
+    transmissions: Sequence[ErrorTable] = ()
     """Laws, those of pairs alike once."""
     sources: Sequence[ErrorSource] = ()
     """The pairs that have them."""
@@ -172,24 +172,24 @@ def step_of(step: Composed) -> ErrorStep:
 
 def laws_and_sources(
     composition: ErrorComposition, way: int = 1
-) -> tuple[tuple[ErrorLawTable, ...], tuple[ErrorSource, ...]]:
+) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
     """Every source with its law; pairs alike share one.
 
     way   -1 where the lead turns backwards: a composition counts in the lead's sense, a scene about declared axes
     """
-    laws: dict[tuple[float, bytes, bytes], ErrorLawTable] = {}
+    transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     numbers: dict[tuple[float, bytes, bytes], int] = {}
     sources = []
     for source in composition.sources:
-        law = tabulated(source.id, source.law)
+        transmission = tabulated(source.id, source.transmission)
         # bit by bit: laws that differ only by rounding come from pairs that are not alike
-        key = law.period, law.breaks.tobytes(), law.coefficients.tobytes()
-        laws.setdefault(key, law)
+        key = transmission.period, transmission.breaks.tobytes(), transmission.coefficients.tobytes()
+        transmissions.setdefault(key, transmission)
         joint = composition.spread.joints[source.pair]
         sources.append(
             ErrorSource(
                 pair=source.id,
-                law=numbers.setdefault(key, len(numbers)),
+                transmission=numbers.setdefault(key, len(numbers)),
                 driver=joint.driver,
                 carrier=joint.carrier,
                 driver_sense=source.driver_sense,
@@ -200,27 +200,27 @@ def laws_and_sources(
                 sense=way * source.sense,
             )
         )
-    return tuple(laws.values()), tuple(sources)
+    return tuple(transmissions.values()), tuple(sources)
 
 
-def tabulated(pair: str, law: ToothLaw) -> ErrorLawTable:
+def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
     """The error of a law as polynomials within `TOLERANCE` of a driven pitch, in the fewest numbers."""
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
-    tables = (TabulatedTransmission(law, TOLERANCE, degree).error_table for degree in _DEGREES)
-    pitch = (float(law.ratio) or 1.0) * law.period
+    tables = (TabulatedTransmission(transmission, TOLERANCE, degree).error_table for degree in _DEGREES)
+    pitch = (float(transmission.ratio) or 1.0) * transmission.period
     # where rounding keeps all tables from the tolerance, the nearest one
     table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
     # corners, where the error has a kink, part cells: no polynomial runs across one
-    breaks = np.sort(np.concatenate((np.arange(table.cells + 1) * (law.period / table.cells), table.corners)))
-    breaks[-1] = law.period  # not cells times a quotient, which rounds
+    breaks = np.sort(np.concatenate((np.arange(table.cells + 1) * (transmission.period / table.cells), table.kinks)))
+    breaks[-1] = transmission.period  # not cells times a quotient, which rounds
     wide = np.diff(breaks) > 0  # a corner on the border of a cell leaves none between
-    return ErrorLawTable(
+    return ErrorTable(
         pair,
-        law.period,
-        np.append(breaks[:-1][wide], law.period),
+        transmission.period,
+        np.append(breaks[:-1][wide], transmission.period),
         np.ascontiguousarray(table.coefficients.T[wide]),
         table.uncertainty,
     )
@@ -244,7 +244,7 @@ class InitialPosition:
     """Its forward angle, and the error of the driven side there (rad)."""
     error: float
     """Its forward angle, and the error of the driven side there (rad)."""
-    law: ToothLaw
+    transmission: ToothTransmission
     """Of the pair."""
 
     def error_past(self, shift: float) -> float:
@@ -255,8 +255,8 @@ class InitialPosition:
         """
         import numpy as np
 
-        S = self.law.period * np.arange(_TRIED_ERRORS) / _TRIED_ERRORS
-        return self.error + float((self.law.error(S + shift) - self.law.error(S)).max())
+        S = self.transmission.period * np.arange(_TRIED_ERRORS) / _TRIED_ERRORS
+        return self.error + float((self.transmission.error(S + shift) - self.transmission.error(S)).max())
 
 
 @dataclass(frozen=True, slots=True)
@@ -276,7 +276,7 @@ class MovementStart:
 
 def find_movement(stage: SceneContext) -> MovementStart:
     """The movement of a train in its state; never an error: what cannot be followed moves in the mean, and says why."""
-    if not stage.answer.verdict or stage.lead is None:
+    if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _started(stage))
     if stage.unbuilt:
@@ -339,12 +339,12 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 def _written(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
     """Exact where nothing ripples: teeth that keep their ratio may still have play, and then their offsets stand."""
-    laws, sources = laws_and_sources(composition, way)
+    transmissions, sources = laws_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
         "real" if sources else "exact",
         period=_text(_period(stage, [source.cycles for source in composition.sources])),
-        laws=laws,
+        transmissions=transmissions,
         sources=sources,
         steps=tuple(step_of(step) for step in composition.steps),
         offsets={link: way * each for link, each in zip(links, composition.offsets, strict=False) if each},
@@ -355,7 +355,10 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
     for source in composition.sources:
         S = source.phase
         driver = composition.spread.links[composition.spread.joints[source.pair].driver]
-        yield source.id, InitialPosition(driver, way * source.forward, S, float(source.law.error(S)), source.law)
+        yield (
+            source.id,
+            InitialPosition(driver, way * source.forward, S, float(source.transmission.error(S)), source.transmission),
+        )
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:

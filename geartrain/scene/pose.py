@@ -11,14 +11,14 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import read_fraction
-from geartrain.scene.movement import ErrorLawTable, ErrorSource, ErrorStep
+from geartrain.scene.movement import ErrorSource, ErrorStep, ErrorTable
 from geartrain.scene.train_scene import Scene
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_ROUNDS, _SETTLED = 500, 1e-14  # of fixed-point iteration, for pairs that depend on each other; rad
+_ROUNDS, _CONVERGED = 500, 1e-14  # of fixed-point iteration, for pairs that depend on each other; rad
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +118,7 @@ def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas:
             deltas[source] = _delta(scene, scene.movement.sources[source], turns, error)
         before = error[bodies]
         error[bodies] = base + gains @ np.array([deltas[source] for source in step.sources])
-        if not step.coupled or np.abs(error[bodies] - before).max(initial=0.0) < _SETTLED:
+        if not step.coupled or np.abs(error[bodies] - before).max(initial=0.0) < _CONVERGED:
             return
     raise RangeError(
         Problem(
@@ -135,16 +135,16 @@ def _matrix(rows: object, height: int, width: int) -> Floats:
 
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) -> float:
     """What a pair that ripples adds to the body it drives."""
-    law = scene.movement.laws[source.law]
+    transmission = scene.movement.transmissions[source.transmission]
     swing = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier]
-    mean = law.period * float(read_fraction(source.cycles) * turns % 1)
-    return source.sense * _value(law, source.start + mean + source.forward * float(swing))
+    mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)
+    return source.sense * _value(transmission, source.start + mean + source.forward * float(swing))
 
 
-def _value(law: ErrorLawTable, S: float) -> float:
+def _value(transmission: ErrorTable, S: float) -> float:
     """The error law at a driver's angle."""
-    s = S % law.period
+    s = S % transmission.period
     # clamped: rounding may put s on the period itself
-    cell = min(max(int(np.searchsorted(law.breaks, s, side="right")) - 1, 0), len(law.breaks) - 2)
-    x = s - (law.breaks[cell] + law.breaks[cell + 1]) / 2
-    return float(np.polynomial.polynomial.polyval(x, law.coefficients[cell]))
+    cell = min(max(int(np.searchsorted(transmission.breaks, s, side="right")) - 1, 0), len(transmission.breaks) - 2)
+    x = s - (transmission.breaks[cell] + transmission.breaks[cell + 1]) / 2
+    return float(np.polynomial.polynomial.polyval(x, transmission.coefficients[cell]))

@@ -79,12 +79,12 @@ class SceneContact(Result):
         "at",
         "apart",
         "coast",
-        "blows",
+        "impact_rate",
         "hardest",
         Key("changes", "packed_changes"),
         "states",
-        Key("blow_times", "packed_times"),
-        Key("blow_speeds", "packed_speeds"),
+        Key("impact_times", "packed_times"),
+        Key("impact_speeds", "packed_speeds"),
     )
 
     name: str
@@ -99,7 +99,7 @@ class SceneContact(Result):
     """Share of time in which no flank touches."""
     coast: float
     """Share of time on the coast flank."""
-    blows: float
+    impact_rate: float
     """Impacts a second [1/s]."""
     hardest: float
     """Greatest closing speed of one, of the driven side [rad/s]."""
@@ -107,9 +107,9 @@ class SceneContact(Result):
     """Samples from which `states` hold. Shape (n,)."""
     states: str
     """One letter each: `d` on the drive flank, `c` on the coast flank, `a` apart; empty where that is not known."""
-    blow_times: Floats
+    impact_times: Floats
     """Times of impacts since the start of what is shown [s]. Shape (m,)."""
-    blow_speeds: Floats
+    impact_speeds: Floats
     """Closing speeds of the driven side at impacts [rad/s]. Shape (m,)."""
 
     @property
@@ -120,12 +120,12 @@ class SceneContact(Result):
     @property
     def packed_times(self) -> str:
         """The times as a page carries them: base64 of little-endian float64."""
-        return packed(self.blow_times)
+        return packed(self.impact_times)
 
     @property
     def packed_speeds(self) -> str:
         """The speeds as a page carries them: base64 of little-endian float32."""
-        return packed(self.blow_speeds, "<f4")
+        return packed(self.impact_speeds, "<f4")
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +161,7 @@ class SceneRun(Result):
     """Angles, in the order of bodies."""
     contacts: Sequence[SceneContact]
     """Teeth, pins and the escapement."""
-    leads: Sequence[Annotated[Any, WingResult("simulation", "OutputLead")]]
+    deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
     """How far outputs are ahead of `motion` and behind."""
     notes: Sequence[str]
     """What is left out, and what is drawn as one."""
@@ -224,7 +224,7 @@ class ShownSamples:
         changes = np.concatenate(([0], 1 + np.flatnonzero(np.diff(code))))
         return changes, "".join("dca"[each] for each in code[changes])
 
-    def blows(self, contact: str) -> tuple[Floats, Floats]:
+    def impacts(self, contact: str) -> tuple[Floats, Floats]:
         """Times and closing speeds of a contact's blows; of those within one sample the first time, the most speed."""
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]
@@ -259,10 +259,10 @@ def find_run(
             *places[each.name],
             each.apart,
             each.coast,
-            each.blows,
+            each.impact_rate,
             each.hardest,
             *samples.states(each.name),
-            *samples.blows(each.name),
+            *samples.impacts(each.name),
         )
         for each in run.contacts
     )
@@ -281,7 +281,7 @@ def find_run(
         complete=run.complete,
         links=tuple(samples.link(_turned(stage, run, moves[link]), _tolerance(stage, link)) for link in links),
         contacts=contacts,
-        leads=run.leads,
+        deviations=run.deviations,
         notes=(*run.notes, *_left_out(run, movement)),
     )
 
@@ -294,7 +294,7 @@ def _turned(stage: SceneContext, run: TimeRun, link: str) -> Floats:
 
 def _tolerance(stage: SceneContext, link: str) -> float:
     """Finer for the lead: by its angle the page says where all other links would stand if teeth touched."""
-    if link != stage.lead:
+    if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)
     return TOLERANCE / max(1.0, *(abs(float(ratio)) for ratio in ratios if ratio))

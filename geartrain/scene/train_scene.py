@@ -189,7 +189,7 @@ class Scene(Shown):
     """Declared sense of a positive speed."""
     front: int
     """Side of z from which it is looked at, 1 or -1."""
-    lead: int | None
+    driving_link: int | None
     """Index of the body whose turns are given."""
     crank: int | None
     """Index of the body at which a hand would turn the train."""

@@ -115,7 +115,7 @@ def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
         left, right = right, rest
 
 
-def approximants(value: Fraction, most: int, least: ApproximantKind = "intermediate") -> tuple[Approximant, ...]:
+def approximants(value: Fraction, most: int, minimum: ApproximantKind = "intermediate") -> tuple[Approximant, ...]:
     """Every fraction on the walk down the Stern-Brocot tree to a number, in the order of the walk.
 
     Parameters
@@ -124,7 +124,7 @@ def approximants(value: Fraction, most: int, least: ApproximantKind = "intermedi
         The number, above 0.
     most : int
         The largest numerator and denominator.
-    least : {"convergent", "best", "intermediate"}
+    minimum : {"convergent", "best", "intermediate"}
         "convergent" lists convergents of the continued fraction alone, "best" the best ones too, "intermediate" all.
 
     Returns
@@ -151,7 +151,7 @@ def approximants(value: Fraction, most: int, least: ApproximantKind = "intermedi
     """
     found: list[Approximant] = []
     for run in runs(value, most):
-        first = {"convergent": run.whole, "best": min(run.best, run.whole), "intermediate": 1}[least]
+        first = {"convergent": run.whole, "best": min(run.best, run.whole), "intermediate": 1}[minimum]
         if len(found) + run.length - first >= _MOST_LISTED:
             raise RangeError(
                 Problem(

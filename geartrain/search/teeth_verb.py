@@ -52,8 +52,8 @@ class SearchGroup(LazyGroup):
         """The search that was asked for; for a question without its word, as it was asked once, the word is told."""
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
-            asked = shlex.join(["geartrain", "teeth", word, *rest])
-            ctx.fail(f"say what is searched for, one of {', '.join(self.verbs)}: `{asked}`")
+            requested = shlex.join(["geartrain", "teeth", word, *rest])
+            ctx.fail(f"say what is searched for, one of {', '.join(self.verbs)}: `{requested}`")
         return super().resolve_command(ctx, args)
 
 
@@ -156,9 +156,9 @@ class SearchAnswer:
         if suffix in _YAML:
             self._declare(declared, len(rows))
         form = suffix or (".json" if self.json else ".csv" if self.csv else ".md")
-        asked = {form} if self.out != STANDARD and form not in _YAML else set[str]()
-        asked |= {".json"} if self.json else {".csv"} if self.csv else set()
-        for each in sorted(asked or {""}):
+        requested = {form} if self.out != STANDARD and form not in _YAML else set[str]()
+        requested |= {".json"} if self.json else {".csv"} if self.csv else set()
+        for each in sorted(requested or {""}):
             out = self.out if each == form else STANDARD
             if each == ".json":
                 emit(as_json(found), out)

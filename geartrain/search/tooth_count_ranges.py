@@ -84,7 +84,7 @@ class CountRuns(Sequence[int]):
         return cls(tuple(found))
 
     @property
-    def least(self) -> int:
+    def minimum(self) -> int:
         """The smallest count."""
         return self.spans[0][0]
 
@@ -166,7 +166,7 @@ class CountRuns(Sequence[int]):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        return {"counts": str(self), "least": self.least, "most": self.most, "number": len(self)}
+        return {"counts": str(self), "minimum": self.minimum, "most": self.most, "number": len(self)}
 
 
 def read_counts(text: str) -> CountRuns:

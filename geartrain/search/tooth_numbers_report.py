@@ -51,15 +51,15 @@ def _product(counts: Sequence[int]) -> str:
 
 def describe_stages(found: StageFindings) -> Document:
     """Solutions of a ratio by stages."""
-    lead = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
+    summary = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
     if found.tolerance is not None:
         whole = "every one was looked at" if found.complete else "not all of them were looked at"
-        lead.append(
+        summary.append(
             f"{found.count} of {figure(float(found.considered), 4)} pairs of sets are within "
             f"{figure(float(found.tolerance), 4)}; {whole}."
         )
     sections = [_solutions(found.solutions)] if found.solutions else []
-    return Document(f"Tooth numbers for {found.wanted.label}", lead, [*sections, *_shortfall(found.shortfall)])
+    return Document(f"Tooth numbers for {found.wanted.label}", summary, [*sections, *_shortfall(found.shortfall)])
 
 
 def _wanted(wanted: TargetRatio) -> str:
@@ -92,8 +92,8 @@ def describe_approximants(found: Approximants) -> Document:
     wanted = found.wanted
     rows = [(exact(one.value), figure(one.value, 12), one.kind, error_text(one.error)) for one in found.solutions]
     table = Table(("fraction", "decimal", "kind", "error"), cut(rows))
-    lead = [_wanted(wanted), f"Numerators and denominators up to {found.most}."]
-    return Document(f"Fractions on the way to {wanted.label}", lead, [Section("Fractions", (), [table])])
+    summary = [_wanted(wanted), f"Numerators and denominators up to {found.most}."]
+    return Document(f"Fractions on the way to {wanted.label}", summary, [Section("Fractions", (), [table])])
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
@@ -120,18 +120,18 @@ def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
 
 def describe_assignments(found: TrainFindings) -> Document:
     """What was found for the free wheels of a train, part by part."""
-    lead = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} meet everything."]
-    lead += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
+    summary = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} meet everything."]
+    summary += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
     if found.where:
         sections.append(_standings(found.where))
-    return Document(f"Tooth numbers of {found.name}", lead, sections)
+    return Document(f"Tooth numbers of {found.name}", summary, sections)
 
 
 def _part(part: PartFindings) -> list[Section]:
     """One independent part: what is asked, how many there are, the best of them."""
-    asked = "; ".join([*part.demands, *part.rules])
-    lines = [f"Asked: {asked}." if asked else "Nothing is asked."]
+    requested = "; ".join([*part.demands, *part.rules])
+    lines = [f"Asked: {requested}." if requested else "Nothing is asked."]
     within = "" if part.tolerance is None else f" within {figure(float(part.tolerance), 4)}"
     whole = "complete" if part.complete else f"not complete: {part.reason}"
     lines.append(f"{part.count} of {figure(float(part.considered), 6)} assignments{within} ({whole}).")
@@ -195,7 +195,7 @@ def set_rows(found: SetFindings) -> list[dict[str, Any]]:
 
 def describe_sets(found: SetFindings) -> Document:
     """Epicyclic sets for a ratio."""
-    lead = [
+    summary = [
         f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in any sense unless asked.",
         f"{found.count} sets in their modes run"
         + (" within the tolerance." if found.tolerance is not None else "; the best of them:" if found.count else "."),
@@ -215,7 +215,7 @@ def describe_sets(found: SetFindings) -> Document:
         ]
         header = ("teeth", "mode", "input/output", "error", "planets fit at", "room, modules")
         sections.append(Section("Sets", (), [Table(header, cut(rows))]))
-    return Document(f"Sets of the kind {found.kind}", lead, [*sections, *_shortfall(found.shortfall)])
+    return Document(f"Sets of the kind {found.kind}", summary, [*sections, *_shortfall(found.shortfall)])
 
 
 def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
@@ -238,10 +238,10 @@ def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
 
 def describe_orrery(found: Orrery) -> Document:
     """An orrery: its pairs, what each arbor shows, what is proved."""
-    proof = "proved to be the fewest" if found.complete else f"at least {found.least_wheels} are needed"
+    proof = "proved to be the fewest" if found.complete else f"at least {found.minimum_wheels} are needed"
     ended = "an interrupt" if found.ended == "interrupted" else found.ended
-    lead = [
-        f"{found.wheels} wheels in {len(found.pairs)} pairs; {proof}, and at least {found.least_pairs} pairs.",
+    summary = [
+        f"{found.wheels} wheels in {len(found.pairs)} pairs; {proof}, and at least {found.minimum_pairs} pairs.",
         f"Greatest error {error_text(max(found.errors.values(), key=abs))}. The search ended by {ended}.",
     ]
     shown = {arbor.name: arbor for arbor in found.arbors}
@@ -257,4 +257,4 @@ def describe_orrery(found: Orrery) -> Document:
         for pair in found.pairs
     ]
     header = ("arbor", "driver / driven", "arbor driven", "period", "error of speed", "sense")
-    return Document("Orrery", lead, [Section("Pairs", (), [Table(header, cut(rows))])])
+    return Document("Orrery", summary, [Section("Pairs", (), [Table(header, cut(rows))])])

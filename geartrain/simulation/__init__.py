@@ -43,10 +43,10 @@ if TYPE_CHECKING:
     from geartrain.simulation.time.time_report import collect_time_report as collect_time_report
     from geartrain.simulation.time.time_report import describe_time_run as describe_time_run
     from geartrain.simulation.time.time_run import ContactInTime as ContactInTime
+    from geartrain.simulation.time.time_run import ConvergedFigure as ConvergedFigure
     from geartrain.simulation.time.time_run import EnergyAccount as EnergyAccount
     from geartrain.simulation.time.time_run import ImpactList as ImpactList
-    from geartrain.simulation.time.time_run import OutputLead as OutputLead
-    from geartrain.simulation.time.time_run import SettledFigure as SettledFigure
+    from geartrain.simulation.time.time_run import OutputDeviation as OutputDeviation
     from geartrain.simulation.time.time_run import SpectrumPeak as SpectrumPeak
     from geartrain.simulation.time.time_run import TimeRun as TimeRun
     from geartrain.simulation.time.time_run_plot import time_run_figure as time_run_figure
@@ -58,18 +58,18 @@ __all__ = [
     "ArborStrength",
     "CoSimulationCase",
     "ContactInTime",
+    "ConvergedFigure",
     "EnergyAccount",
     "FlankStrength",
     "FlankWear",
     "ImpactList",
     "LinkInertia",
-    "OutputLead",
+    "OutputDeviation",
     "PairSeparation",
     "PairStrength",
     "PinContact",
     "PointContact",
     "SeparationRates",
-    "SettledFigure",
     "Simulation",
     "SpectrumPeak",
     "SteppedSeparation",
@@ -116,7 +116,15 @@ _PLACES = {
     "Simulation": "time.stepwise_simulation",
     **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time.time_report"),
     **dict.fromkeys(
-        ("ContactInTime", "EnergyAccount", "ImpactList", "OutputLead", "SettledFigure", "SpectrumPeak", "TimeRun"),
+        (
+            "ContactInTime",
+            "EnergyAccount",
+            "ImpactList",
+            "OutputDeviation",
+            "ConvergedFigure",
+            "SpectrumPeak",
+            "TimeRun",
+        ),
         "time.time_run",
     ),
     "time_run_figure": "time.time_run_plot",

@@ -77,7 +77,7 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
     return np.log(operating_pitch(S, a, b)), (diags_array(steep) @ slopes).tocsr()
 
 
-def least_step(J: csr_array, error: Floats, damping: float) -> Floats:
+def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
     """The step x of least |x|^2 + |error + J x|^2 / damping: least norm among all solutions as damping goes to 0."""
     from scipy.sparse import block_array, eye_array
     from scipy.sparse.linalg import splu
@@ -166,7 +166,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
     size, damping = float(np.abs(error).max()), 1e-12
     stalled = 0
     for _ in range(_MOST_STEPS):
-        step = least_step(J, error, damping)
+        step = minimum_step(J, error, damping)
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max()), 1e-300))
         tried = moved(axes, step[:-1].reshape(-1, 2))
         # a step may halve the pitch at most, and make no gear larger than a crown gear

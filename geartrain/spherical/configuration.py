@@ -138,9 +138,9 @@ def nearest_unmeshed(configuration: Configuration) -> dict[tuple[str, str], floa
     for a in kinds_in_order(configuration):
         rows = apart[kinds == a].min(axis=0)
         for b in kinds_in_order(configuration):
-            least = float(rows[kinds == b].min())
-            if least < inf:
-                found[a, b] = least
+            minimum = float(rows[kinds == b].min())
+            if minimum < inf:
+                found[a, b] = minimum
     return found
 
 

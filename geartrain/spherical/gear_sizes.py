@@ -102,11 +102,11 @@ def one_pitch(configuration: Configuration) -> float:
     sizing = size_gears(configuration)
     if sizing.exact:
         return sizing.pitch
-    least, most = int(np.argmin(sizing.pitches)), int(np.argmax(sizing.pitches))
+    minimum, most = int(np.argmin(sizing.pitches)), int(np.argmax(sizing.pitches))
     raise RangeError(
         Problem(
-            f"no single pitch: {sizing.label(most)} asks for {sizing.pitches[most]:.12g} and {sizing.label(least)} "
-            f"for {sizing.pitches[least]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
+            f"no single pitch: {sizing.label(most)} asks for {sizing.pitches[most]:.12g} and {sizing.label(minimum)} "
+            f"for {sizing.pitches[minimum]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
             impossibility_theorem(configuration) or "each kind of mesh fixes the pitch by its own axes and teeth",
             "size_gears() gives operating cones and pressure angles of involutes on one base pitch; "
             "suggest_tooth_counts() seeks better teeth; from_graph() or idlers on the edges give an exact pitch with "

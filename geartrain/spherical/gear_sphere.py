@@ -55,7 +55,7 @@ class GearSphere(Result):
             "closure",
         ),
         *(Key("sphere_radius", "radius"), "radii", Key("cones", to=degrees), Key("angles", to=degrees)),
-        Key("graph", keys=("aim", "exact", Key("axes_moved", "greatest_move", degrees), _SPREAD, "residue")),
+        Key("graph", keys=("aim", "exact", Key("axes_moved", "maximum_move", degrees), _SPREAD, "residue")),
         "sizing",
     )
 

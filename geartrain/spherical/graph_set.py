@@ -101,8 +101,8 @@ def _holds_together(found: nx.Graph[Any]) -> None:
 
     parts = [sorted(map(str, part)) for part in nx.connected_components(found)]
     if len(parts) > 1:
-        least = min(parts, key=len)
-        apart = ", ".join(least)
+        minimum = min(parts, key=len)
+        apart = ", ".join(minimum)
         raise _refused(
             f"{apart} stand apart", "parts without a mesh between them do not fix each other", "pack one part at a time"
         )
@@ -191,18 +191,18 @@ _MOST_CHOICES = 24
 """Roundings of the teeth that are compared by how far their loops are from closing."""
 
 
-def rounded_teeth(cones: Floats, least: int, upto: int | None = None) -> list[Ints]:
+def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[Ints]:
     """Whole teeth nearly in proportion to sin rho (cones in rad), from a scan of the scale, best first.
 
-    The smallest gear gets from `least` to `upto` teeth (`least` only, unless given). Best is the least variance of
+    The smallest gear gets from `minimum` to `upto` teeth (`minimum` only, unless given). Best is the least variance of
     ln(z / sin rho), that is, of the pitch.
     """
     sine = np.sin(cones)
-    last = least if upto is None else max(upto, least)
+    last = minimum if upto is None else max(upto, minimum)
     # teeth change where a scaled sine passes a half: 200 scales a tooth of the smallest gear meet most
-    scales = np.linspace(least - 0.5, last + 0.5, 200 * (last - least + 1) + 1) / sine.min()
+    scales = np.linspace(minimum - 0.5, last + 0.5, 200 * (last - minimum + 1) + 1) / sine.min()
     found = {tuple(np.round(sine * scale).astype(int).tolist()) for scale in scales}
-    fitting = [teeth for teeth in found if least <= min(teeth) <= last]
+    fitting = [teeth for teeth in found if minimum <= min(teeth) <= last]
     best = sorted(fitting, key=lambda teeth: (float(np.var(np.log(np.array(teeth) / sine))), teeth))
     return [np.array(teeth, dtype=np.int64) for teeth in best]
 
@@ -217,7 +217,7 @@ def kabsch_aligned(axes: Floats, onto: Floats) -> Floats:
 
 def from_graph(
     graph: nx.Graph[Any] | Edges,
-    least_teeth: int = 12,
+    minimum_teeth: int = 12,
     aim: Aim = "pitch",
     *,
     upto: int | None = None,
@@ -234,12 +234,12 @@ def from_graph(
     graph : networkx.Graph, or iterable of pairs
         Who meshes with whom. It must be simple, planar and bipartite, and 3-connected once gears with two meshes
         (idlers) are left out of account.
-    least_teeth : int
+    minimum_teeth : int
         Of the smallest gear.
     aim : {"pitch", "phases"}
         `pitch`: all meshes share one pitch; `phases`: all loops close. Both at once seldom exist.
     upto : int, optional
-        The best rounding is sought for smallest gears from `least_teeth` up to that.
+        The best rounding is sought for smallest gears from `minimum_teeth` up to that.
     teeth : mapping of gear to int, optional
         Of each gear, in place of rounding.
 
@@ -260,7 +260,7 @@ def from_graph(
     The graph of a cube:
 
     >>> cube = [(i, i ^ bit) for i in range(8) for bit in (1, 2, 4) if i < i ^ bit]
-    >>> found = from_graph(cube, least_teeth=12)
+    >>> found = from_graph(cube, minimum_teeth=12)
     >>> found.exact, set(found.configuration.teeth.values())
     (('pitch', 'phases'), {12})
     """
@@ -272,7 +272,7 @@ def from_graph(
     packing = pack_circles(*with_region_circles(gears, regions, names))
     axes, cones = packing.axes[:gears], packing.cones[:gears]
     meshes = tuple(mesh for mesh in packing.meshes if mesh[1] < gears)
-    choices = [_teeth(names, teeth)] if teeth is not None else rounded_teeth(cones, least_teeth, upto)
+    choices = [_teeth(names, teeth)] if teeth is not None else rounded_teeth(cones, minimum_teeth, upto)
     # round the sphere every tooth is counted once, so the loops of all regions but one imply the last
     largest = max(range(len(regions)), key=lambda at: len(regions[at]))
     corners = corners_of([walk for at, walk in enumerate(regions) if at != largest], side)
@@ -329,7 +329,7 @@ class GraphSet(Result):
         "aim",
         "exact",
         Key("axes", "axes_by_gear"),
-        Key("moved", "greatest_move", degrees),
+        Key("moved", "maximum_move", degrees),
         "spread",
         "residue",
         Key("sizes", "sizing"),
@@ -370,7 +370,7 @@ class GraphSet(Result):
         return dict(zip(self.configuration.names, self.configuration.axes.tolist(), strict=True))
 
     @property
-    def greatest_move(self) -> float:
+    def maximum_move(self) -> float:
         """How far an axis was moved at most (rad)."""
         return float(self.moved.max())
 

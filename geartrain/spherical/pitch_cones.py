@@ -116,8 +116,8 @@ def mesh_angles(axes: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
 def frames(axes: Floats) -> Floats:
     """Two directions across each axis that make a right-handed frame with it, (gears, 2, 3)."""
     # crossed with the coordinate axis farthest from it, of which 0.8 at least is left
-    least = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
-    first = np.cross(axes, least)
+    minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
+    first = np.cross(axes, minimum)
     first /= np.linalg.norm(first, axis=1)[:, None]
     return np.stack([first, np.cross(axes, first)], axis=1)
 

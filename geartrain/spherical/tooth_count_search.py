@@ -45,7 +45,7 @@ def suggest_tooth_counts(
     most: int = 60,
     best: int = 20,
     *,
-    least: int = 6,
+    minimum: int = 6,
     order: Order = "mismatch",
     mismatch: float = 0.01,
     tolerance: float = 1e-9,
@@ -60,7 +60,7 @@ def suggest_tooth_counts(
     ----------
     configuration : Configuration
         The set; its own teeth are not asked for.
-    most, least : int
+    most, minimum : int
         Bounds of the tooth numbers.
     best : int
         How many sets are given.
@@ -97,11 +97,11 @@ def suggest_tooth_counts(
     if not meshes:
         raise QuestionError(Problem("no gears mesh", "a pitch follows from a mesh", "declare at least one mesh"))
     rules = loop_rules(configuration)
-    ranges = _ranges(kinds, rules, least, most, fixed or {})
+    ranges = _ranges(kinds, rules, minimum, most, fixed or {})
     search = _Search(configuration, kinds, meshes, rules, tolerance, mismatch)
     kept = [search.kept(block) for block in _blocks(ranges)]
     rows = np.concatenate(kept) if kept else np.zeros((0, len(kinds)), dtype=np.int64)
-    considered = (most - least + 1) ** sum(kind not in (fixed or {}) for kind in kinds)
+    considered = (most - minimum + 1) ** sum(kind not in (fixed or {}) for kind in kinds)
     later = search.tips_removed + search.pitch_removed
     removed = {
         "loops that do not close": considered - later - len(rows),
@@ -114,12 +114,12 @@ def suggest_tooth_counts(
 
 
 def _ranges(
-    kinds: Sequence[str], rules: Sequence[Sequence[Fraction | float]], least: int, most: int, fixed: Mapping[str, int]
+    kinds: Sequence[str], rules: Sequence[Sequence[Fraction | float]], minimum: int, most: int, fixed: Mapping[str, int]
 ) -> list[NDArray[np.int64]]:
     """The tooth numbers of each kind that the exact rules leave possible."""
     ranges = []
     for kind, divisor in zip(kinds, divisors(rules, len(kinds)), strict=True):
-        first, last = (fixed[kind], fixed[kind]) if kind in fixed else (max(least, 1), most)
+        first, last = (fixed[kind], fixed[kind]) if kind in fixed else (max(minimum, 1), most)
         ranges.append(np.arange(divisor * ceil(first / divisor), last + 1, divisor, dtype=np.int64))
     count = 1
     for numbers in ranges:
@@ -153,8 +153,8 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
     keys = (totals, rounded) if order == "mismatch" else (rounded, totals)
     at = np.lexsort(keys)
     if order == "front" and len(at):
-        least = np.concatenate([[np.inf], np.minimum.accumulate(rounded[at])[:-1]])
-        at = at[rounded[at] < least]
+        minimum = np.concatenate([[np.inf], np.minimum.accumulate(rounded[at])[:-1]])
+        at = at[rounded[at] < minimum]
     return np.asarray(rows[at], dtype=np.int64)
 
 

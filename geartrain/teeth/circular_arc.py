@@ -210,7 +210,7 @@ class CircularArc(ToothForm):
             return (z1 + z2) / 2
         return _modules(self.centre_distance, module, "centre_distance")
 
-    def law(
+    def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, direction: int = 1, module: float | None = None
     ) -> OutlineTransmission:
         """The transmission function of a pair, from the contact of its outlines.
@@ -252,14 +252,14 @@ class CircularArc(ToothForm):
         if odd or any(wheels.internal):
             why = f"a {odd[0]} wheel does not mesh as spur wheels do" if odd else "a ring has its teeth inside"
             raise refused("it cannot have circular-arc teeth", why, f"{_SCOPE}; {IDEAL}")
-        law = self.law(*wheels.counts, wheels.friction or 0.0, module=wheels.module)
+        transmission = self.transmission(*wheels.counts, wheels.friction or 0.0, module=wheels.module)
         teeth = self.teeth(*wheels.counts, wheels.module)
         cut = [FixedTooth(each.tip, each.root, tuple(each.vertices())) for each in teeth]
-        return OutlineMesh(wheels, self, wheels.driver, law, (cut[0], cut[1]))
+        return OutlineMesh(wheels, self, wheels.driver, transmission, (cut[0], cut[1]))
 
     # ------------------------------------------------------------------------------------------------- a maker's play
 
-    def own_play(self, pair: str) -> Problem | None:
+    def own_backlash(self, pair: str) -> Problem | None:
         """Why a maker's play does not hold for this pair: declared play or thickness wins.
 
         Returns

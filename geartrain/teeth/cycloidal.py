@@ -32,8 +32,8 @@ class Cycloidal(ConjugateToothForm):
 
     Examples
     --------
-    >>> law = Cycloidal(form="cycloidal").law(8, 60)
-    >>> law.verdict.text, law.ratio, law.path.contact_ratio
+    >>> transmission = Cycloidal(form="cycloidal").transmission(8, 60)
+    >>> transmission.verdict.text, transmission.ratio, transmission.path.contact_ratio
     ('the teeth run', Fraction(2, 15), 1.0)
     """
 
@@ -82,13 +82,13 @@ class Cycloidal(ConjugateToothForm):
     def _check_thickness(self, thickness: TwoFigures) -> None:
         if "backlash" in self.model_fields_set:
             raise bad("backlash", "thickness and backlash are both given", "give one of them")
-        if (least := min(thickness, key=lambda each: each.value)).value <= 0:
-            raise bad("length", f"a thickness of {least.text} is no tooth", "write modules above 0")
+        if (minimum := min(thickness, key=lambda each: each.value)).value <= 0:
+            raise bad("length", f"a thickness of {minimum.text} is no tooth", "write modules above 0")
         if (both := sum(float(each.value) for each in thickness)) > pi:
             fix = f"give {pi:.6g} modules or less in all"
             raise bad("length", f"teeth {both:.6g} modules thick in all do not fit into a pitch", fix)
 
-    def own_play(self, pair: str) -> Problem | None:
+    def own_backlash(self, pair: str) -> Problem | None:
         """As other forms say it; a declared thickness is a play too.
 
         Returns
@@ -97,7 +97,7 @@ class Cycloidal(ConjugateToothForm):
             None where neither is declared.
         """
         if self.thickness is None:
-            return super().own_play(pair)
+            return super().own_backlash(pair)
         why = f"it declares teeth {' and '.join(each.text for each in self.thickness)} modules thick"
         fix = "leave --backlash out, or take the `thickness` out of the file"
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)

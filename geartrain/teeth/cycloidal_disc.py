@@ -169,7 +169,7 @@ class CycloidalDisc:
         return lost / loads.sum(axis=0), lost
 
     @cached_property
-    def greatest_load(self) -> float:
+    def maximum_load(self) -> float:
         """Of any pin at any time, over the force that the torque exerts on the disc's pitch circle."""
         return float(self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)).max())
 
@@ -233,25 +233,25 @@ class DiscTransmission(ExactRatio):
         self.friction = check_friction(friction)
         z1, z2 = (disc.lobes, disc.pins) if driver == 1 else (disc.pins, disc.lobes)
         super().__init__(Fraction(z1, z2), 2 * pi / z1)
-        self._play = 4 * disc.clearance / z2
+        self._backlash = 4 * disc.clearance / z2
 
     @property
     def verdict(self) -> PairVerdict:
         """They run: what cannot run is refused as it is declared."""
-        return PairVerdict("runs", "the teeth run", self._play, ())
+        return PairVerdict("runs", "the teeth run", self._backlash, ())
 
     @property
     def reversed(self) -> DiscTransmission:
         """The law with the other wheel driving."""
         return DiscTransmission(self.disc, self.friction, 3 - self.driver, self.direction)
 
-    def turned_back(self) -> DiscTransmission:
+    def reversed_motion(self) -> DiscTransmission:
         """The law of the other flanks."""
         return DiscTransmission(self.disc, self.friction, self.driver, -self.direction)
 
     @property
     def _ahead(self) -> float:
-        return self._play if self.direction < 0 else 0.0
+        return self._backlash if self.direction < 0 else 0.0
 
     def error(self, S: ArrayLike) -> Floats:
         """0 rad of the driven wheel everywhere; the play where the other flanks drive."""
@@ -293,7 +293,7 @@ class DiscTransmission(ExactRatio):
         """Over a pitch, with the same torque going out."""
         return float(1 / (1 / self._sampled).mean())
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """At any angle."""
         return float(self._sampled.min())
 
@@ -309,13 +309,13 @@ def _counted(fewest: int, most: int) -> str:
 class DiscFigures(PairFigures):
     """Of a disc in its ring of pins."""
 
-    KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "greatest_load", "bearing")
+    KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
     shortening: float
     """The ring's pitch radius over that of the pins' circle."""
     pin_radius: float
     """In modules."""
-    greatest_load: float
+    maximum_load: float
     """Of one pin over the force on the disc's pitch circle."""
     bearing: tuple[int, int]
     """Fewest and most pins that bear at once."""
@@ -325,17 +325,17 @@ class DiscFigures(PairFigures):
 class DiscMesh(GearMesh):
     """A disc and its ring of pins; gear 1 is the disc."""
 
-    law: DiscTransmission
+    transmission: DiscTransmission
 
     @cached_property
     def reversed(self) -> DiscTransmission:
         """The law with the other wheel driving."""
-        return self.law.reversed
+        return self.transmission.reversed
 
     @property
     def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
-        return self.law.verdict
+        return self.transmission.verdict
 
     @property
     def gears(self) -> tuple[str, str]:
@@ -346,7 +346,7 @@ class DiscMesh(GearMesh):
     @property
     def stands(self) -> float:
         """A lobe stands between two pins, less half the play."""
-        return (1 - self.play) / 2
+        return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Lengths of the law are modules already."""
@@ -356,25 +356,25 @@ class DiscMesh(GearMesh):
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
         """A lobe, or a pin."""
         del scale
-        return self.law.disc.lobe(tolerance) if wheel == self.gears[0] else self.law.disc.pin_tooth()
+        return self.transmission.disc.lobe(tolerance) if wheel == self.gears[0] else self.transmission.disc.pin_tooth()
 
     def account(self) -> PairAccount:
         """Sizes, the greatest load, play and efficiency."""
-        disc = self.law.disc
+        disc = self.transmission.disc
         figures = DiscFigures(
             self.counts,
             self.verdict,
-            *motion_figures(self.law),
+            *motion_figures(self.transmission),
             self.efficiency(self.driver),
             disc.shortening,
             disc.pin,
-            disc.greatest_load,
+            disc.maximum_load,
             disc.bearing_pins,
         )
         row = (
             *(self.name, f"{self.driver} -> {self.driven}", str(disc.lobes), str(disc.pins)),
             *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _counted(*disc.bearing_pins)),
-            f"{disc.greatest_load:.4g}",
-            *(f"{degrees(self.verdict.play):.4g}", *self.efficiency_texts),
+            f"{disc.maximum_load:.4g}",
+            *(f"{degrees(self.verdict.backlash):.4g}", *self.efficiency_texts),
         )
         return PairAccount(_WORDS, (AccountTable(_HEADER, row, wide=True),), figures)

@@ -13,14 +13,15 @@ from typing import TYPE_CHECKING, get_args
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.results import Key, Result
-from geartrain.teeth.any_tooth_form import Involute, tooth_forms
+from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.involute import Involute
 from geartrain.teeth.pair_results import ToothFault
 
 if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-    from geartrain.teeth.conjugate.path_costs import PathMeasures, PathRatios
+    from geartrain.teeth.conjugate.path_losses import PathMeasures, PathRatios
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
@@ -234,7 +235,7 @@ def _beside(
 
 
 def _measured(name: str, pair: ConjugatePair, base: PathMeasures | None = None) -> MeasuredForm:
-    from geartrain.teeth.conjugate.path_costs import measure
+    from geartrain.teeth.conjugate.path_losses import measure
 
     if pair.faults:
         return MeasuredForm(name, pair.path, None, faults=pair.faults)

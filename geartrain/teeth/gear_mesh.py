@@ -34,7 +34,7 @@ class GearMesh(Shown, ABC):
     --------
     >>> import geartrain
     >>> mesh = geartrain.load("sorge-pairs").meshes[0]
-    >>> mesh.form, mesh.counts, mesh.verdict.text, mesh.law.ratio
+    >>> mesh.form, mesh.counts, mesh.verdict.text, mesh.transmission.ratio
     ('triangular', (48, 96), 'the wheels turn', Fraction(1, 2))
     """
 
@@ -46,7 +46,7 @@ class GearMesh(Shown, ABC):
     """The form that made it."""
     who: MeshDriver
     """The wheel that drives, and how that is known."""
-    law: TransmissionFunction
+    transmission: TransmissionFunction
     """With that wheel driving, forwards; `coast` is that of the other flanks, `reversed` with the other wheel
     driving."""
 
@@ -84,14 +84,14 @@ class GearMesh(Shown, ABC):
     @cached_property
     def losses(self) -> TransmissionFunction:
         """The law with what its teeth lose; of friction that depends on a speed that is not known, nothing."""
-        return self._rubbed(self.law)
+        return self._rubbed(self.transmission)
 
-    def _rubbed(self, law: TransmissionFunction) -> TransmissionFunction:
+    def _rubbed(self, transmission: TransmissionFunction) -> TransmissionFunction:
         if self.wheels.friction_law is None:
-            return law
+            return transmission
         from geartrain.teeth.rubbed_transmission import rubbed
 
-        return rubbed(law, self.wheels)
+        return rubbed(transmission, self.wheels)
 
     @property
     def pitch_radius(self) -> float | None:
@@ -130,7 +130,7 @@ class GearMesh(Shown, ABC):
     @property
     def coast(self) -> TransmissionFunction:
         """The transmission function of the coast flanks, which push while the driver turns back."""
-        return self.law.turned_back()
+        return self.transmission.reversed_motion()
 
     @property
     @abstractmethod
@@ -152,10 +152,10 @@ class GearMesh(Shown, ABC):
         from geartrain.teeth.pair_results import friction_lock, friction_lock_at_speed
 
         if self.wheels.friction_law is None:
-            if self.law.locks:
-                yield friction_lock(self.law.friction, self.law.locking_friction)
+            if self.transmission.locks:
+                yield friction_lock(self.transmission.friction, self.transmission.locking_friction)
         elif self.verdict and self.losses.locks:
-            yield friction_lock_at_speed(self.wheels.friction_law.law, self.law.locking_friction)
+            yield friction_lock_at_speed(self.wheels.friction_law.law, self.transmission.locking_friction)
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
@@ -266,7 +266,7 @@ class GearMesh(Shown, ABC):
             fillet=0.0,
             relief=0.0,
             clearance=(distance - mate.tip - tooth.root) * cut.module,
-            backlash=self.verdict.play * (z if self.driven == self.gear.pair[gear - 1] else other) / 2 * cut.module,
+            backlash=self.verdict.backlash * (z if self.driven == self.gear.pair[gear - 1] else other) / 2 * cut.module,
             centre_distance=distance * cut.module,
             tolerance=cut.tolerance,
         )
@@ -291,7 +291,7 @@ class GearMesh(Shown, ABC):
     def account(self) -> PairAccount:
         """What is told of the pair, as it is driven."""
 
-    def play_apart(self, gap: float) -> float | None:
+    def backlash_apart(self, gap: float) -> float | None:
         """Play of axes that stand farther apart than declared.
 
         Parameters
@@ -324,9 +324,9 @@ class GearMesh(Shown, ABC):
         return self.faults[0] if self.faults else None
 
     @property
-    def play(self) -> float:
+    def backlash(self) -> float:
         """Play of the teeth, in pitches."""
-        return self.verdict.play / (self.law.period * float(self.law.ratio))
+        return self.verdict.backlash / (self.transmission.period * float(self.transmission.ratio))
 
     @property
     def stands(self) -> float:
@@ -336,7 +336,7 @@ class GearMesh(Shown, ABC):
     @property
     def rigid(self) -> bool:
         """True if the pair keeps its ratio at every instant: it adds nothing to any motion but its play."""
-        return isinstance(self.law, ExactRatio)
+        return isinstance(self.transmission, ExactRatio)
 
     @property
     def rubs(self) -> bool:
@@ -348,7 +348,7 @@ class GearMesh(Shown, ABC):
         """The friction of the pair in words, at the speed at which it runs."""
         declared, at = self.wheels.friction_law, self.wheels.pitch_line
         if declared is None:
-            return f"Coefficient of friction {self.law.friction:g}"
+            return f"Coefficient of friction {self.transmission.friction:g}"
         if at is None:
             return f"Friction by the law '{declared.law}' of speed, and no speed is known"
         return (
@@ -398,8 +398,8 @@ class GearMesh(Shown, ABC):
         GearMesh
             With the law of that way.
         """
-        law = self.law if driver.wheel == self.driver else self.reversed
-        return replace(self, who=driver, law=law)
+        transmission = self.transmission if driver.wheel == self.driver else self.reversed
+        return replace(self, who=driver, transmission=transmission)
 
     @property
     def ways(self) -> tuple[Self, ...]:

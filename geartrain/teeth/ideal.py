@@ -26,8 +26,8 @@ class Ideal(ToothForm):
 
     Examples
     --------
-    >>> law = Ideal(form="ideal").law(20, 40)
-    >>> law.ratio, law.error_range(), law.efficiency_mean()
+    >>> transmission = Ideal(form="ideal").transmission(20, 40)
+    >>> transmission.ratio, transmission.error_range(), transmission.efficiency_mean()
     (Fraction(1, 2), (0.0, 0.0), 1.0)
     """
 
@@ -49,7 +49,7 @@ class Ideal(ToothForm):
             No mesh.
         """
 
-    def law(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
+    def transmission(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
         """The transmission function of a pair: its ratio and nothing else.
 
         Parameters

@@ -36,12 +36,12 @@ class Involute(ConjugateToothForm):
 
     Examples
     --------
-    >>> law = Involute(form="involute", backlash="0.1").law(24, 36, 0.1)
-    >>> round(law.path.contact_ratio, 4), round(law.efficiency_mean(), 4)
+    >>> transmission = Involute(form="involute", backlash="0.1").transmission(24, 36, 0.1)
+    >>> round(transmission.path.contact_ratio, 4), round(transmission.efficiency_mean(), 4)
     (1.6472, 0.9847)
-    >>> round(law.verdict.play * 36 / 2, 12)  # play on a pitch radius of 36/2 modules
+    >>> round(transmission.verdict.backlash * 36 / 2, 12)  # backlash on a pitch radius of 36/2 modules
     0.1
-    >>> Involute(form="involute").law(8, 60).verdict.kind
+    >>> Involute(form="involute").transmission(8, 60).verdict.kind
     'interference'
     """
 
@@ -176,7 +176,7 @@ class Involute(ConjugateToothForm):
         free = own.root - mate.tip if gear == 2 else mate.tip - own.root
         return free - found.distance
 
-    def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
+    def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
         """Play of axes that stand too far apart: involutes run there, with other play.
 
         Returns
@@ -187,7 +187,7 @@ class Involute(ConjugateToothForm):
         found = self.involutes(wheels)
         moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))
         try:
-            return moved.play * moved.pitch.z1 / 2 / moved.pitch.R1
+            return moved.backlash * moved.pitch.z1 / 2 / moved.pitch.R1
         except ValueError:
             return None  # nearer than the base circles touch
 
@@ -216,11 +216,11 @@ class Involute(ConjugateToothForm):
             distance = free_distance(first, second)
         else:
             distance = wheels.modules(self.centre_distance, "centre_distance")
-            least = second.base - first.base if wheels.internal else second.base + first.base
-            if distance <= least:
+            minimum = second.base - first.base if wheels.internal else second.base + first.base
+            if distance <= minimum:
                 raise refused(
                     f"a centre distance of {distance:.6g} modules is too short for these involutes",
-                    f"their base circles need more than {least:.6g}; the unshifted design has {wheels.distance:g}",
+                    f"their base circles need more than {minimum:.6g}; the unshifted design has {wheels.distance:g}",
                     "give a longer centre_distance or a larger pressure_angle",
                 )
         thinned = wheels.modules(self.backlash, "backlash")
@@ -285,7 +285,7 @@ class Involute(ConjugateToothForm):
 
     def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Half the thickness of the teeth on the pitch cones, as X; a shift thickens by 2 x tan psi modules."""
-        module, thin = pitch.p / pi, self._play(pitch, wheels) / 4
+        module, thin = pitch.p / pi, self._backlash(pitch, wheels) / 4
         first, second = (
             pitch.p / 4 + float(figure.value) * tan(self.pressure_angle.si) * module - thin for figure in self.shift
         )

@@ -41,8 +41,8 @@ class Lantern(ConjugateToothForm):
 
     Examples
     --------
-    >>> law = Lantern(form="lantern").law(60, 8)
-    >>> law.verdict.text, [round(arc / law.path.pitch.p, 3) for arc in law.path.arcs]
+    >>> transmission = Lantern(form="lantern").transmission(60, 8)
+    >>> transmission.verdict.text, [round(arc / transmission.path.pitch.p, 3) for arc in transmission.path.arcs]
     ('the teeth run', [0.0, 1.0])
     """
 
@@ -124,7 +124,7 @@ class Lantern(ConjugateToothForm):
         sides = lantern(R, A, B, outside), lantern(R, A, B, inside, inside=True)
         real = outside, min(inside, -start)
         pin = pin_angle(R, A, B) * R
-        tooth = pitch.p / 2 - pin - self._play(pitch, wheels) / 2
+        tooth = pitch.p / 2 - pin - self._backlash(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
         path, cut = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)

@@ -40,7 +40,7 @@ class LeastFriction(ConjugateToothForm):
     --------
     >>> from geartrain.teeth import Involute
     >>> forms = LeastFriction(form="least_friction"), Involute(form="involute")
-    >>> [round(form.law(24, 36, 0.1).efficiency_mean(), 4) for form in forms]
+    >>> [round(form.transmission(24, 36, 0.1).efficiency_mean(), 4) for form in forms]
     [0.9895, 0.9847]
     """
 

@@ -34,22 +34,22 @@ class SpeedRatio(Result):
     {'mean': 1.0, 'exact': '1', 'min': 0.6666666666666666, 'max': 2.0}
     """
 
-    KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "least"), Key("max", "greatest"))
+    KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
 
     mean: Fraction
     """The ratio of tooth numbers, or the winding number of a pin."""
-    least: float
+    minimum: float
     """Least ratio at any angle."""
-    greatest: float
+    maximum: float
     """Greatest ratio at any angle."""
 
     @classmethod
-    def of(cls, law: TransmissionFunction) -> SpeedRatio:
+    def of(cls, transmission: TransmissionFunction) -> SpeedRatio:
         """Of a transmission function.
 
         Parameters
         ----------
-        law : TransmissionFunction
+        transmission : TransmissionFunction
             Any.
 
         Returns
@@ -57,12 +57,12 @@ class SpeedRatio(Result):
         SpeedRatio
             Over its period.
         """
-        return cls(law.ratio, *law.speed_range())
+        return cls(transmission.ratio, *transmission.speed_range())
 
     @property
     def relative(self) -> tuple[float, float]:
         """Least and greatest over the mean."""
-        return self.least / float(self.mean), self.greatest / float(self.mean)
+        return self.minimum / float(self.mean), self.maximum / float(self.mean)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,12 +92,12 @@ class TransmissionError(Result):
     """A lag that depends on where angles are counted from [rad]."""
 
     @classmethod
-    def of(cls, law: TransmissionFunction) -> TransmissionError:
+    def of(cls, transmission: TransmissionFunction) -> TransmissionError:
         """Of a transmission function.
 
         Parameters
         ----------
-        law : TransmissionFunction
+        transmission : TransmissionFunction
             Any.
 
         Returns
@@ -105,8 +105,8 @@ class TransmissionError(Result):
         TransmissionError
             Over its period.
         """
-        low, high = law.error_range()
-        mean, rms = law.error_moments()
+        low, high = transmission.error_range()
+        mean, rms = transmission.error_moments()
         return cls(high - low, rms, mean)
 
     @property
@@ -132,44 +132,44 @@ class SlidingEfficiency(Result):
 
     >>> from geartrain.teeth import SlotToPinTransmission
     >>> efficiency = SlidingEfficiency(SlotToPinTransmission(5, 3, 0.1))
-    >>> round(efficiency.locking_friction, 6), efficiency.locks, round(efficiency.least, 6)
+    >>> round(efficiency.locking_friction, 6), efficiency.locks, round(efficiency.minimum, 6)
     (1.333333, False, 0.925)
     """
 
-    KEYS = ("friction", "mean", "at_constant_load", Key("min", "least"), Key("locks_at", "locking_friction"))
+    KEYS = ("friction", "mean", "at_constant_load", Key("min", "minimum"), Key("locks_at", "locking_friction"))
 
-    law: TransmissionFunction
+    transmission: TransmissionFunction
     """Of the pair."""
 
     @property
     def friction(self) -> float:
         """Coefficient of friction; its mean over the driver's angle where it depends on speed."""
-        return self.law.friction
+        return self.transmission.friction
 
     @property
     def locks(self) -> bool:
         """True if friction locks the pair somewhere."""
-        return self.law.locks
+        return self.transmission.locks
 
     @property
     def mean(self) -> float | None:
         """Mean efficiency over the driver's angle, at constant driver torque."""
-        return None if self.locks else finite(self.law.efficiency_mean())
+        return None if self.locks else finite(self.transmission.efficiency_mean())
 
     @property
     def at_constant_load(self) -> float | None:
         """Work done on a constant torque of the driven side over the work put in; None where none is done."""
-        return None if self.locks else finite(self.law.efficiency_at_constant_load())
+        return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property
-    def least(self) -> float | None:
+    def minimum(self) -> float | None:
         """Least efficiency at any angle."""
-        return None if self.locks else finite(self.law.efficiency_least())
+        return None if self.locks else finite(self.transmission.efficiency_minimum())
 
     @property
     def locking_friction(self) -> float | None:
         """The least friction that locks; None where none does."""
-        return finite(self.law.locking_friction)
+        return finite(self.transmission.locking_friction)
 
     @property
     def text(self) -> str:
@@ -221,18 +221,18 @@ class PairVerdict(Result):
     Examples
     --------
     >>> from geartrain.teeth import Involute
-    >>> verdict = Involute(form="involute").law(8, 60).verdict
+    >>> verdict = Involute(form="involute").transmission(8, 60).verdict
     >>> bool(verdict), verdict.kind, verdict.faults[0].gear
     (False, 'interference', 1)
     """
 
-    KEYS = ("kind", "text", Key("play", to=finite), "faults", "why", "fix")
+    KEYS = ("kind", "text", Key("backlash", to=finite), "faults", "why", "fix")
 
     kind: str
     """"runs", or the kind of the first fault."""
     text: str
     """What is the case."""
-    play: float
+    backlash: float
     """Least play of the teeth over a pitch [rad of the driven wheel]."""
     faults: tuple[ToothFault, ...] = ()
     """All reasons why they cannot, each with what, why and what to do."""
@@ -266,10 +266,10 @@ class PairVerdict(Result):
         return replace(self, faults=(ToothFault(self.kind, 0, float("nan"), self.text, why, fix),))
 
 
-def verdict_of_faults(faults: tuple[ToothFault, ...], play: float) -> PairVerdict:
-    """The verdict on teeth with these faults; `play` in rad of the driven wheel."""
+def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVerdict:
+    """The verdict on teeth with these faults; `backlash` in rad of the driven wheel."""
     text = "; ".join(fault.what for fault in faults) or "the teeth run"
-    return PairVerdict(faults[0].kind if faults else "runs", text, play, faults)
+    return PairVerdict(faults[0].kind if faults else "runs", text, backlash, faults)
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
@@ -281,10 +281,10 @@ def friction_lock(friction: float, locking: float) -> Problem:
     )
 
 
-def friction_lock_at_speed(law: str, locking: float) -> Problem:
+def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
     """The fault of teeth that lock somewhere at the speed at which they run under a law of friction."""
     return Problem(
-        f"friction by the law '{law}' locks these teeth",
+        f"friction by the law '{transmission}' locks these teeth",
         f"somewhere the driver pushes against more sliding than it can overcome: a constant friction of {locking:.6g} "
         "would",
         "give less friction, another speed, or let the other wheel drive",
@@ -312,10 +312,17 @@ class PinFigures(Result):
     """Of the pin sliding along its slot."""
 
 
-def pin_figures(law: PinTransmission) -> PinFigures:
+def pin_figures(transmission: PinTransmission) -> PinFigures:
     """Of one coupling, whichever side drives."""
-    error = TransmissionError.of(law)
-    return PinFigures(law.r, law.e, SpeedRatio.of(law), law.amplitude, error, SlidingEfficiency(law))
+    error = TransmissionError.of(transmission)
+    return PinFigures(
+        transmission.r,
+        transmission.e,
+        SpeedRatio.of(transmission),
+        transmission.amplitude,
+        error,
+        SlidingEfficiency(transmission),
+    )
 
 
 @dataclass(frozen=True)
@@ -323,7 +330,7 @@ class PairFigures(Result):
     """Figures of one pair, in one way of being driven; a form may add its own."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
-        *("teeth", "verdict", Key("play", "verdict.play", finite)),
+        *("teeth", "verdict", Key("backlash", "verdict.backlash", finite)),
         *("speed_ratio", "transmission_error", "efficiency"),
     )
 
@@ -344,9 +351,11 @@ class PairFigures(Result):
         return self.transmission_error.text if self.transmission_error else "-"
 
 
-def motion_figures(law: TransmissionFunction, moves: bool = True) -> tuple[SpeedRatio | None, TransmissionError | None]:
+def motion_figures(
+    transmission: TransmissionFunction, moves: bool = True
+) -> tuple[SpeedRatio | None, TransmissionError | None]:
     """Speed ratio and transmission error; None for teeth that have no motion."""
-    return (SpeedRatio.of(law), TransmissionError.of(law)) if moves else (None, None)
+    return (SpeedRatio.of(transmission), TransmissionError.of(transmission)) if moves else (None, None)
 
 
 @dataclass(frozen=True)

@@ -68,7 +68,7 @@ class _Coupling(BaseModel):
         return self.id or f"{self.pin}~{self.slot}"
 
     @property
-    def law(self) -> PinToSlotTransmission | None:
+    def transmission(self) -> PinToSlotTransmission | None:
         """The law of motion with the pin driving; None where the dimensions are not declared."""
         if self.pin_radius is None or self.offset is None:
             return None
@@ -119,7 +119,7 @@ class _Uniform(_Coupling):
         return self
 
     @property
-    def law(self) -> None:
+    def transmission(self) -> None:
         """None: the ratio at every instant is that of the means."""
         return None
 
@@ -223,9 +223,9 @@ def pin_transmission(
     """
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
-    law = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(pin_radius, offset, friction)
-    if friction >= law.locking_friction:
+    transmission = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(pin_radius, offset, friction)
+    if friction >= transmission.locking_friction:
         what = f"a friction of {friction:g} locks the pin in its slot"
-        why = f"the pin locks from {law.locking_friction:.6g} on when the slot drives"
+        why = f"the pin locks from {transmission.locking_friction:.6g} on when the slot drives"
         raise RangeError(Problem(what, why, "give less friction, or let the pin drive", "friction"))
-    return law
+    return transmission

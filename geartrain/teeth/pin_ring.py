@@ -34,7 +34,7 @@ class PinRing(ToothForm):
     Examples
     --------
     >>> disc = PinRing(form="pin_ring").disc(11)
-    >>> round(disc.circle, 3), round(disc.pin, 3), round(disc.greatest_load, 3)
+    >>> round(disc.circle, 3), round(disc.pin, 3), round(disc.maximum_load, 3)
     (8.571, 1.305, 0.335)
     """
 
@@ -141,7 +141,7 @@ class PinRing(ToothForm):
             )
         return length.si / module
 
-    def law(
+    def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, module: float | None = None
     ) -> DiscTransmission:
         """The transmission function of a pair.
@@ -193,10 +193,10 @@ class PinRing(ToothForm):
             raise refused("it cannot have a ring of pins", why, f"write `internal: true` for the ring, or {IDEAL}")
         first = 2 if wheels.internal[0] else 1
         z1, z2 = wheels.counts[:: 3 - 2 * first]
-        law = self.law(z1, z2, wheels.friction or 0.0, first, wheels.module)
-        return DiscMesh(wheels, self, wheels.driver, law)
+        transmission = self.transmission(z1, z2, wheels.friction or 0.0, first, wheels.module)
+        return DiscMesh(wheels, self, wheels.driver, transmission)
 
-    def own_play(self, pair: str) -> Problem | None:
+    def own_backlash(self, pair: str) -> Problem | None:
         """Why a maker's play does not hold for this pair: declared clearance wins.
 
         Returns

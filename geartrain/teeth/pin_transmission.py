@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_LEAST = 1e-40  # of any unit: the fourth power of a distance is a float
+_MINIMUM = 1e-40  # of any unit: the fourth power of a distance is a float
 _SAMPLES = 4096  # of a smooth periodic function: its mean by equal samples is exact to rounding unless r is close to e
 
 
@@ -85,11 +85,11 @@ class PinTransmission(TransmissionFunction):
 
 def _check(pin_radius: float, offset: float, friction: float) -> None:
     """Raises `RangeError` for distances out of range, and where the pin passes through the slot's axis."""
-    if not (_LEAST < pin_radius < 1 / _LEAST and (offset == 0 or _LEAST < offset < 1 / _LEAST)):
+    if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
         raise RangeError(
             Problem(
                 f"a pin radius of {pin_radius:g} and an offset of {offset:g}",
-                f"distances of a pin lie between {_LEAST:g} and {1 / _LEAST:g}",
+                f"distances of a pin lie between {_MINIMUM:g} and {1 / _MINIMUM:g}",
                 "give a pin radius above 0 and an offset of 0 or more",
             )
         )
@@ -134,9 +134,11 @@ class PinToSlotTransmission(PinTransmission):
     The lunar pin of the Antikythera mechanism, 9.6 mm from an axis 1.1 mm away (Freeth 2006):
 
     >>> from math import degrees
-    >>> law = PinToSlotTransmission(9.6, 1.1)
-    >>> law.ratio, round(degrees(law.amplitude), 3), [round(speed, 4) for speed in law.speed_range()]
-    (Fraction(1, 1), 6.58, [0.8972, 1.1294])
+    >>> transmission = PinToSlotTransmission(9.6, 1.1)
+    >>> transmission.ratio, round(degrees(transmission.amplitude), 3)
+    (Fraction(1, 1), 6.58)
+    >>> [round(speed, 4) for speed in transmission.speed_range()]
+    [0.8972, 1.1294]
     """
 
     driver = "pin"
@@ -203,7 +205,7 @@ class PinToSlotTransmission(PinTransmission):
         """
         return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Where d is greatest, sin d = e/r; 0 at a follower's dead points if there is friction."""
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -233,8 +235,8 @@ class SlotToPinTransmission(PinTransmission):
 
     Examples
     --------
-    >>> law = SlotToPinTransmission(2, 1)
-    >>> law.speed_range()
+    >>> transmission = SlotToPinTransmission(2, 1)
+    >>> transmission.speed_range()
     (0.5, 1.5)
     """
 
@@ -299,7 +301,7 @@ class SlotToPinTransmission(PinTransmission):
         """Work done on a constant torque on the pin over the work put in; NaN where friction locks."""
         return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Where d is greatest, sin d = e/r; NaN where friction locks."""
         return nan if self._locks else 1 - self.friction * self._steepest
 

@@ -43,7 +43,7 @@ class RubbedTransmission(DerivedTransmission):
 
     Parameters
     ----------
-    law : TransmissionFunction
+    transmission : TransmissionFunction
         Of the pair, whatever its own friction.
     by : PairFriction
         The friction, and the speed of the pitch line.
@@ -52,34 +52,34 @@ class RubbedTransmission(DerivedTransmission):
     --------
     >>> from geartrain.teeth import Involute, PairFriction, StribeckFriction
     >>> friction = StribeckFriction(law="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")
-    >>> rubbed = RubbedTransmission(Involute(form="involute").law(24, 36), PairFriction(friction, 0.05))
+    >>> rubbed = RubbedTransmission(Involute(form="involute").transmission(24, 36), PairFriction(friction, 0.05))
     >>> round(rubbed.friction, 4), round(rubbed.efficiency_mean(), 4)
     (0.1512, 0.9811)
     """
 
-    def __init__(self, law: TransmissionFunction, by: PairFriction) -> None:
-        super().__init__(law)
+    def __init__(self, transmission: TransmissionFunction, by: PairFriction) -> None:
+        super().__init__(transmission)
         self.by = by
 
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
         """The law's own."""
-        return self.law.error(S)
+        return self.transmission.error(S)
 
     def speed(self, S: ArrayLike) -> Floats:
         """The law's own."""
-        return self.law.speed(S)
+        return self.transmission.speed(S)
 
-    def turned_back(self) -> RubbedTransmission:
+    def reversed_motion(self) -> RubbedTransmission:
         """The law of the other flanks, rubbed by the same friction."""
-        return RubbedTransmission(self.law.turned_back(), self.by)
+        return RubbedTransmission(self.transmission.reversed_motion(), self.by)
 
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """The law's own."""
-        return self.law.rubbing(S)
+        return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
         """Coefficient of friction at each contact; NaN where there is none.
@@ -114,19 +114,19 @@ class RubbedTransmission(DerivedTransmission):
     @property
     def locks(self) -> bool:
         """True if the coefficient of the moment locks the pair at some driver angle."""
-        return self.law.locking_friction < inf and bool(np.isnan(self._sampled.efficiency).any())
+        return self.transmission.locking_friction < inf and bool(np.isnan(self._sampled.efficiency).any())
 
     @cached_property
     def _stretches(self) -> list[tuple[float, float]]:
         """The smooth stretches of one period, in driver angle."""
-        cuts = sorted({float(np.mod(corner, self.period)) for corner in self.corners()} or {0.0})
+        cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
     @cached_property
     def _sampled(self) -> _Nodes:
         """Nodes of a whole period where teeth touch, with weights whose sum is 1."""
-        if (given := self.law.rubbing_nodes()) is not None:
+        if (given := self.transmission.rubbing_nodes()) is not None:
             S, weights, rubbing = given
             parts = [_Nodes(S, weights, *self._passed(rubbing))]
         else:
@@ -165,21 +165,21 @@ class RubbedTransmission(DerivedTransmission):
         speed, at = self.speed(self._sampled.S), self._sampled
         return float((at.weights @ speed) / (at.weights @ (speed / at.efficiency)))
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Least efficiency among the nodes of all stretches and at their ends; NaN where friction locks."""
         if self.locks:
             return nan
-        if self.law.rubbing_nodes() is not None:
+        if self.transmission.rubbing_nodes() is not None:
             return float(self._sampled.efficiency.min())
         # at an end itself another pair of teeth may be in contact, or the other side of the pitch point
         ends = np.array([low + share * (high - low) for low, high in self._stretches for share in (_END, 1 - _END)])
         return float(min(np.nanmin(self.efficiency(ends)), self._sampled.efficiency.min()))
 
 
-def rubbed(law: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
+def rubbed(transmission: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
     """The law of a pair with the friction that its wheels declare, where that depends on speed; else as it is."""
     by = pair_friction(wheels)
-    return law if by is None else RubbedTransmission(law, by)
+    return transmission if by is None else RubbedTransmission(transmission, by)
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:

@@ -15,7 +15,7 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.involute import Involute
 
 ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: those of the tallest, and the depth of all
-PLAY = 0.05  # modules, of a pair of such wheels as they are cut where nothing else is said
+BACKLASH = 0.05  # modules, of a pair of such wheels as they are cut where nothing else is said
 _ANGLES = (20, 25, 30, 32)  # deg: the flattest at which all wheels that are connected run is taken
 _ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the tallest that run are taken
 MOST_TEETH = 10_000
@@ -115,9 +115,9 @@ def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 
-def standard_form(first: StandardTeeth, second: StandardTeeth, play: float) -> Involute:
+def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) -> Involute:
     """The form of a pair of standard wheels with some play (modules); both have one pressure angle."""
-    return _form(first.angle, first.addendum, second.addendum, play)
+    return _form(first.angle, first.addendum, second.addendum, backlash)
 
 
 def check_size(z: int) -> None:
@@ -128,13 +128,13 @@ def check_size(z: int) -> None:
 
 
 @lru_cache(maxsize=4096)
-def _form(angle: int, first: float, second: float, play: float) -> Involute:
+def _form(angle: int, first: float, second: float, backlash: float) -> Involute:
     return Involute.model_validate(
         {
             "form": "involute",
             "pressure_angle": f"{angle} deg",
             "addendum": [f"{first:g}", f"{second:g}"],
             "dedendum": f"{DEDENDUM:g}",
-            "backlash": f"{play:.12f}",
+            "backlash": f"{backlash:.12f}",
         }
     )

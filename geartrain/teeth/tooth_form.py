@@ -166,7 +166,7 @@ class ToothForm(BaseModel, ABC):
         """Pressure angle (rad) of the rack that cuts these teeth; None where no rack does."""
         return None
 
-    def own_play(self, pair: str) -> Problem | None:
+    def own_backlash(self, pair: str) -> Problem | None:
         """Why a maker's play does not hold for this pair.
 
         Parameters

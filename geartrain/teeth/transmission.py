@@ -71,7 +71,7 @@ class TransmissionFunction(Shown, ABC):
 
     See Also
     --------
-    geartrain.teeth.GearMesh : a pair with such a law; every tooth form has a method `law`.
+    geartrain.teeth.GearMesh : a pair with such a law; every tooth form has a method `transmission`.
 
     Examples
     --------
@@ -79,10 +79,10 @@ class TransmissionFunction(Shown, ABC):
 
     >>> from math import degrees, pi
     >>> from geartrain.teeth import PinToSlotTransmission
-    >>> law = PinToSlotTransmission(2, 1)
-    >>> law.ratio, law.period == 2 * pi, round(degrees(law.error_range()[1]), 9)
+    >>> transmission = PinToSlotTransmission(2, 1)
+    >>> transmission.ratio, transmission.period == 2 * pi, round(degrees(transmission.error_range()[1]), 9)
     (Fraction(1, 1), True, 30.0)
-    >>> [float(speed) for speed in law.speed([0, pi])]
+    >>> [float(speed) for speed in transmission.speed([0, pi])]
     [2.0, 0.6666666666666666]
     """
 
@@ -159,7 +159,7 @@ class TransmissionFunction(Shown, ABC):
         """Work done on a constant torque of the driven side over the work put in; NaN where friction locks."""
 
     @abstractmethod
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Least efficiency at any driver angle; NaN where friction locks."""
 
     @property
@@ -197,7 +197,7 @@ class TransmissionFunction(Shown, ABC):
         """Driver angles of a period, weights, and `rubbing` there, for laws that would be slow to ask at any others."""
         return None
 
-    def corners(self) -> list[float]:
+    def kinks(self) -> list[float]:
         """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
         return []
 
@@ -228,7 +228,7 @@ class TransmissionFunction(Shown, ABC):
         """
         return self.error(S), self.speed(S)
 
-    def turned_back(self) -> TransmissionFunction:
+    def reversed_motion(self) -> TransmissionFunction:
         """The law while the driver's angle decreases: the same, but for teeth with play."""
         return self
 
@@ -322,7 +322,7 @@ class ExactRatio(TransmissionFunction):
         """1."""
         return 1.0
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """1."""
         return 1.0
 
@@ -338,39 +338,39 @@ class ExactRatio(TransmissionFunction):
 
 
 class DerivedTransmission(TransmissionFunction):
-    """A law that moves as `law` does, and differs in how it is worked out or in what it loses."""
+    """A law that moves as `transmission` does, and differs in how it is worked out or in what it loses."""
 
-    def __init__(self, law: TransmissionFunction) -> None:
-        self.law, self.ratio, self.period = law, law.ratio, law.period
+    def __init__(self, transmission: TransmissionFunction) -> None:
+        self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
 
     def speed_range(self) -> tuple[float, float]:
         """The law's own."""
-        return self.law.speed_range()
+        return self.transmission.speed_range()
 
     def error_range(self) -> tuple[float, float]:
         """The law's own."""
-        return self.law.error_range()
+        return self.transmission.error_range()
 
     def error_moments(self) -> tuple[float, float]:
         """The law's own."""
-        return self.law.error_moments()
+        return self.transmission.error_moments()
 
-    def corners(self) -> list[float]:
+    def kinks(self) -> list[float]:
         """The law's own."""
-        return self.law.corners()
+        return self.transmission.kinks()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
         """The law's own."""
-        return self.law.speed_leaps()
+        return self.transmission.speed_leaps()
 
     def steepest_fall(self) -> float | None:
         """The law's own."""
-        return self.law.steepest_fall()
+        return self.transmission.steepest_fall()
 
     @property
     def locking_friction(self) -> float:
         """The law's own."""
-        return self.law.locking_friction
+        return self.transmission.locking_friction
 
 
 class ConstantLag(ExactRatio):
@@ -381,9 +381,9 @@ class ConstantLag(ExactRatio):
         self.mean = mean
 
     @classmethod
-    def at(cls, law: TransmissionFunction, S: float) -> ConstantLag:
+    def at(cls, transmission: TransmissionFunction, S: float) -> ConstantLag:
         """What another law does where its driver stands at S (rad), whatever S is."""
-        return cls(law.ratio, law.period, float(law.error(S)))
+        return cls(transmission.ratio, transmission.period, float(transmission.error(S)))
 
     def error(self, S: ArrayLike) -> Floats:
         """The same everywhere."""

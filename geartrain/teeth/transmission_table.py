@@ -5,7 +5,8 @@ Chebyshev nodes strictly inside each cell, so that on either side of a kink it f
 of teeth or pins.
 
 `join_transmission_tables` puts the tables of many functions (error and speed of each, which follow it to rounding, or
-are those from which it is read anyway) into one set of arrays, which the kernel `law_along` reads at many angles.
+are those from which it is read anyway) into one set of arrays, which the kernel `transmission_along` reads at many
+angles.
 """
 
 from __future__ import annotations
@@ -43,27 +44,27 @@ _WANTED = 1e-15  # of a driven pitch, or of the speed: as finely as the law itse
 _GOOD = 1e-12  # of the same: a law that no table follows so well is asked itself
 
 
-class HasCorners(Protocol):
+class HasKinks(Protocol):
     """A law of some period (rad)."""
 
     @property
     def period(self) -> float:
         """Driver's angle (rad)."""
 
-    def corners(self) -> list[float]:
+    def kinks(self) -> list[float]:
         """Driver's angles (rad) where the law or a slope of it is not smooth."""
 
 
 class CellTable:
-    """A function of the driver's angle with period `period` (rad), on `cells` cells cut at `corners` (rad).
+    """A function of the driver's angle with period `period` (rad), on `cells` cells cut at `kinks` (rad).
 
     uncertainty   bound on the difference from the function, in its own unit: twice the greatest found between nodes
     """
 
     def __init__(
-        self, function: Callable[[Floats], Floats], period: float, corners: Floats, cells: int, degree: int = DEGREE
+        self, function: Callable[[Floats], Floats], period: float, kinks: Floats, cells: int, degree: int = DEGREE
     ) -> None:
-        self.period, self.corners, self.cells, self.degree = period, corners, cells, degree
+        self.period, self.kinks, self.cells, self.degree = period, kinks, cells, degree
         breaks = self.breaks
         self.middles, halves = (breaks[1:] + breaks[:-1]) / 2, (breaks[1:] - breaks[:-1]) / 2
         nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
@@ -83,7 +84,7 @@ class CellTable:
     def breaks(self) -> Floats:
         """Where cells begin and end (rad): at uniform steps, and at corners."""
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
-        return np.sort(np.concatenate((uniform, self.corners)))
+        return np.sort(np.concatenate((uniform, self.kinks)))
 
     def derivative(self) -> CellTable:
         """Its derivative by the driver's angle, on the same cells; `uncertainty` stays that of the function."""
@@ -115,8 +116,8 @@ class CellTable:
         behind(S, self.period, u, other)
         np.multiply(u, self.cells / self.period, out=other)
         np.copyto(cell, other, casting="unsafe")
-        for corner in self.corners:
-            np.greater_equal(u, corner, out=passed)
+        for kink in self.kinks:
+            np.greater_equal(u, kink, out=passed)
             np.add(cell, passed, out=cell)
         # clipped: rounding may lead past the last cell, NaN anywhere; in mode `raise` numpy fills `out` through a copy
         np.take(self.middles, cell, out=other, mode="clip")
@@ -128,18 +129,18 @@ class CellTable:
             np.add(found, other, out=found)
 
 
-def folded_corners(law: HasCorners) -> Floats:
+def folded_kinks(transmission: HasKinks) -> Floats:
     """The corners of a law (rad) within its first period, each once, in order."""
-    return np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
+    return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
 
 def fit(
-    function: Callable[[Floats], Floats], period: float, corners: Floats, tolerance: float, degree: int = DEGREE
+    function: Callable[[Floats], Floats], period: float, kinks: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
     """The coarsest table within `tolerance`, or the last to gain where rounding keeps it from that."""
-    best = table = CellTable(function, period, corners, _FEWEST, degree)
+    best = table = CellTable(function, period, kinks, _FEWEST, degree)
     while best.uncertainty > tolerance and table.cells < min(_MOST, _PATIENCE * best.cells):
-        table = CellTable(function, period, corners, 2 * table.cells, degree)
+        table = CellTable(function, period, kinks, 2 * table.cells, degree)
         if table.uncertainty < best.uncertainty / 2:
             best = table
     return best
@@ -148,14 +149,14 @@ def fit(
 class TabulatedTransmission(DerivedTransmission):
     """A law read from tables, each made when first asked for.
 
-    law         the law itself, which still answers what is asked of a whole period
+    transmission         the law itself, which still answers what is asked of a whole period
     tolerance   of the error in driven pitches (or periods), of the speed over its mean, of the efficiency
     """
 
-    def __init__(self, law: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
-        super().__init__(law)
-        self.friction, self.tolerance, self.degree = law.friction, tolerance, degree
-        self.cuts = folded_corners(law)
+    def __init__(self, transmission: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
+        super().__init__(transmission)
+        self.friction, self.tolerance, self.degree = transmission.friction, tolerance, degree
+        self.cuts = folded_kinks(transmission)
 
     def _fit(self, function: Callable[[Floats], Floats], scale: float) -> CellTable:
         return fit(function, self.period, self.cuts, self.tolerance * scale, self.degree)
@@ -163,17 +164,17 @@ class TabulatedTransmission(DerivedTransmission):
     @cached_property
     def error_table(self) -> CellTable:
         """Table of the transmission error, whose `uncertainty` is in rad of the driven side."""
-        return self._fit(self.law.error, (float(self.ratio) or 1.0) * self.period)
+        return self._fit(self.transmission.error, (float(self.ratio) or 1.0) * self.period)
 
     @cached_property
     def speed_table(self) -> CellTable:
         """Table of the speed ratio."""
-        return self._fit(self.law.speed, float(self.ratio) or 1.0)
+        return self._fit(self.transmission.speed, float(self.ratio) or 1.0)
 
     @cached_property
     def efficiency_table(self) -> CellTable:
         """Table of the efficiency."""
-        return self._fit(self.law.efficiency, 1.0)
+        return self._fit(self.transmission.efficiency, 1.0)
 
     def error(self, S: ArrayLike) -> Floats:
         """Transmission error (rad of the driven side) at driver angles S (rad)."""
@@ -189,20 +190,20 @@ class TabulatedTransmission(DerivedTransmission):
 
     def efficiency_mean(self) -> float:
         """The law's own."""
-        return self.law.efficiency_mean()
+        return self.transmission.efficiency_mean()
 
     def efficiency_at_constant_load(self) -> float:
         """The law's own."""
-        return self.law.efficiency_at_constant_load()
+        return self.transmission.efficiency_at_constant_load()
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """The law's own."""
-        return self.law.efficiency_least()
+        return self.transmission.efficiency_minimum()
 
-    def turned_back(self) -> TabulatedTransmission:
+    def reversed_motion(self) -> TabulatedTransmission:
         """Tables of the law turned back."""
-        back = self.law.turned_back()
-        return self if back is self.law else TabulatedTransmission(back, self.tolerance, self.degree)
+        back = self.transmission.reversed_motion()
+        return self if back is self.transmission else TabulatedTransmission(back, self.tolerance, self.degree)
 
 
 # --------------------------------------------------------------------- many transmission functions in one set of arrays
@@ -227,13 +228,13 @@ class TransmissionTables(NamedTuple):
     """Of each law: its first and last cell, cut at corners."""
     cuts: Ints
     """Of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)."""
-    corners: Floats
+    kinks: Floats
     """Of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)."""
     cells: Floats
     """`CELL` numbers a cell, error and speed in turns: middle (rad), then the highest power first."""
 
 
-class PeriodicLaw(HasCorners, Protocol):
+class PeriodicTransmission(HasKinks, Protocol):
     """What a table is made from: a transmission function is one."""
 
     @property
@@ -255,59 +256,66 @@ class TransmissionTable(NamedTuple):
     speed: CellTable
 
 
-def make_transmission_table(law: PeriodicLaw) -> TransmissionTable | None:
+def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionTable | None:
     """Tables of a law: those from which it is read anyway, or else such as follow it to rounding.
 
     None where there are none: for a law with gaps, or one that changes from angle to angle.
     """
-    if isinstance(law, TransmissionFunction) and type(law).picked is not TransmissionFunction.picked:
+    if isinstance(transmission, TransmissionFunction) and type(transmission).picked is not TransmissionFunction.picked:
         return None
-    if isinstance(law, TabulatedTransmission):
-        found = TransmissionTable(law.period, law.error_table, law.speed_table)
-        good = law.degree <= KERNEL_DEGREE
+    if isinstance(transmission, TabulatedTransmission):
+        found = TransmissionTable(transmission.period, transmission.error_table, transmission.speed_table)
+        good = transmission.degree <= KERNEL_DEGREE
     else:
-        ratio = float(law.ratio) or 1.0
-        cuts = folded_corners(law)
-        error = fit(law.error, law.period, cuts, _WANTED * ratio * law.period, KERNEL_DEGREE)
-        speed = fit(law.speed, law.period, cuts, _WANTED * ratio, KERNEL_DEGREE)
+        ratio = float(transmission.ratio) or 1.0
+        cuts = folded_kinks(transmission)
+        error = fit(transmission.error, transmission.period, cuts, _WANTED * ratio * transmission.period, KERNEL_DEGREE)
+        speed = fit(transmission.speed, transmission.period, cuts, _WANTED * ratio, KERNEL_DEGREE)
         # of both in the same cells an angle is looked up once
         if error.cells < speed.cells:
-            error = CellTable(law.error, law.period, cuts, speed.cells, KERNEL_DEGREE)
+            error = CellTable(transmission.error, transmission.period, cuts, speed.cells, KERNEL_DEGREE)
         elif speed.cells < error.cells:
-            speed = CellTable(law.speed, law.period, cuts, error.cells, KERNEL_DEGREE)
-        found = TransmissionTable(law.period, error, speed)
-        good = found.error.uncertainty <= _GOOD * ratio * law.period and found.speed.uncertainty <= _GOOD * ratio
+            speed = CellTable(transmission.speed, transmission.period, cuts, error.cells, KERNEL_DEGREE)
+        found = TransmissionTable(transmission.period, error, speed)
+        good = (
+            found.error.uncertainty <= _GOOD * ratio * transmission.period and found.speed.uncertainty <= _GOOD * ratio
+        )
     # where a gap begins depends on which side of it rounding falls
     whole = all(np.isfinite(table.coefficients).all() for table in (found.error, found.speed))
     return found if good and whole else None
 
 
-def join_transmission_tables(laws: Sequence[TransmissionTable]) -> TransmissionTables:
+def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> TransmissionTables:
     """Tables of laws by their numbers."""
-    period = np.array([law.period for law in laws])
+    period = np.array([transmission.period for transmission in transmissions])
     coarse = period.astype(np.float32).astype(float)
-    corners = [law.error.corners for law in laws]
-    cells = [_cells(law) for law in laws]
+    kinks = [transmission.error.kinks for transmission in transmissions]
+    cells = [_cells(transmission) for transmission in transmissions]
     ends = np.cumsum([0, *(len(each) for each in cells)], dtype=np.int64)
     return TransmissionTables(
         period,
         1 / period,
         coarse,
         period - coarse,
-        np.array([max(law.error.cells, law.speed.cells) / law.period for law in laws]),
+        np.array(
+            [
+                max(transmission.error.cells, transmission.speed.cells) / transmission.period
+                for transmission in transmissions
+            ]
+        ),
         ends[:-1],
         ends[1:] - 1,
-        np.concatenate(([0], np.cumsum([len(each) for each in corners]))).astype(np.int64),
-        np.concatenate([np.zeros(0), *corners]),
+        np.concatenate(([0], np.cumsum([len(each) for each in kinks]))).astype(np.int64),
+        np.concatenate([np.zeros(0), *kinks]),
         np.concatenate([np.zeros(0), *(each.ravel() for each in cells)]),
     )
 
 
-def _cells(law: TransmissionTable) -> Floats:
+def _cells(transmission: TransmissionTable) -> Floats:
     """Cells of a law, (n, `CELL`): those of the finer of its two tables, each with the cell of the other it lies in."""
-    finer = max(law.error, law.speed, key=lambda table: table.cells)
+    finer = max(transmission.error, transmission.speed, key=lambda table: table.cells)
     found = np.zeros((len(finer.middles), CELL))
-    for part, table in enumerate((law.error, law.speed)):
+    for part, table in enumerate((transmission.error, transmission.speed)):
         at = np.arange(len(finer.middles))
         if table.cells < finer.cells:
             at = np.clip(np.searchsorted(table.breaks, finer.middles, side="right") - 1, 0, len(table.middles) - 1)
@@ -318,9 +326,9 @@ def _cells(law: TransmissionTable) -> Floats:
 
 
 @kernel
-def law_along(
+def transmission_along(
     tables: TransmissionTables,
-    law: int,
+    transmission: int,
     angle: Floats,
     error: Floats,
     speed: Floats,
@@ -331,17 +339,17 @@ def law_along(
 
     `u` and `cell` are scratch. `CellTable` operation by operation, in loops most of which become vector operations.
     """
-    inverse, coarse, rest = tables.inverse[law], tables.coarse[law], tables.rest[law]
-    density, first, last = tables.density[law], tables.first[law], tables.last[law]
+    inverse, coarse, rest = tables.inverse[transmission], tables.coarse[transmission], tables.rest[transmission]
+    density, first, last = tables.density[transmission], tables.first[transmission], tables.last[transmission]
     for at in range(len(angle)):
         S = angle[at]
         periods = np.floor(S * inverse)
         u[at] = (S - periods * coarse) - periods * rest
     for at in range(len(angle)):
         cell[at] = np.int32(u[at] * density)
-    for corner in tables.corners[tables.cuts[law] : tables.cuts[law + 1]]:
+    for kink in tables.kinks[tables.cuts[transmission] : tables.cuts[transmission + 1]]:
         for at in range(len(angle)):
-            cell[at] += np.int32(u[at] >= corner)
+            cell[at] += np.int32(u[at] >= kink)
     for at in range(len(angle)):
         # clipped: rounding may lead past either end
         cell[at] = min(max(cell[at], 0), last - first)

@@ -35,7 +35,7 @@ class UniformTemperature(ConjugateToothForm):
     Examples
     --------
     >>> form = UniformTemperature(form="uniform_temperature", heat="1.5", arcs="1/2")
-    >>> form.law(24, 36).verdict.text
+    >>> form.transmission(24, 36).verdict.text
     'the teeth run'
     """
 
@@ -49,7 +49,7 @@ class UniformTemperature(ConjugateToothForm):
     depth: Figure | None = Field(
         None, description="In place of heat: working depth in modules; default that of the 20 deg involute"
     )
-    least_angle: Angle | None = Field(
+    minimum_angle: Angle | None = Field(
         None, description="Pressure angle at the pitch point in reading c; default 12 deg"
     )
     arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
@@ -61,10 +61,10 @@ class UniformTemperature(ConjugateToothForm):
         for name, figure in (("heat", self.heat), ("depth", self.depth)):
             if figure is not None and figure.value <= 0:
                 raise bad(name, f"a {name} of {figure.text} is none", "write a number above 0")
-        if self.least_angle is not None:
+        if self.minimum_angle is not None:
             if self.reading != "c":
                 raise bad("pressure_angle", "only reading c has a least_angle", "give `reading: c`")
-            check_angle("least_angle", self.least_angle)
+            check_angle("minimum_angle", self.minimum_angle)
         check_arcs(self.arcs)
         return self
 
@@ -90,7 +90,7 @@ class UniformTemperature(ConjugateToothForm):
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
         from geartrain.teeth.conjugate.path_of_contact import none
 
-        psi = (self.least_angle or _USUAL).si
+        psi = (self.minimum_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
         found = []
         for X, b in zip(arcs, (pitch.A, -pitch.A if self.reading == "a" else pitch.B), strict=True):
@@ -107,7 +107,7 @@ class UniformTemperature(ConjugateToothForm):
     def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
         """The sides with the wanted working depth, which grows with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
-        from geartrain.teeth.conjugate.path_costs import depth, to_depth
+        from geartrain.teeth.conjugate.path_losses import depth, to_depth
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         arcs = arcs_of(self.arcs, pitch)

@@ -180,20 +180,20 @@ class LengthError(_Off):
 class MeasuredTeeth(Declared):
     """Errors measured on a real wheel, one for each tooth in the order of its turning."""
 
-    placement: tuple[AngleOff, ...] | None = Field(
+    pitch_deviation: tuple[AngleOff, ...] | None = Field(
         None, fail_fast=True, description="How far each tooth is ahead of its place"
     )
     tip: tuple[LengthOff, ...] | None = Field(
         None, fail_fast=True, description="How far each tip stands out beyond its radius"
     )
-    aperture: tuple[AngleOff, ...] | None = Field(
+    aperture_deviation: tuple[AngleOff, ...] | None = Field(
         None, fail_fast=True, description="How much wider each tooth's aperture is"
     )
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:
         """What is given, by name."""
-        names = ("placement", "tip", "aperture")
+        names = ("pitch_deviation", "tip", "aperture_deviation")
         return {name: column for name in names if (column := getattr(self, name)) is not None}
 
 
@@ -206,19 +206,21 @@ class WheelManufacture(Declared):
     Train : holds that of all other wheels
     """
 
-    placement: Annotated[AngleError, short_for("value")] | None = Field(
+    pitch_deviation: Annotated[AngleError, short_for("value")] | None = Field(
         None, description="Of each tooth from its place about the axle; positive is ahead, the way the wheel turns"
     )
     eccentricity: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Distance of the axle from the middle of the teeth"
     )
-    eccentric_at: Angle | None = Field(
+    eccentricity_angle: Angle | None = Field(
         None,
         description="Where the middle of the teeth lies from the axle, from the first tooth; positive is ahead, the "
-        "way the wheel turns, as of placement; default anywhere",
+        "way the wheel turns, as of pitch_deviation; default anywhere",
     )
     tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Of each tip along its radius")
-    aperture: Annotated[AngleError, short_for("value")] | None = Field(None, description="Of each tooth's aperture")
+    aperture_deviation: Annotated[AngleError, short_for("value")] | None = Field(
+        None, description="Of each tooth's aperture"
+    )
     measured: MeasuredTeeth | None = Field(None, description="Tables of a real wheel, tooth by tooth")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")

@@ -137,8 +137,8 @@ class Reconstruction(Declared):
 
     Examples
     --------
-    >>> asked = Reconstruction(add={"wheels": 2, "teeth": (12, 225)})
-    >>> asked.add.on, asked.use, asked.sense, asked.cost.unused.value
+    >>> requested = Reconstruction(add={"wheels": 2, "teeth": (12, 225)})
+    >>> requested.add.on, requested.use, requested.sense, requested.cost.unused.value
     ('any', 'wheels', 'given', Fraction(100, 1))
     """
 

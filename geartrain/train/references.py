@@ -473,8 +473,8 @@ def _source(train: Train, key: str | None, *loc: str | int) -> Iterator[Problem]
 
 def _reconstruction(train: Train) -> Iterator[Problem]:
     """Wheels and links that a question of reconstruction names."""
-    asked = train.reconstruct
-    if asked is None:
+    requested = train.reconstruct
+    if requested is None:
         return
     if NEW_ARBOR in train.links:
         yield Problem(
@@ -483,14 +483,14 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
             "rename the link",
             train.place("links", NEW_ARBOR),
         )
-    if asked.carrier is not None and asked.carrier not in (*train.links, train.frame):
-        yield _unknown(train, "link", asked.carrier, train.links, "reconstruct", "carrier")
-    for at, pair in enumerate(asked.apart):
+    if requested.carrier is not None and requested.carrier not in (*train.links, train.frame):
+        yield _unknown(train, "link", requested.carrier, train.links, "reconstruct", "carrier")
+    for at, pair in enumerate(requested.apart):
         for wheel in pair:
             if wheel not in train.wheels:
                 yield _unknown(train, "wheel", wheel, train.wheels, "reconstruct", "apart", at)
     seen = {frozenset(gear.pair) for gear in train.gears}
-    for at, pair in enumerate(asked.apart):
+    for at, pair in enumerate(requested.apart):
         if frozenset(pair) in seen:
             yield Problem(
                 f"'{pair[0]}' and '{pair[1]}' are said to mesh and not to mesh",
@@ -498,11 +498,11 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
                 "take it out of one of them",
                 train.place("reconstruct", "apart", at),
             )
-    for at, coupling in enumerate(asked.given):
+    for at, coupling in enumerate(requested.given):
         for link in coupling.pair:
             if link not in train.links:
                 yield _unknown(train, "link", link, train.links, "reconstruct", "given", at, "pair")
-    for wheel in asked.geometry.radii if asked.geometry is not None else ():
+    for wheel in requested.geometry.radii if requested.geometry is not None else ():
         place = ("reconstruct", "geometry", "radii", wheel)
         if wheel not in train.wheels:
             yield _unknown(train, "wheel", wheel, train.wheels, *place)

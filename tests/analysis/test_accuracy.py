@@ -17,7 +17,7 @@ from commands import LOCKED, RIGHT, call
 from geartrain import GearTrain, load
 from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy
 
-SPEEDS, LAWS, MOTION, TORQUES = "speeds", "transmission functions", "motion", "torques"
+SPEEDS, TRANSMISSIONS, MOTION, TORQUES = "speeds", "transmission functions", "motion", "torques"
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},
@@ -47,11 +47,11 @@ def moon() -> TrainAccuracy:
 
 
 def test_every_time_is_over_that_of_the_fastest_method_of_its_stage(moon: TrainAccuracy) -> None:
-    for stage in (SPEEDS, LAWS, MOTION):
+    for stage in (SPEEDS, TRANSMISSIONS, MOTION):
         rows = [row for row in moon.methods if row.stage == stage]
-        least = min(row.seconds for row in rows)
-        assert least > 0
-        assert [row.ratio for row in rows] == [row.seconds / least for row in rows]
+        minimum = min(row.seconds for row in rows)
+        assert minimum > 0
+        assert [row.ratio for row in rows] == [row.seconds / minimum for row in rows]
         assert all(row.reference for row in rows)
 
 
@@ -61,28 +61,30 @@ def test_floats_are_as_far_off_as_a_third_of_a_turn_is() -> None:
     assert row_of(found, SPEEDS, "exact").error is None
     third = abs(Fraction(1 / 3) * 3 - 1)
     assert row_of(found, SPEEDS, "floats").error == pytest.approx(float(third), rel=1e-6)
-    assert set(found.left_out) == {LAWS, MOTION, TORQUES}
+    assert set(found.left_out) == {TRANSMISSIONS, MOTION, TORQUES}
 
 
 def test_tables_are_within_their_tolerance_and_the_formula_is_the_reference(moon: TrainAccuracy) -> None:
-    assert row_of(moon, LAWS, "direct, 4 laws").error is None
+    assert row_of(moon, TRANSMISSIONS, "direct, 4 laws").error is None
     for tolerance in (1e-6, 1e-12):
-        table = row_of(moon, LAWS, f"tabulated, {tolerance:.0e}")
+        table = row_of(moon, TRANSMISSIONS, f"tabulated, {tolerance:.0e}")
         assert 0 < table.error < tolerance
         assert table.prepared is not None
 
 
-def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -> None:
+def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAccuracy) -> None:
     """Superposition by hand, each law asked at the angle its driver has on average, against the composition."""
     train = load("moon-triangular")
     motion = train.motion(outputs=["moon"])
     turns = np.arange(500) * (20.0 / 500)
     total = np.zeros(500)
     for source in motion._forward.used:
-        S = float(source.cycles) * turns * source.law.period + source.phase
+        S = float(source.cycles) * turns * source.transmission.period + source.phase
         seen = motion._forward.outputs[0]
         total += (
-            source.sense * motion._forward.spread.sensitivity(seen.of, seen.base)[source.pair] * source.law.error(S)
+            source.sense
+            * motion._forward.spread.sensitivity(seen.of, seen.base)[source.pair]
+            * source.transmission.error(S)
         )
     off = degrees(np.abs(total - motion._unset.at(turns).error[0]).max())
     assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
@@ -92,9 +94,9 @@ def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -
     assert compiled < 1e-11
 
 
-def test_teeth_whose_law_is_their_ratio_have_nothing_to_measure_and_it_is_said_so() -> None:
+def test_teeth_whose_transmission_is_their_ratio_have_nothing_to_measure_and_it_is_said_so() -> None:
     found = find_accuracy(load("planetary-24-18-60-involute"), positions=10)
-    assert "exact ratio" in found.left_out[LAWS]
+    assert "exact ratio" in found.left_out[TRANSMISSIONS]
     assert "no error" in found.left_out[MOTION]
     assert {row.stage for row in found.methods} == {SPEEDS, TORQUES}
 
@@ -111,13 +113,13 @@ def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: obj
     assert done.exit_code == 1
     (found,) = json.loads(done.stdout)["states"]
     assert found["methods"] == []
-    assert set(found["left_out"]) == {SPEEDS, LAWS, MOTION, TORQUES}
+    assert set(found["left_out"]) == {SPEEDS, TRANSMISSIONS, MOTION, TORQUES}
 
 
 def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(train_file: object) -> None:
     done = call("bench", "moon-triangular", "--positions", 100)
     assert done.exit_code == 0
-    for stage in (SPEEDS, LAWS, MOTION):
+    for stage in (SPEEDS, TRANSMISSIONS, MOTION):
         assert f"\n{stage}\n{'-' * len(stage)}\n" in done.stdout
     assert "torques: no loads are declared" in done.stdout
     states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")

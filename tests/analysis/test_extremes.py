@@ -47,21 +47,21 @@ def test_floats_give_what_they_can(case: Case) -> None:
 # ----------------------------------------------------------------------------------------------------- the reference
 
 
-def test_the_solution_of_all_laws_is_their_composition_one_in_the_other() -> None:
+def test_the_solution_of_all_transmissions_is_their_composition_one_in_the_other() -> None:
     train = chain([(60, 48), (50, 75)], 4, triangular())
     exactly = Exactly(train, load(declared(train)))
     angles = exactly.at(3.7, [0.0] * 6)
-    error, gain, _ = composed([law.law for law in exactly.laws], 3.7)
+    error, gain, _ = composed([transmission.transmission for transmission in exactly.transmissions], 3.7)
     assert abs(exactly.errors(3.7, angles)[4] - error) < mp.mpf(10) ** -40
     assert abs(exactly.rates(angles)[4] / exactly.means[4] - gain) < mp.mpf(10) ** -40
 
 
-def test_the_speed_of_a_law_is_the_derivative_of_its_angle() -> None:
+def test_the_speed_of_a_transmission_is_the_derivative_of_its_angle() -> None:
     train = chain([(60, 48)], 1, triangular())
     (mesh,) = load(declared(train)).meshes
-    for law in (Toothed(mesh.law.sizes), Pinned(9.6, 1.1)):
+    for transmission in (Toothed(mesh.transmission.sizes), Pinned(9.6, 1.1)):
         for S in (0.013, 0.031, 0.047):
-            assert abs(mp.diff(law.angle, S) - law.speed(mp.mpf(S))) < mp.mpf(10) ** -20
+            assert abs(mp.diff(transmission.angle, S) - transmission.speed(mp.mpf(S))) < mp.mpf(10) ** -20
 
 
 # ------------------------------------------------------------------------------------------------------------ speeds
@@ -140,11 +140,11 @@ def test_a_long_run_of_a_long_chain_keeps_few_numbers() -> None:
 
 
 @pytest.mark.parametrize("more", [1e-1, 1e-3, 1e-6, 1e-9])
-def test_the_law_of_a_pin_near_the_offset(more: float) -> None:
+def test_the_transmission_of_a_pin_near_the_offset(more: float) -> None:
     """The angle the pin is from the fast place is a float of its own, so nothing need be lost."""
-    law, exactly = PinToSlotTransmission(1 + more, 1.0), Pinned(1 + more, 1.0)
+    transmission, exactly = PinToSlotTransmission(1 + more, 1.0), Pinned(1 + more, 1.0)
     S = np.geomspace(1e-15, 3, 80)
-    for x, error, speed in zip(S.tolist(), law.error(S).tolist(), law.speed(S).tolist(), strict=True):
+    for x, error, speed in zip(S.tolist(), transmission.error(S).tolist(), transmission.speed(S).tolist(), strict=True):
         assert abs(error - (exactly.angle(mp.mpf(x)) - mp.mpf(x))) < 8 * EPS
         assert abs(speed / exactly.speed(mp.mpf(x)) - 1) < 8 * EPS
     back = SlotToPinTransmission(1 + more, 1.0)

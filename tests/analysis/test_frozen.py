@@ -62,7 +62,7 @@ def test_nothing_in_a_declaration_or_an_answer_can_be_changed(name: str) -> None
     assert not found
 
 
-def test_the_law_finds_what_can_be_changed() -> None:
+def test_the_transmission_finds_what_can_be_changed() -> None:
     assert list(mutable(FrozenDict(a=[1], b={"c": 1}), "x", set())) == ["x[a]", "x[b]"]
 
 

@@ -148,7 +148,7 @@ def test_a_pin_with_dimensions_is_its_mesh() -> None:
     assert pins
     for data in pins:
         assert data["mesh"].coupling is data["declared"]
-        assert data["mesh"].law.e > 0
+        assert data["mesh"].transmission.e > 0
 
 
 # ------------------------------------------------------------------------------------------------- made when it is read
@@ -269,13 +269,13 @@ def test_a_graph_that_would_differ_from_its_train_is_refused_with_what_changes_t
 
 def test_a_lazy_dictionary_makes_each_value_once_however_it_is_read() -> None:
     def data() -> tuple[LazyDict, list[int]]:
-        asked: list[int] = []
+        requested: list[int] = []
 
         def make() -> int:
-            asked.append(1)
+            requested.append(1)
             return 7
 
-        return LazyDict(a=1, b=Lazy(make)), asked
+        return LazyDict(a=1, b=Lazy(make)), requested
 
     ways = {
         "[]": lambda d: d["b"],
@@ -296,13 +296,13 @@ def test_a_lazy_dictionary_makes_each_value_once_however_it_is_read() -> None:
         "!=": lambda d: 0 if d != {"a": 1, "b": 7} else 7,
     }
     for way, read in ways.items():
-        found, asked = data()
+        found, requested = data()
         assert list(found) == ["a", "b"]
         assert len(found) == 2
         assert "b" in found
         assert repr(found) == "{'a': 1, 'b': ...}"
-        assert not asked, way
+        assert not requested, way
         assert read(found) == 7, way
-        assert asked == [1], way
-    found, asked = data()
-    assert (found["b"], found["b"], asked) == (7, 7, [1])
+        assert requested == [1], way
+    found, requested = data()
+    assert (found["b"], found["b"], requested) == (7, 7, [1])

@@ -317,26 +317,30 @@ def test_pointing_at_a_gear_pair_lights_it_up(draw: Opening) -> None:
 
 
 @pytest.mark.parametrize("name", diagram_data.TEETH)
-def test_the_speed_ratio_of_teeth_dragged_is_that_of_their_law(draw: Opening, name: str) -> None:
+def test_the_speed_ratio_of_teeth_dragged_is_that_of_their_transmission(draw: Opening, name: str) -> None:
     drawn = draw("teeth")
     drawn.choose(diagram_data.TEETH[name], among="Teeth")
-    (law,) = (mesh.law for mesh in geartrain.load("sorge-pairs").meshes if mesh.name == name)
+    (transmission,) = (mesh.transmission for mesh in geartrain.load("sorge-pairs").meshes if mesh.name == name)
     phases = set()
     for pitches in (0.4, 0.3, 0.23, -1.37):
         before = drawn.fraction("driver, in pitches", "now")
-        drawn.drag_round(0.85, -pitches / law.sizes.z1)
+        drawn.drag_round(0.85, -pitches / transmission.sizes.z1)
         passed = drawn.fraction("driver, in pitches", "now")
         assert float(passed - before) == pytest.approx(pitches, abs=0.03)
-        angle = float(passed % 1) * law.period
-        assert float(drawn.number("speed ratio", "now")) == pytest.approx(float(law.speed(angle)), abs=1e-6)
+        angle = float(passed % 1) * transmission.period
+        assert float(drawn.number("speed ratio", "now")) == pytest.approx(float(transmission.speed(angle)), abs=1e-6)
         ahead = float(drawn.number("driven ahead by", "now").rstrip("\N{DEGREE SIGN}"))
-        assert ahead == pytest.approx(degrees(float(law.error(angle))), abs=1e-5)
+        assert ahead == pytest.approx(degrees(float(transmission.error(angle))), abs=1e-5)
         x, y = (float(drawn.page.locator(".gd-plane circle").get_attribute(key) or "nan") for key in ("cx", "cy"))
         recess = drawn.remark.startswith("Recess")
         phases.add(recess)
-        apex = hypot(x, y) / law.sizes.R1 if recess else hypot(law.sizes.D - x, y) / law.sizes.R2
+        apex = (
+            hypot(x, y) / transmission.sizes.R1
+            if recess
+            else hypot(transmission.sizes.D - x, y) / transmission.sizes.R2
+        )
         assert apex == pytest.approx(1, abs=1e-8), "the apex that touches is on its tip circle"
-    assert drawn.fraction("mean ratio", "now") == Fraction(law.sizes.z1, law.sizes.z2)
+    assert drawn.fraction("mean ratio", "now") == Fraction(transmission.sizes.z1, transmission.sizes.z2)
     assert name != "5a" or phases == {True, False}
 
 

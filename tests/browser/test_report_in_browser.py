@@ -38,7 +38,7 @@ def open_report(browser: Browser, tmp_path: Path) -> Iterator[Opened]:
         page.on("pageerror", lambda error: wrong.append(str(error)))
         page.on("dialog", lambda dialog: wrong.append(dialog.message))
         own = (path.as_uri(), "data:", "blob:", "about:")
-        page.on("request", lambda asked: None if asked.url.startswith(own) else wrong.append(asked.url))
+        page.on("request", lambda requested: None if requested.url.startswith(own) else wrong.append(requested.url))
         page.goto(path.as_uri())
         return page, wrong
 

@@ -211,7 +211,7 @@ def test_the_readme_opens_with_a_machine_that_turns_beside_its_declaration() -> 
         assert film.n_frames > 50  # type: ignore[attr-defined]
     (declared,) = re.findall(r"```yaml\n(.*?)```", text, re.S)
     shown, worm = make_scene(load(declared)).to_dict(), shipped.scene("worm").to_dict()
-    for part in ("bodies", "wheels", "pairs", "lead", "crank", "movement"):
+    for part in ("bodies", "wheels", "pairs", "driving_link", "crank", "movement"):
         assert shown[part] == worm[part], part
 
 
@@ -252,7 +252,10 @@ def sheet(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
     sheet, wrong = context.new_page(), list[str]()
     sheet.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
     sheet.on("pageerror", lambda error: wrong.append(str(error)))
-    sheet.on("request", lambda asked: wrong.append(asked.url) if not asked.url.startswith(("file:", "data:")) else None)
+    sheet.on(
+        "request",
+        lambda requested: wrong.append(requested.url) if not requested.url.startswith(("file:", "data:")) else None,
+    )
     yield sheet, wrong
     context.close()
 

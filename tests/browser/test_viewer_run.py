@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shipped
-from conftest import OpenPage, Shown
+from conftest import OpenPage, SharePage, Shown
 from viewing import DESK, tab, wait
 
 from geartrain import load
@@ -27,10 +27,8 @@ def played() -> Played:
 
 
 @pytest.fixture
-def shown(played: Played, open_page: OpenPage, tmp_path: Path) -> Shown:
-    path = tmp_path / "run.html"
-    path.write_text(page([played[1]], teeth=False), encoding="utf-8")
-    return open_page(path, **DESK)
+def shown(played: Played, share: SharePage) -> Shown:
+    return share(page([played[1]], teeth=False))
 
 
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
@@ -79,10 +77,10 @@ def glow(shown: Shown) -> float:
     return float(shown.run(script))
 
 
-def test_the_next_blow_is_found_and_seen(played: Played, shown: Shown) -> None:
+def test_the_next_impact_is_found_and_seen(played: Played, shown: Shown) -> None:
     scene = played[1]
     assert scene.run is not None
-    first = min(each.blow_times[0] for each in scene.run.contacts if len(each.blow_times))
+    first = min(each.impact_times[0] for each in scene.run.contacts if len(each.impact_times))
     assert glow(shown) == 0
     shown.page.get_by_label("to the next blow").click()
     assert shown.run("geartrain.machines[0].time()") == pytest.approx(float(first), abs=1e-6)

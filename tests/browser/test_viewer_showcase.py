@@ -97,8 +97,10 @@ def test_a_kiosk_left_alone_goes_on_by_itself_and_looks_round(showcase: Showing)
 
 
 def test_the_first_touch_of_a_kiosk_fills_the_screen(showcase: Showing) -> None:
-    asked = "Element.prototype.requestFullscreen = function () { globalThis.filled = true; return Promise.resolve(); };"
-    shown = showcase("kiosk", before=asked)
+    requested = (
+        "Element.prototype.requestFullscreen = function () { globalThis.filled = true; return Promise.resolve(); };"
+    )
+    shown = showcase("kiosk", before=requested)
     assert not shown.run("Boolean(globalThis.filled)")
     shown.page.get_by_role("button", name="Other side").click()
     assert shown.run("globalThis.filled")

@@ -73,9 +73,9 @@ def test_text_and_edges_stand_out_in_both_themes(show: Opening, scheme: str) -> 
         tab(shown, name)
         if name == "Outputs":
             shown.page.locator("tr[data-output='moon'] th button").click()
-        for where, ink, ground, least in shown.run(TEXTS):
+        for where, ink, ground, minimum in shown.run(TEXTS):
             count += 1
-            if contrast(ink, ground) < least:
+            if contrast(ink, ground) < minimum:
                 weak.append((where, ink, ground, contrast(ink, ground)))
     assert weak == []
     assert count > 300
@@ -84,8 +84,8 @@ def test_text_and_edges_stand_out_in_both_themes(show: Opening, scheme: str) -> 
 def test_what_is_wrong_stands_out_in_both_themes(show: Opening) -> None:
     for scheme in ("light", "dark"):
         shown = show(text=LOCKED, color_scheme=scheme, reduced_motion="reduce")
-        for where, ink, ground, least in shown.run(TEXTS):
-            assert contrast(ink, ground) >= least, (scheme, where, ink, ground)
+        for where, ink, ground, minimum in shown.run(TEXTS):
+            assert contrast(ink, ground) >= minimum, (scheme, where, ink, ground)
 
 
 def test_the_contrast_of_black_on_white_is_twenty_one() -> None:

@@ -22,15 +22,15 @@ def test_the_page_tells_the_sizes_as_a_declaration_has_them() -> None:
 
 
 def test_limits_have_units_and_are_kept() -> None:
-    asked = (*BEST, "--radii", "0.98", "--within", "error=0.0474deg", "--within", "jam=0.9", "--json")
-    best = json.loads(call(*asked).stdout)["best"]
+    requested = (*BEST, "--radii", "0.98", "--within", "error=0.0474deg", "--within", "jam=0.9", "--json")
+    best = json.loads(call(*requested).stdout)["best"]
     assert best["error"] <= 0.0474 * 0.017453292519943295
     assert best["jam"] >= 0.9
     assert 0.4 <= best["window"] <= 0.6
 
 
 def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
-    done = call(*BEST, "--radii", "0.98", "--within", "stops=5%", "--set", "placement=1 %")
+    done = call(*BEST, "--radii", "0.98", "--within", "stops=5%", "--set", "pitch_deviation=1 %")
     assert "jams or clashes in 0 % of the trials" in done.stdout, done.output
 
 
@@ -43,15 +43,15 @@ def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
         (("--best", "error", "--within", "depth=1"), "NAME=LIMIT"),
         (("--best", "error", "--within", "error=1 m"), "an angle belongs here"),
         (("--best", "error", "--within", "stops=5%"), "go together"),
-        (("--best", "error", "--clearance", "1.01"), "does not go with --best"),
+        (("--best", "error", "--clearance-factor", "1.01"), "does not go with --best"),
         (("--best", "error", "--vary", "window=0.1:0.9:3"), "--best asks for something else"),
         (("--best", "loss"), "without friction"),
         (("--free", "radii"), "give --best"),
-        (("--set", "placement=1 %"), "give --best"),
+        (("--set", "pitch_deviation=1 %"), "give --best"),
         (("--window", "0.5", "--radii", "0"), "out of range"),
     ],
 )
-def test_what_cannot_be_asked_is_refused(more: tuple[str, ...], word: str) -> None:
+def test_what_cannot_be_requested_is_refused(more: tuple[str, ...], word: str) -> None:
     done = call(*PAIR, *more)
     assert done.exit_code != 0
     assert word in " ".join(f"{done.output} {done.exception}".replace("\u2502", " ").split())

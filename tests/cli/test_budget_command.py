@@ -11,11 +11,11 @@ from commands import call
 
 from geartrain.errors import GearTrainError
 
-ASKED = ("budget", "freeth-2008", "--output", "moon", "--turns", "1", "--samples", "64")
+REQUESTED = ("budget", "freeth-2008", "--output", "moon", "--turns", "1", "--samples", "64")
 
 
 def told(*more: str) -> Any:
-    done = call(*ASKED, "--json", *more)
+    done = call(*REQUESTED, "--json", *more)
     assert done.exit_code == 0, done.output
     return json.loads(done.stdout)
 
@@ -36,13 +36,13 @@ def test_a_body_is_taken_from_a_name_unless_it_is_said() -> None:
     assert "Sun" in theory("--body", "moon=sun")["note"]
     assert theory("--body", "moon=none")["declared"] == "not declared"
     for wrong in ("moon", "moon=mars"):
-        assert call(*ASKED, "--body", wrong).exit_code == 2
-    assert isinstance(call(*ASKED, "--body", "mon=moon").exception, GearTrainError)
+        assert call(*REQUESTED, "--body", wrong).exit_code == 2
+    assert isinstance(call(*REQUESTED, "--body", "mon=moon").exception, GearTrainError)
 
 
 def test_what_cannot_be_meant_is_refused() -> None:
-    for more in (("--span", "0 d"), ("--span", "19 furlongs"), ("--turns", "-1"), ("--cutting", "placement=1 %")):
-        assert isinstance(call(*ASKED, *more).exception, GearTrainError), more
+    for more in (("--span", "0 d"), ("--span", "19 furlongs"), ("--turns", "-1"), ("--cutting", "pitch_deviation=1 %")):
+        assert isinstance(call(*REQUESTED, *more).exception, GearTrainError), more
 
 
 def test_a_state_is_chosen_and_the_first_is_taken_without() -> None:
@@ -56,7 +56,7 @@ def test_trials_that_are_stopped_are_no_budget(monkeypatch: pytest.MonkeyPatch, 
 
     monkeypatch.setattr(TrialResults, "complete", property(lambda self: False))
     out = tmp_path / "x.json"
-    more = ("--cutting", "placement=1 %", "--trials", "4", "--turns", "1", "--samples", "64")
+    more = ("--cutting", "pitch_deviation=1 %", "--trials", "4", "--turns", "1", "--samples", "64")
     done = call("budget", "moon-triangular", *more, "-o", out)
     assert done.exit_code == 130
     assert not out.exists()

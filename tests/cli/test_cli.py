@@ -223,7 +223,7 @@ def test_every_key_of_the_json_is_the_promised_one() -> None:
     assert locked["mobility"]["redundant_loops"], "four wheels in a ring repeat one circuit"
 
 
-def test_the_json_of_one_output_or_state_leaves_out_what_was_not_asked() -> None:
+def test_the_json_of_one_output_or_state_leaves_out_what_was_not_requested() -> None:
     data = json.loads(run("solve", "pennestri-2002", "--output", "moon", "--json")[1])
     assert set(data) == TOP
     assert data["mobility"] is None
@@ -415,7 +415,7 @@ def test_latex_escapes_names_that_mean_something_there(train_file: Write) -> Non
 # --------------------------------------------------------------------------------------------------------------- graph
 
 
-def test_a_large_train_is_listed_by_its_edges_unless_the_square_is_asked(train_file: Write) -> None:
+def test_a_large_train_is_listed_by_its_edges_unless_the_square_is_requested(train_file: Write) -> None:
     """Rows of wheels, one twice as long as the other: the list doubles, the square is four times as large."""
     sizes: dict[str, list[int]] = {"": [], "labels": []}
     for count in (60, 120):

@@ -47,11 +47,11 @@ def test_the_json_has_the_closed_rate_of_a_pin_and_the_torque_of_virtual_work(pi
     assert found["energy"]["closure"] < 1e-9
     assert found["energy"]["drive"] == pytest.approx(2 * pi * found["torque"], rel=1e-9)
     assert (found["driven"], found["link"], found["complete"]) == ("rate", "a", True)
-    assert all(each["settled"] for each in found["figures"])
+    assert all(each["converged"] for each in found["figures"])
     assert [each["link"] for each in found["inertias"]] == ["b"]
 
 
-def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_settled(pin: Path) -> None:
+def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_converged(pin: Path) -> None:
     text = call("dynamics", pin, *TURN).output
     lines = text.splitlines()
     heads = [line for line, below in pairwise(lines) if line and below == "-" * len(line)]
@@ -168,7 +168,7 @@ def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
 
 
 @pytest.mark.slow
-def test_the_picture_has_a_panel_for_each_pair_with_play_and_marks_impacts(tmp_path: Path) -> None:
+def test_the_picture_has_a_panel_for_each_pair_with_backlash_and_marks_impacts(tmp_path: Path) -> None:
     picture = tmp_path / "moon.svg"
     words = ("--rate", "1", "--turns", "0.3", "--skip", "0.1", "--steps", "4000", "--no-fast")
     assert call("dynamics", "moon-triangular-inertia", *words, "--plot", picture).exit_code == 0
@@ -194,7 +194,7 @@ def test_a_plain_rate_is_in_turns_a_second(pin: Path, text: str) -> None:
         (("--state", "s"), "s"),
     ],
 )
-def test_what_cannot_be_asked_is_refused(pin: Path, words: tuple[str, str], said: str) -> None:
+def test_what_cannot_be_requested_is_refused(pin: Path, words: tuple[str, str], said: str) -> None:
     done = call("dynamics", pin, *TURN, *words)
     assert done.exit_code != 0
     assert said in f"{done.exception} {done.output}"

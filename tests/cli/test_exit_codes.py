@@ -20,7 +20,7 @@ import pytest
 from clusters import next_line
 from commands import verbs
 from places import ROOT, TESTS
-from test_output_files import ASKED, DOUBT
+from test_output_files import DOUBT, REQUESTED
 
 from geartrain.cli import app, main
 from geartrain.cli.verbs import EndingGroup
@@ -39,8 +39,8 @@ def runs() -> Iterator[tuple[str, Any]]:
     return ((name, each) for name, each in verbs() if not hasattr(each, "commands"))
 
 
-def asked(verb: str) -> list[str]:
-    words = ASKED[verb, "-o"][0] if (verb, "-o") in ASKED else OTHERS[verb]
+def requested(verb: str) -> list[str]:
+    words = REQUESTED[verb, "-o"][0] if (verb, "-o") in REQUESTED else OTHERS[verb]
     return [*("worm" if word.startswith("{") else word for word in words), *(["-o", "x.dot"] * (verb == "export"))]
 
 
@@ -77,7 +77,7 @@ def test_a_fault_of_any_command_is_exit_3_one_line_and_a_file_to_send(
     run: Callable[..., tuple[int, str, str]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, verb: str, each: Any
 ) -> None:
     monkeypatch.setattr(each, "callback", broken(each, RuntimeError("a \x1b[31mwheel\nfell off")))
-    code, out, err = run(*asked(verb))
+    code, out, err = run(*requested(verb))
     assert code == 3, err
     assert out == ""
     assert len(err.splitlines()) == 1, err
@@ -197,7 +197,7 @@ def test_all_exit_codes_are_told_where_exit_codes_are_told() -> None:
 
 # ------------------------------------------------------------------------------------------------------------- resumed
 
-CUT = ("montecarlo", "moon-triangular", "--output", "moon", "--set", "placement=2 %")
+CUT = ("montecarlo", "moon-triangular", "--output", "moon", "--set", "pitch_deviation=2 %")
 
 
 @pytest.mark.parametrize("question", [(*CUT, "--trials", "2"), DOUBT])

@@ -15,7 +15,7 @@ from geartrain.numerics.files import check_folder, write_folder
 LIGHT = "svg,graphml,dot,rexs,csv"
 
 
-def test_a_folder_holds_all_that_was_asked_for_and_a_list_of_it(tmp_path: Path) -> None:
+def test_a_folder_holds_all_that_was_requested_for_and_a_list_of_it(tmp_path: Path) -> None:
     to = tmp_path / "deep" / "set"
     done = call("export", "planetary-24-18-60", "--to", to, "--as", LIGHT)
     assert done.exit_code == 0, done.output
@@ -178,7 +178,7 @@ def test_without_any_extra_the_rest_is_written_and_what_is_missing_is_said(tmp_p
     assert suffixes == {".svg", ".stl", ".glb", ".graphml", ".dot", ".rexsj", ".csv", ".md"}
 
 
-def test_play_in_mm_is_no_error_where_the_module_is_asked_for(tmp_path: Path) -> None:
+def test_backlash_in_mm_is_no_error_where_the_module_is_requested_for(tmp_path: Path) -> None:
     train = tmp_path / "train.yaml"
     train.write_text(
         "extends: planetary-24-18-60\nname: thin\n"

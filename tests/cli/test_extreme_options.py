@@ -35,14 +35,14 @@ PAIR = """
 name: pair
 links: {frame: {}, a: {wheels: {x: {teeth: 48, module: 1 mm}}}, b: {wheels: {y: {teeth: 96, module: 1 mm}}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-gears: [{pair: [x, y], friction: 0.1, tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}}]
+gears: [{pair: [x, y], friction: 0.1, tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}}]
 frame: frame
 inputs: {a: 1}
 outputs: {b: }
 """
 
 TRIANGULAR = ("mesh", "triangular", "--teeth", "48", "96")
-CLEARED = (*TRIANGULAR, "--clearance", "1.01")
+CLEARED = (*TRIANGULAR, "--clearance-factor", "1.01")
 SIZED = (*CLEARED, "--module", "2mm")
 CONJUGATE = {
     "involute": ("pressure-angle:angle", "shift", "addendum", "dedendum", "centre-distance"),
@@ -60,7 +60,7 @@ OUTLINED += ("module:length",)
 CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
     (
         TRIANGULAR,
-        ("half-angle:angle", "clearance", "excess", "window", "backlash", "centre-distance", "radii", "driver"),
+        ("half-angle:angle", "clearance-factor", "excess", "window", "backlash", "centre-distance", "radii", "driver"),
     ),
     (CLEARED, ("half-angle:angle", "module:length", "friction", "radii")),
     ((*SIZED, "--rate", "1turn/s", "--load", "1N*m"), ("inertia:inertia",)),
@@ -148,7 +148,7 @@ def judge(arguments: list[str]) -> str:
     return ""
 
 
-def asked(option: str, value: str) -> list[str]:
+def requested(option: str, value: str) -> list[str]:
     """The option with a value, in the unit of its kind."""
     name, _, kind = option.partition(":")
     if not name:
@@ -170,12 +170,12 @@ def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
 
 KEPT = [
     *(
-        ("mesh triangular --teeth 48 96 --clearance 1.01", option, value)
+        ("mesh triangular --teeth 48 96 --clearance-factor 1.01", option, value)
         for option, values in {"half-angle:angle": ("1e-300", "1e-9"), "module:length": ("0", "-1", "1e300")}.items()
         for value in values
     ),
-    ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
-    ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
+    ("mesh triangular --teeth 48 96 --clearance-factor 1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
+    ("mesh triangular --teeth 48 96 --clearance-factor 1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
     ("mesh pin --offset 2", "pin-radius", "1e300"),
     ("mesh pin --pin-radius 10", "offset:length", "1e300"),
     ("mesh compare --teeth 24 36", "bevel:angle", "1e-300"),
@@ -215,7 +215,7 @@ def said(text: str, option: str, value: str, folder: Path, number: int) -> str:
     told = (
         ["--json"] if base[0] in ("mesh", "motion", "posterior", "teeth", "sphere") and "--profile" not in base else []
     )
-    arguments = [*command(base, folder, number), *asked(option, value), *told]
+    arguments = [*command(base, folder, number), *requested(option, value), *told]
     try:
         with chdir(folder):  # a search that is cut short leaves its journal where it runs
             found = judge(arguments)
@@ -257,12 +257,17 @@ def right_or_refused(ask: Callable[[], list[float]]) -> bool:
 
 @given(*[st.sampled_from(ODD)] * 3, st.integers(-1, 40), st.integers(-1, 40))
 @settings(max_examples=150, deadline=None)
-def test_sizes_and_laws_of_triangular_teeth_take_or_refuse_any_number(
+def test_sizes_and_transmissions_of_triangular_teeth_take_or_refuse_any_number(
     radius: float, beta: float, excess: float, z1: int, z2: int
 ) -> None:
     def ask() -> list[float]:
-        law = TriangularTransmission(TriangularSizes(z1, z2, radius, radius, beta, beta, excess), 0.1)
-        return [*law.error_range(), *law.speed_range(), *law.error_moments(), *law.error(np.linspace(0, 9, 7))]
+        transmission = TriangularTransmission(TriangularSizes(z1, z2, radius, radius, beta, beta, excess), 0.1)
+        return [
+            *transmission.error_range(),
+            *transmission.speed_range(),
+            *transmission.error_moments(),
+            *transmission.error(np.linspace(0, 9, 7)),
+        ]
 
     with warnings.catch_warnings(), bounded(SECONDS):
         warnings.simplefilter("error")
@@ -275,11 +280,11 @@ def test_sizes_and_laws_of_triangular_teeth_take_or_refuse_any_number(
     st.sampled_from(ODD),
     st.sampled_from((PinToSlotTransmission, SlotToPinTransmission)),
 )
-def test_laws_of_pins_take_or_refuse_any_number(
-    r: float, e: float, friction: float, law: type[PinTransmission]
+def test_transmissions_of_pins_take_or_refuse_any_number(
+    r: float, e: float, friction: float, transmission: type[PinTransmission]
 ) -> None:
     def ask() -> list[float]:
-        made = law(r, e, friction)
+        made = transmission(r, e, friction)
         return [made.amplitude, *made.speed_range(), *made.error_moments(), *made.error(np.linspace(0, 9, 7))]
 
     assert right_or_refused(ask)
@@ -293,19 +298,19 @@ def test_laws_of_pins_take_or_refuse_any_number(
         TriangularTransmission.error_moments,
         TriangularTransmission.efficiency_mean,
         TriangularTransmission.efficiency_at_constant_load,
-        TriangularTransmission.corners,
-        lambda law: law.jumps,
+        TriangularTransmission.kinks,
+        lambda transmission: transmission.jumps,
     ],
 )
 @pytest.mark.parametrize("excess", [0.04, 1.0, 1e300])
-def test_the_law_of_wheels_apart_is_refused_in_words(
+def test_the_transmission_of_wheels_apart_is_refused_in_words(
     ask: Callable[[TriangularTransmission], object], excess: float
 ) -> None:
     radii = equal_depth(48, 96, pi / 6, pi / 6)
-    law = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, excess))
-    assert law.verdict.kind == "apart"
+    transmission = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, excess))
+    assert transmission.verdict.kind == "apart"
     with pytest.raises(GearTrainError, match="too far apart"):
-        ask(law)
+        ask(transmission)
 
 
 @pytest.mark.parametrize("turns", [1e300, nan, inf, -inf, 1e13])

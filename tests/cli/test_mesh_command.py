@@ -15,7 +15,7 @@ from sampling import first_few
 from shapely.affinity import rotate, translate
 
 PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
-KEYS = {"teeth", "verdict", "clearance", "window", "sizes", "play", "speed_ratio", "transmission_error"}
+KEYS = {"teeth", "verdict", "clearance_factor", "window", "sizes", "backlash", "speed_ratio", "transmission_error"}
 KEYS |= {"efficiency", "intervals", "jumps", "course", "impacts", "outlines"}
 
 
@@ -32,13 +32,13 @@ PRINTED = [
 
 @pytest.mark.parametrize(("z1", "z2", "a", "jumps"), PRINTED)
 def test_the_jumps_are_those_printed(z1: int, z2: int, a: float, jumps: dict[str, float]) -> None:
-    data = json.loads(call("mesh", "triangular", "--teeth", z1, z2, "--clearance", a, "--json").output)
+    data = json.loads(call("mesh", "triangular", "--teeth", z1, z2, "--clearance-factor", a, "--json").output)
     assert {jump["kind"]: round(jump["value"], 4) for jump in data["jumps"]} == jumps
     assert data["speed_ratio"]["mean"] == z1 / z2
 
 
 def test_every_key_of_the_json_is_the_promised_one() -> None:
-    data = json.loads(call(*PAIR, "--clearance", 1.01, "--json").output)
+    data = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--json").output)
     assert set(data) == KEYS
     assert set(data["speed_ratio"]) == {"mean", "exact", "min", "max"}
     assert set(data["transmission_error"]) == {"peak_to_peak", "rms", "mean"}
@@ -57,10 +57,10 @@ def test_every_key_of_the_json_is_the_promised_one() -> None:
 @pytest.mark.parametrize(
     ("arguments", "kind", "said"),
     [
-        (["--clearance", 1.001], "jam", "below the window"),
-        (["--clearance", 1.034], "standstill", "above the window"),
-        (["--clearance", 1.05], "apart", "above the window"),
-        (["--clearance", 1.01, "--half-angle", "89deg"], "no valley", "use more teeth or a smaller half_angle"),
+        (["--clearance-factor", 1.001], "jam", "below the window"),
+        (["--clearance-factor", 1.034], "dwell", "above the window"),
+        (["--clearance-factor", 1.05], "apart", "above the window"),
+        (["--clearance-factor", 1.01, "--half-angle", "89deg"], "no valley", "use more teeth or a smaller half_angle"),
     ],
 )
 def test_a_pair_outside_its_window_is_a_verdict_that_names_it(arguments: list[object], kind: str, said: str) -> None:
@@ -72,8 +72,8 @@ def test_a_pair_outside_its_window_is_a_verdict_that_names_it(arguments: list[ob
     assert data["verdict"]["kind"] == kind
 
 
-def test_friction_that_locks_is_a_verdict_with_the_least_friction_that_does() -> None:
-    base = ("mesh", "triangular", "--teeth", 96, 72, "--clearance", 1.01, "--friction")
+def test_friction_that_locks_is_a_verdict_with_the_minimum_friction_that_does() -> None:
+    base = ("mesh", "triangular", "--teeth", 96, 72, "--clearance-factor", 1.01, "--friction")
     data = json.loads(call(*base, 1.2, "--json").output)
     limit = data["efficiency"]["locks_at"]
     assert (data["efficiency"]["mean"], data["efficiency"]["min"]) == (None, None)
@@ -83,29 +83,29 @@ def test_friction_that_locks_is_a_verdict_with_the_least_friction_that_does() ->
 
 
 REFUSED = [
-    (["--teeth", 2, 96, "--clearance", 1.01], "at least 3 teeth"),
-    (["--teeth", 48, 96, "--clearance", 1], "above 1"),
-    (["--teeth", 48, 96, "--clearance", "nan"], "'nan' is not a number"),
-    (["--teeth", 48, 96, "--clearance", "inf"], "'inf' is not a number"),
+    (["--teeth", 2, 96, "--clearance-factor", 1.01], "at least 3 teeth"),
+    (["--teeth", 48, 96, "--clearance-factor", 1], "above 1"),
+    (["--teeth", 48, 96, "--clearance-factor", "nan"], "'nan' is not a number"),
+    (["--teeth", 48, 96, "--clearance-factor", "inf"], "'inf' is not a number"),
     (["--teeth", 48, 96, "--excess", 0], "above 0"),
     (["--teeth", 48, 96, "--window", 1.5], "between 0"),
     (["--teeth", 48, 96], "exactly one of"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--excess", 0.01], "exactly one of"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "95deg"], "between 0 and 90 deg"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "30"], "has no unit"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "3mm"], "is a length"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--friction", -0.1], "0 or more"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--rate", "3 furlong"], "unknown unit"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--excess", 0.01], "exactly one of"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "95deg"], "between 0 and 90 deg"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "30"], "has no unit"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "3mm"], "is a length"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--friction", -0.1], "0 or more"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--rate", "3 furlong"], "unknown unit"),
     (["--teeth", 48, 96, "--centre-distance", "40mm"], "nothing to be compared with"),
     (["--teeth", 48, 96, "--centre-distance", "40", "--radii", "10mm,20mm"], "mix plain numbers"),
     (["--teeth", 48, 96, "--backlash", "9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
     (["--teeth", 8, 64, "--window", 0.5], "no clearance lets 8 and 64"),
     (["--teeth", 48, 96, "--vary", "clearence=1:2:3"], "cannot be varied"),
-    (["--teeth", 48, 96, "--vary", "clearance=1:2"], "FIRST:LAST:COUNT"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--plot", "x.bmp"], "'.bmp'"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--profile", "w.svg"], "there is no module"),
-    (["--teeth", 48, 96, "--module", "1mm", "--clearance", 1.01, "--profile", "w.stl"], "no form of outline"),
-    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance=1.01:1.02:3"], "leave --vary out"),
+    (["--teeth", 48, 96, "--vary", "clearance-factor=1:2"], "FIRST:LAST:COUNT"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--plot", "x.bmp"], "'.bmp'"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--profile", "w.svg"], "there is no module"),
+    (["--teeth", 48, 96, "--module", "1mm", "--clearance-factor", 1.01, "--profile", "w.stl"], "no form of outline"),
+    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "leave --vary out"),
 ]
 
 
@@ -119,12 +119,12 @@ def test_what_cannot_be_a_pair_is_refused_kindly(arguments: list[object], said: 
 
 def test_clearances_given_in_five_ways_are_one() -> None:
     sized = ("--module", "0.5mm")
-    first = json.loads(call(*PAIR, "--clearance", "1.015", *sized, "--json").output)
+    first = json.loads(call(*PAIR, "--clearance-factor", "1.015", *sized, "--json").output)
     # half the module times the teeth is the least centre distance: 36 mm
     assert first["sizes"]["centre_distance"] == pytest.approx(0.036 * 1.015, rel=1e-14)
     window = first["window"]
     fraction = (1.015 - window["jam"]) / (window["run"] - window["jam"])
-    arc = first["play"] * first["sizes"]["centre_distance"] * 96 / 144
+    arc = first["backlash"] * first["sizes"]["centre_distance"] * 96 / 144
     for name, value in (
         ("--excess", "0.015"),
         ("--centre-distance", "36.54 mm"),
@@ -132,19 +132,19 @@ def test_clearances_given_in_five_ways_are_one() -> None:
         ("--backlash", f"{arc * 1000:.15f} mm"),
     ):
         other = json.loads(call(*PAIR, name, value, *sized, "--json").output)
-        assert other["clearance"] == pytest.approx(1.015, rel=1e-12)
+        assert other["clearance_factor"] == pytest.approx(1.015, rel=1e-12)
 
 
 def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
-    there = json.loads(call(*PAIR, "--clearance", 1.01, "--json").output)
-    back = json.loads(call(*PAIR, "--clearance", 1.01, "--driver", 2, "--json").output)
+    there = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--json").output)
+    back = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--driver", 2, "--json").output)
     swapped = json.loads(
-        call("mesh", "triangular", "--teeth", 96, 48, "--friction", 0.2, "--clearance", 1.01, "--json").output
+        call("mesh", "triangular", "--teeth", 96, 48, "--friction", 0.2, "--clearance-factor", 1.01, "--json").output
     )
     assert back["speed_ratio"]["mean"] == 2
     for key in ("min", "max"):
         assert back["speed_ratio"][key] == pytest.approx(swapped["speed_ratio"][key], rel=1e-12)
-    reverse = json.loads(call(*PAIR, "--clearance", 1.01, "--backwards", "--json").output)
+    reverse = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--backwards", "--json").output)
     for key in ("min", "max"):
         assert reverse["speed_ratio"][key] == there["speed_ratio"][key]
 
@@ -152,7 +152,16 @@ def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
 def test_impacts_share_the_drivers_work() -> None:
     data = json.loads(
         call(
-            *PAIR, "--clearance", 1.01, "--inertia", "20 g cm2", "--rate", "1 turn/s", "--load", "2 N mm", "--json"
+            *PAIR,
+            "--clearance-factor",
+            1.01,
+            "--inertia",
+            "20 g cm2",
+            "--rate",
+            "1 turn/s",
+            "--load",
+            "2 N mm",
+            "--json",
         ).output
     )
     impacts, (jump,) = data["impacts"], data["jumps"]
@@ -168,7 +177,17 @@ def test_impacts_share_the_drivers_work() -> None:
 def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None:
     out = tmp_path / "s.csv"
     result = call(
-        "mesh", "triangular", "--teeth", 96, 96, "--friction", 0.2, "--vary", "clearance=1.0005:1.028:24", "-o", out
+        "mesh",
+        "triangular",
+        "--teeth",
+        96,
+        96,
+        "--friction",
+        0.2,
+        "--vary",
+        "clearance-factor=1.0005:1.028:24",
+        "-o",
+        out,
     )
     assert result.exit_code == 0
     rows = list(csv.DictReader(io.StringIO(out.read_text(encoding="utf-8"))))
@@ -179,35 +198,40 @@ def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None
     runs = [row for row in rows if row["verdict"] == "runs"]
     assert all(0 < float(row["efficiency_mean"]) <= 1 for row in runs)
     said = result.stderr
-    assert "clearance 1.000801478: jam (approach+recess) -> runs (approach+recess)" in said
-    assert "runs (astride) -> standstill" in said
-    assert "clearance 1.01172" in said
+    assert "clearance_factor 1.000801478: jam (approach+recess) -> runs (approach+recess)" in said
+    assert "runs (astride) -> dwell" in said
+    assert "clearance_factor 1.01172" in said
     assert "greatest mean efficiency, 0.9944" in said
 
 
 def test_a_sweep_of_two_has_every_combination() -> None:
-    result = call(*PAIR, "--vary", "clearance=1.005:1.025:3", "--vary", "half-angle=20deg:40deg:2", "--json")
+    result = call(*PAIR, "--vary", "clearance-factor=1.005:1.025:3", "--vary", "half-angle=20deg:40deg:2", "--json")
     rows = json.loads(result.stdout)
-    assert [(row["clearance"], row["half_angle"]) for row in rows] == [
+    assert [(row["clearance_factor"], row["half_angle"]) for row in rows] == [
         (a, b) for a in (1.005, 1.015, 1.025) for b in (20.0, 40.0)
     ]
 
 
 @pytest.mark.parametrize("suffix", first_few(1, [".svg", ".png", ".pdf"]))
 def test_pictures_are_written_whole(tmp_path: Path, suffix: str) -> None:
-    law, teeth = tmp_path / f"law{suffix}", tmp_path / f"teeth{suffix}"
-    assert call(*PAIR, "--clearance", 1.01, "--plot", law, "--teeth-plot", teeth, "--at", "-5deg").exit_code == 0
+    transmission, teeth = tmp_path / f"law{suffix}", tmp_path / f"teeth{suffix}"
+    assert (
+        call(
+            *PAIR, "--clearance-factor", 1.01, "--plot", transmission, "--teeth-plot", teeth, "--at", "-5deg"
+        ).exit_code
+        == 0
+    )
     starts = {".svg": b"<?xml", ".png": b"\x89PNG", ".pdf": b"%PDF"}
-    for path in (law, teeth):
+    for path in (transmission, teeth):
         assert path.read_bytes().startswith(starts[suffix])
-    assert sorted(tmp_path.iterdir()) == sorted([law, teeth])
+    assert sorted(tmp_path.iterdir()) == sorted([transmission, teeth])
 
 
 def test_a_page_of_a_pair_needs_no_plots() -> None:
-    asked: list[object] = [*PAIR, "--clearance", "1.01"]
-    done = without("matplotlib", "scipy", arguments=asked)
+    requested: list[object] = [*PAIR, "--clearance-factor", "1.01"]
+    done = without("matplotlib", "scipy", arguments=requested)
     assert (done.returncode, done.stderr) == (0, "")
-    refused = without("matplotlib", "scipy", arguments=[*asked, "--plot", "x.svg"])
+    refused = without("matplotlib", "scipy", arguments=[*requested, "--plot", "x.svg"])
     assert refused.returncode == 2
     assert "pip install 'matplotlib>=3.8'" in refused.stderr
 
@@ -230,11 +254,11 @@ def test_a_pin_has_a_page_and_its_limits() -> None:
 def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_do(tmp_path: Path) -> None:
     from geartrain.teeth import Triangular
 
-    asked = ("mesh", "triangular", "--teeth", 15, 24, "--window", 0.5, "--module", "2mm", "--bore", "3mm")
+    requested = ("mesh", "triangular", "--teeth", 15, 24, "--window", 0.5, "--module", "2mm", "--bore", "3mm")
     cut = []
     for wheel in (1, 2):
         file = tmp_path / f"w{wheel}.csv"
-        done = call(*asked, "--wheel", wheel, "--profile", file, "--json")
+        done = call(*requested, "--wheel", wheel, "--profile", file, "--json")
         rows = list(csv.DictReader(io.StringIO(file.read_text(encoding="utf-8"))))
         assert {row["contour"] for row in rows} == {"0", "1"}  # teeth, bore
         cut.append(shapely.Polygon([(float(row["x_mm"]), float(row["y_mm"])) for row in rows if row["contour"] == "0"]))
@@ -243,11 +267,11 @@ def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_d
     distance = 1000 * data["sizes"]["centre_distance"]
     assert outline["centre_distance"] == pytest.approx(distance, rel=1e-12)
     assert outline["tip_diameter"] == pytest.approx(2000 * data["sizes"]["radii"][1], rel=1e-12)
-    law = Triangular.declared({"half_angle": "30 deg", "window": "0.5"}).law(15, 24)
-    for interval in law.intervals:
+    transmission = Triangular.declared({"half_angle": "30 deg", "window": "0.5"}).transmission(15, 24)
+    for interval in transmission.intervals:
         for share in (0.01, 0.5, 0.99):
             x = interval.start - share * interval.width
-            y = law.contact.path.couple.angle(interval.phase, x)
+            y = transmission.contact.path.tooth_pair.angle(interval.phase, x)
             driver = rotate(cut[0], x, origin=(0, 0), use_radians=True)
             driven = translate(rotate(cut[1], pi - y, origin=(0, 0), use_radians=True), distance)
             assert driver.distance(driven) < 2e-6  # mm: the file has six places
@@ -257,8 +281,8 @@ def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_d
             assert (driver.distance(off) > 1e-4) != (driver.distance(on) > 1e-4)
 
 
-LAW = "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s"
-REFUSED_LAWS = [
+TRANSMISSION = "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s"
+REFUSED_TRANSMISSIONS = [
     (["--friction", "dokos"], "give --rate and --module"),
     (["--friction", "dokos", "--rate", "1 rpm"], "nothing says how large it is"),
     (["--friction", "dokos", "--module", "1mm"], "nothing says how fast it is"),
@@ -269,7 +293,7 @@ REFUSED_LAWS = [
 ]
 
 
-@pytest.mark.parametrize(("arguments", "said"), REFUSED_LAWS, ids=lambda value: str(value)[:40])
+@pytest.mark.parametrize(("arguments", "said"), REFUSED_TRANSMISSIONS, ids=lambda value: str(value)[:40])
 def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str) -> None:
     done = ended("mesh", "triangular", "--teeth", 48, 96, "--window", 0.5, *arguments)
     assert done.returncode == 2
@@ -277,25 +301,49 @@ def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str
 
 
 def test_a_pair_under_a_law_of_friction_tells_its_speed_and_what_acts_at_every_angle(tmp_path: Path) -> None:
-    asked = ("mesh", "triangular", "--teeth", 48, 96, "--clearance", 1.01, "--friction", LAW, "--module", "2mm")
-    said = call(*asked, "--rate", "1 turn/s").output
+    requested = (
+        "mesh",
+        "triangular",
+        "--teeth",
+        48,
+        96,
+        "--clearance-factor",
+        1.01,
+        "--friction",
+        TRANSMISSION,
+        "--module",
+        "2mm",
+    )
+    said = call(*requested, "--rate", "1 turn/s").output
     # half the sum of the modules times teeth is the least centre distance: 144 mm
     speed = 2 * pi * 0.144 * 1.01 / 3
     assert f"at a pitch-line speed of {speed:.6g} m/s" in said
     picture = tmp_path / "l.svg"
-    data = json.loads(call(*asked, "--rate", "1 turn/s", "--plot", picture, "--json").stdout)
+    data = json.loads(call(*requested, "--rate", "1 turn/s", "--plot", picture, "--json").stdout)
     course, mean = data["course"], data["efficiency"]["friction"]
     assert 0.08 < mean < 0.2
     assert f"friction {mean:.6g}" in picture.read_text(encoding="utf-8").replace("<!-- ", "")
     ratios = zip(course["speed_ratio"], course["driven_arm"], course["driver_arm"], strict=True)
     assert [tau * second / first for tau, second, first in ratios] == pytest.approx(course["efficiency"], rel=1e-13)
-    slow = json.loads(call(*asked, "--rate", "1 turn/h", "--json").stdout)
-    fixed = json.loads(call(*asked[:7], "--friction", 0.2, "--module", "2mm", "--json").stdout)
+    slow = json.loads(call(*requested, "--rate", "1 turn/h", "--json").stdout)
+    fixed = json.loads(call(*requested[:7], "--friction", 0.2, "--module", "2mm", "--json").stdout)
     assert slow["efficiency"]["mean"] == pytest.approx(fixed["efficiency"]["mean"], abs=1e-5)
 
 
 def test_the_second_wheel_drives_at_its_own_speed() -> None:
-    asked = ("mesh", "involute", "--teeth", 24, 36, "--friction", "buckingham", "--module", "2mm", "--rate", "1 turn/s")
+    requested = (
+        "mesh",
+        "involute",
+        "--teeth",
+        24,
+        36,
+        "--friction",
+        "buckingham",
+        "--module",
+        "2mm",
+        "--rate",
+        "1 turn/s",
+    )
     for driver, radius in ((1, 0.024), (2, 0.036)):
-        said = call(*asked, "--driver", driver).output
+        said = call(*requested, "--driver", driver).output
         assert f"at a pitch-line speed of {2 * pi * radius:.6g} m/s" in said

@@ -26,8 +26,8 @@ PAIR = """
     gears: [{pair: [p, w]}]
     inputs: {a: 1}
     outputs: {b: {}}
-    tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
-    cutting: {placement: {normal: 2 %}}
+    tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
+    cutting: {pitch_deviation: {normal: 2 %}}
 """
 Write = Callable[..., Path]
 
@@ -61,7 +61,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
     for name, column in columns.items():
         assert [float(row[name]) for row in rows] == column
     told = json.loads((here / "t.json").read_text())
-    jams = sum(play < 0 for play in columns["p~w play (pitches)"])
+    jams = sum(backlash < 0 for backlash in columns["p~w play (pitches)"])
     assert told["pairs"][0]["jam"]["count"] == jams == sum(mark % 2 for mark in columns["p~w events"])
     free = [error for error, mark in zip(columns["b error (deg)"], columns["p~w events"], strict=True) if not mark & 25]
     mean = sum(free) / len(free)
@@ -71,7 +71,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
     assert not list(here.glob("*partial*")), "whole runs leave nothing behind"
 
 
-def test_everything_that_can_be_asked_stands_in_one_document(train_file: Write, here: Path) -> None:
+def test_everything_that_can_be_requested_stands_in_one_document(train_file: Write, here: Path) -> None:
     found = ask(
         train_file(PAIR),
         *("--trials", 128, "--output", "b", "--clearance", "1.01:1.03:2", "--sobol"),
@@ -124,24 +124,24 @@ def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path)
     from geartrain.workshop.monte_carlo.trial_run import journal_key
 
     plan = find_trial_plan(load(train_file(PAIR)))
-    asked = journal_key(plan, 1, 300)
-    Journal(here / "j", asked).close()
+    requested = journal_key(plan, 1, 300)
+    Journal(here / "j", requested).close()
     others = [
         journal_key(plan, 2, 300),
         journal_key(plan, 1, 301),
         journal_key(plan.scaled(1.01), 1, 300),
         journal_key(plan.cleared(1.03), 1, 300),
-        asked | {"geartrain": "0.0.0"},
+        requested | {"geartrain": "0.0.0"},
     ]
     for other in others:
         with pytest.raises(QuestionError, match="another question"):
             Journal(here / "j", other)
-    Journal(here / "j", asked).close()
+    Journal(here / "j", requested).close()
 
 
 @pytest.mark.needs("pyarrow")
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
-def test_a_full_disk_is_said_and_the_name_asked_for_is_not_taken(here: Path) -> None:
+def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path) -> None:
     path = here / "t.parquet"
     os.symlink("/dev/full", here / "t.partial.parquet")
 
@@ -167,16 +167,16 @@ def test_a_full_disk_is_said_and_the_name_asked_for_is_not_taken(here: Path) -> 
     [
         (("--trials", "0"), "0 trials"),
         (("--trials", "-5"), "-5 trials"),
-        (("--set", "placement=120 %"), "greater than the tooth"),
-        (("--set", "placement=45 %"), "cannot be cut"),
-        (("--set", "placement=20 deg"), "greater than the tooth"),
+        (("--set", "pitch_deviation=120 %"), "greater than the tooth"),
+        (("--set", "pitch_deviation=45 %"), "cannot be cut"),
+        (("--set", "pitch_deviation=20 deg"), "greater than the tooth"),
         (("--set", "tip=0.1 mm"), "no module"),
         (("--set", "colour=3 %"), "sets no error"),
-        (("--set", "placement=3 apples"), "sets no error"),
-        (("--set", "placement=-3 %"), "no width"),
-        (("--set", "x9.placement=3 %"), "no wheel 'x9'"),
+        (("--set", "pitch_deviation=3 apples"), "sets no error"),
+        (("--set", "pitch_deviation=-3 %"), "no width"),
+        (("--set", "x9.pitch_deviation=3 %"), "no wheel 'x9'"),
         (("--set", "p.centre=3 %"), "no pair 'p'"),
-        (("--set", "placement=0"), "declares no errors"),
+        (("--set", "pitch_deviation=0"), "declares no errors"),
         (("--output", "nothing"), "no output or link"),
         (("--state", "fast"), "no state"),
         (("--clearance", "1.03:1.01:3"), "no sweep"),
@@ -184,7 +184,7 @@ def test_a_full_disk_is_said_and_the_name_asked_for_is_not_taken(here: Path) -> 
         (("--clearance", "a:b"), "no sweep"),
     ],
 )
-def test_what_cannot_be_asked_is_refused_with_what_why_and_what_to_do(
+def test_what_cannot_be_requested_is_refused_with_what_why_and_what_to_do(
     train_file: Write, here: Path, words: tuple[str, ...], said: str
 ) -> None:
     found = ask(train_file(PAIR), "--trials", 64, *words)
@@ -198,14 +198,14 @@ def test_what_cannot_be_asked_is_refused_with_what_why_and_what_to_do(
 def test_trains_that_cannot_be_cut_are_refused(train_file: Write) -> None:
     bare = train_file(PAIR.replace("tooth_form", "note: ideal teeth #"), "bare.yaml")
     with pytest.raises(QuestionError, match="no triangular teeth"):
-        find_trial_plan(load(bare), read_error_overrides(["placement=2 %"]))
+        find_trial_plan(load(bare), read_error_overrides(["pitch_deviation=2 %"]))
     loop = """
         links: {frame: {}, a: {wheels: {p: 20, q: 20}}, b: {wheels: {w: 15, v: 15}}}
         revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
         gears: [{id: one, pair: [p, w]}, {id: two, pair: [q, v]}]
         inputs: {a: 1}
-        tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
-        cutting: {placement: {normal: 2 %}}
+        tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
+        cutting: {pitch_deviation: {normal: 2 %}}
     """
     closed = load(train_file(loop, "loop.yaml"))
     with pytest.raises(GearTrainError, match="close a loop"):
@@ -228,7 +228,7 @@ def test_sweeps_read_as_they_are_written() -> None:
 
 
 def test_a_few_wheels_that_cannot_be_cut_are_left_out_and_said(train_file: Write) -> None:
-    plan = find_trial_plan(load(train_file(PAIR)), read_error_overrides(["placement=22 %"]))
+    plan = find_trial_plan(load(train_file(PAIR)), read_error_overrides(["pitch_deviation=22 %"]))
     found = run_trials(plan, 256)
     uncut = found.train.uncut
     assert 0 < uncut < 128

@@ -26,12 +26,12 @@ FORMS = ("involute", "cycloidal", "lantern", "circular-arc", "uniform-stress", "
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
-ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
+ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "pitch_deviation=2 %")
 IN_TIME = ("--rate", "1", "--turns", "2", "--skip", "0", "--steps", "100", "--no-fast")
 BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 
 # command and writing option -> the rest of a question, and the suffixes it may be written with
-ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
+REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("report", "-o"): (("report", "worm"), (".md", ".html", ".json")),
     ("view", "-o"): (("view", "worm"), (".html",)),
     ("draw", "-o"): (("draw", "worm", "--kind", "graph"), (".svg",)),
@@ -80,17 +80,17 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 for _form, _pair in [*((form.replace("-", "_"), PAIR) for form in FORMS), ("pin_ring", ("--teeth", "11", "12"))]:
     _sized = (*_pair, *SIZED[len(PAIR) :])
-    ASKED[f"mesh {_form}", "-o"] = (("mesh", _form, *_pair), (".md",))
-    ASKED[f"mesh {_form}", "--plot"] = (("mesh", _form, *_pair), (".svg",))
-    ASKED[f"mesh {_form}", "--profile"] = (("mesh", _form, *_sized), (".svg",))
+    REQUESTED[f"mesh {_form}", "-o"] = (("mesh", _form, *_pair), (".md",))
+    REQUESTED[f"mesh {_form}", "--plot"] = (("mesh", _form, *_pair), (".svg",))
+    REQUESTED[f"mesh {_form}", "--profile"] = (("mesh", _form, *_sized), (".svg",))
 FOLDER = ("export", "--to")
 FOUND = ("reconstruct", "--write")  # tests of its own: tests/cli/test_reconstruct_command.py
 TRAINS: dict[str, Path] = {}
 
 Case = tuple[str, str, str]
 PARQUET = pytest.mark.needs("pyarrow")
-CASES = [(command, option, suffix) for (command, option), (_, suffixes) in ASKED.items() for suffix in suffixes]
-FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in ASKED.items()]
+CASES = [(command, option, suffix) for (command, option), (_, suffixes) in REQUESTED.items() for suffix in suffixes]
+FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in REQUESTED.items()]
 OTHER_FORMS = {f"mesh {form.replace('-', '_')}" for form in FORMS} - {"mesh involute", "mesh uniform_stress"}
 
 
@@ -129,12 +129,12 @@ def _trains(tmp_path_factory: pytest.TempPathFactory) -> None:
 
 
 def ask(command: str, option: str, path: object, *more: object) -> Any:
-    return call(*(TRAINS.get(word, word) for word in ASKED[command, option][0]), option, path, *more)
+    return call(*(TRAINS.get(word, word) for word in REQUESTED[command, option][0]), option, path, *more)
 
 
 def test_every_option_that_names_a_file_is_tried_here() -> None:
     reads = {("sphere", "--graph")}
-    assert set(writing()) - reads == {*ASKED, FOLDER, FOUND}
+    assert set(writing()) - reads == {*REQUESTED, FOLDER, FOUND}
 
 
 @pytest.fixture
@@ -245,9 +245,9 @@ def test_a_picture_beside_an_answer_needs_a_file(here: Path) -> None:
 
 def test_two_results_of_one_command_never_share_a_file(here: Path) -> None:
     (here / "b.svg").symlink_to("a.svg")
-    asked = ("mesh", "triangular", *PAIR, "--window", "0.5", "--plot", "a.svg", "--teeth-plot")
+    requested = ("mesh", "triangular", *PAIR, "--window", "0.5", "--plot", "a.svg", "--teeth-plot")
     for second in ("a.svg", "b.svg", "./a.svg"):
-        assert "two results go into one file" in refused(call(*asked, second, "--force"))
+        assert "two results go into one file" in refused(call(*requested, second, "--force"))
     assert [path.name for path in here.iterdir()] == ["b.svg"]
 
 
@@ -313,24 +313,24 @@ def test_a_folder_of_results_follows_the_same_rule(here: Path) -> None:
     (to / "wheels").mkdir(parents=True)
     (here / "away").write_text("mine", encoding="utf-8")
     (to / "graph.dot").symlink_to(here / "away")
-    asked = ("export", "planetary-24-18-60", "--to", to, "--as", "dot")
-    assert "'graph.dot' exists there already" in refused(call(*asked))
-    assert call(*asked, "--force").exit_code == 0
+    requested = ("export", "planetary-24-18-60", "--to", to, "--as", "dot")
+    assert "'graph.dot' exists there already" in refused(call(*requested))
+    assert call(*requested, "--force").exit_code == 0
     assert (to / "graph.dot").is_symlink()
     assert "graph" in (here / "away").read_text(encoding="utf-8")
     (to / "graph.dot").unlink()
     os.mkfifo(to / "graph.dot")
-    assert "a FIFO" in refused(call(*asked, "--force"))
+    assert "a FIFO" in refused(call(*requested, "--force"))
     (to / "graph.dot").unlink()
     (to / "graph.dot").write_text("mine", encoding="utf-8")
     (to / "graph.dot").chmod(0o444)
-    assert "read-only" in refused(call(*asked, "--force"))
+    assert "read-only" in refused(call(*requested, "--force"))
     with pytest.raises(GearTrainError, match="read-only"):
         write_folder(to, [("new.txt", b"new"), ("graph.dot", b"ours")], force=True)
     assert not (to / "new.txt").exists(), "all of them, or none"
 
 
-def test_a_partial_table_is_no_link_and_is_begun_again_only_if_asked(here: Path) -> None:
+def test_a_partial_table_is_no_link_and_is_begun_again_only_if_requested(here: Path) -> None:
     with suppress(KeyboardInterrupt), LongTable(here / "x.csv", "a") as table:
         table.write(["1"])
         raise KeyboardInterrupt

@@ -73,13 +73,13 @@ def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
     assert [path.read_bytes() for path in files] == before
 
 
-def test_as_many_are_listed_as_are_asked_for() -> None:
+def test_as_many_are_listed_as_are_requested_for() -> None:
     assert len(json.loads(call("reconstruct", "moon-c-e", "--best", "1", "--json").stdout)["best"]) == 1
     assert len(json.loads(call("reconstruct", "moon-c-e", "--best", "1", "--all", "--json").stdout)["best"]) == 2
     assert "1 of 2." in call("reconstruct", "moon-c-e", "--best", "1").stdout
 
 
-def test_nothing_found_is_a_verdict_and_what_cannot_be_asked_is_none(tmp_path: Path) -> None:
+def test_nothing_found_is_a_verdict_and_what_cannot_be_requested_is_none(tmp_path: Path) -> None:
     path = tmp_path / "evidence.yaml"
     path.write_text(NONE, encoding="utf-8")
     result = call("reconstruct", path)
@@ -126,11 +126,11 @@ def test_the_family_tree_is_written_beside_the_trains(tmp_path: Path) -> None:
 
 
 def test_the_question_has_a_mark_of_its_own() -> None:
-    asked = {
+    requested = {
         question_digest(evidence_question(read_evidence("back-train"), wheels, idlers).problem)
         for wheels, idlers in ((1, False), (2, False), (2, True), (2, False))
     }
-    assert len(asked) == 3
+    assert len(requested) == 3
 
 
 def test_what_is_told_beyond_counts() -> None:
@@ -153,7 +153,7 @@ def test_what_is_told_beyond_counts() -> None:
     assert "b2 > l1, l2 > m1, m2 > new_metonic1 (metonic): 50 %, rank 1 with" in page
 
 
-def test_assumptions_are_dropped_where_that_is_asked() -> None:
+def test_assumptions_are_dropped_where_that_is_requested() -> None:
     found = json.loads(call("reconstruct", "back-train", "--assumptions", "--count", "--json").stdout)
     holds("reconstruct", found)
     assert {one["change"]: one["mechanisms"] for one in found["assumptions"]}["without any sense"] == [0, 0, 29]
@@ -175,9 +175,9 @@ def test_why_nothing_fits(tmp_path: Path) -> None:
     assert "Why nothing fits" not in call("reconstruct", path, "--count").stdout
 
 
-@pytest.mark.parametrize("asked", [("back-train", "--assumptions"), ("none",)])
+@pytest.mark.parametrize("requested", [("back-train", "--assumptions"), ("none",)])
 def test_what_is_told_besides_may_be_stopped(
-    asked: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    requested: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def stopped(*_: object) -> None:
         raise KeyboardInterrupt
@@ -185,7 +185,7 @@ def test_what_is_told_besides_may_be_stopped(
     monkeypatch.setattr(dropped_facts, "_count", stopped)
     path = tmp_path / "none"
     path.write_text(NONE, encoding="utf-8")
-    file, *options = asked
+    file, *options = requested
     result = call("reconstruct", path if file == "none" else file, *options, "--json")
     assert result.exit_code == (1 if file == "none" else 0)
     assert "is left out" in result.stderr
@@ -194,7 +194,7 @@ def test_what_is_told_besides_may_be_stopped(
     assert len(found["best"]) == (0 if file == "none" else 4)
 
 
-def test_what_is_asked_is_told_before_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_requested_is_told_before_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
     def none(*_: object) -> Reconstructions:
         raise QuestionError(Problem("not today", "", ""))
 
@@ -221,11 +221,11 @@ STOP_AFTER = 3
 def test_assumptions_that_are_stopped_are_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Those that were counted stay, and none is counted again."""
     counted = dropped_facts._count
-    asked: list[object] = []
+    requested: list[object] = []
 
     def some(task: Any) -> object:
-        asked.append(task)
-        if len(asked) == STOP_AFTER + 1:
+        requested.append(task)
+        if len(requested) == STOP_AFTER + 1:
             raise KeyboardInterrupt
         return counted(task)
 
@@ -239,14 +239,14 @@ def test_assumptions_that_are_stopped_are_taken_up(tmp_path: Path, monkeypatch: 
     assert len(list(tmp_path.iterdir())) == 2
     resumed = call("reconstruct", "metonic-l-m", "--assumptions", "--count", "--json", "--resume")
     assert json.loads(resumed.stdout)["assumptions"] == whole
-    assert len(asked) == len(whole) + 1
+    assert len(requested) == len(whole) + 1
     assert not list(tmp_path.iterdir())
 
 
 def test_assumptions_are_the_same_with_workers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    asked = ("reconstruct", "metonic-l-m", "--assumptions", "--count", "--json")
-    assert call(*asked, "--workers", "2").stdout == call(*asked).stdout
+    requested = ("reconstruct", "metonic-l-m", "--assumptions", "--count", "--json")
+    assert call(*requested, "--workers", "2").stdout == call(*requested).stdout
 
 
 def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:
@@ -283,8 +283,8 @@ def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_trains_are_drawn_anew_with_another_seed() -> None:
-    asked = ("reconstruct", "back-train-moon", "--sample", 30, "--json")
-    first, again, other = (json.loads(call(*asked, "--seed", seed).stdout) for seed in (1, 1, 2))
+    requested = ("reconstruct", "back-train-moon", "--sample", 30, "--json")
+    first, again, other = (json.loads(call(*requested, "--seed", seed).stdout) for seed in (1, 1, 2))
     holds("reconstruct", first)
     assert first["drawn"] == again["drawn"] != other["drawn"]
     assert [one["rank"] for one in first["drawn"]] == list(range(1, 31))

@@ -79,8 +79,8 @@ def test_suggestions_are_the_best_of_the_table() -> None:
 
 def test_a_user_s_own_solid_and_graph(tmp_path: Path) -> None:
     cube = tmp_path / "cube.txt"
-    corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
-    cube.write_text("# a cube\n" + "".join(f"{x}, {y}, {z}\n" for x, y, z in corners), encoding="utf-8")
+    kinks = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    cube.write_text("# a cube\n" + "".join(f"{x}, {y}, {z}\n" for x, y, z in kinks), encoding="utf-8")
     found = data(cube, "--gears", "faces+vertices", "--teeth", "4=16,v=12")
     assert (found["gears"], found["meshes"], found["mobility"]) == (14, 24, 1)
     assert found["angles"]["4-v"] == pytest.approx(54.7356103172453, abs=1e-12)

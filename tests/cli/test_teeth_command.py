@@ -80,9 +80,9 @@ def test_a_month_has_the_solutions_that_trying_everything_finds(
 
 
 def test_csv_and_json_tell_the_same(hands: Path) -> None:
-    asked = ("ratio", "235 months / 19 years", "--range", "15:60", "--best", 4)
-    rows = list(csv.DictReader(io.StringIO(call("teeth", *asked, "--workers", 1, "--csv").stdout)))
-    for row, one in zip(rows, answer(*asked)["solutions"], strict=True):
+    requested = ("ratio", "235 months / 19 years", "--range", "15:60", "--best", 4)
+    rows = list(csv.DictReader(io.StringIO(call("teeth", *requested, "--workers", 1, "--csv").stdout)))
+    for row, one in zip(rows, answer(*requested)["solutions"], strict=True):
         assert [list(map(int, row[side].split("*"))) for side in ("top", "beneath")] == one["teeth"]
         assert row["ratio"] == one["ratio"]
         assert [float(row[name]) for name in ("value", "error")] == [one[name] for name in ("value", "error")]
@@ -130,7 +130,7 @@ def test_the_wheels_of_a_train_are_those_that_looking_at_all_of_them_finds(hands
     assert rows == expected
 
 
-def test_a_solution_is_written_as_a_train_that_does_what_is_asked(hands: Path) -> None:
+def test_a_solution_is_written_as_a_train_that_does_what_is_requested(hands: Path) -> None:
     done = call(
         "teeth", "train", hands, "--by", "total", "--pick", 2, "-o", hands.parent / "found.yaml", "--workers", 1
     )
@@ -142,14 +142,14 @@ def test_a_solution_is_written_as_a_train_that_does_what_is_asked(hands: Path) -
 
 
 def test_nothing_found_tells_what_to_relax_and_exits_with_one(hands: Path) -> None:
-    done = call("teeth", "train", hands, "--least", 40, "--workers", 1)
+    done = call("teeth", "train", hands, "--minimum", 40, "--workers", 1)
     assert done.exit_code == 1
     assert "To relax" in done.stdout
     assert "candidates" in done.stdout
 
 
 def test_where_a_printed_row_stands(hands: Path) -> None:
-    asked = (
+    requested = (
         "train",
         "pennestri-2002-missing",
         "--best",
@@ -159,7 +159,7 @@ def test_where_a_printed_row_stands(hands: Path) -> None:
         "--where",
         "VO1=32,VO2=48,VX=41",
     )
-    right, wrong = answer(*asked)["where"]  # type: ignore[misc]
+    right, wrong = answer(*requested)["where"]  # type: ignore[misc]
     assert right["rank"] == 21
     assert right["refused"] == []
     assert wrong["rank"] is None
@@ -167,8 +167,8 @@ def test_where_a_printed_row_stands(hands: Path) -> None:
 
 
 def test_an_exact_wolfrom_set_is_found_and_written(hands: Path) -> None:
-    asked = ("teeth", "set", 142, "--kind", "wolfrom", "--planets", 3, "--range", "12:100")
-    done = call(*asked, "-o", hands.parent / "set.yaml")
+    requested = ("teeth", "set", 142, "--kind", "wolfrom", "--planets", 3, "--range", "12:100")
+    done = call(*requested, "-o", hands.parent / "set.yaml")
     assert done.exit_code == 0
     made = load(hands.parent / "set.yaml")
     (output,) = made.solve().outputs.values()
@@ -177,8 +177,8 @@ def test_an_exact_wolfrom_set_is_found_and_written(hands: Path) -> None:
 
 
 def test_an_orrery_is_found_and_holds_as_a_train(hands: Path) -> None:
-    asked = ("teeth", "orrery", "moon=29.53059", "venus=224.701", "--range", "12:120", "--tolerance", "1e-4")
-    done = call(*asked, "-o", hands.parent / "orrery.yaml")
+    requested = ("teeth", "orrery", "moon=29.53059", "venus=224.701", "--range", "12:120", "--tolerance", "1e-4")
+    done = call(*requested, "-o", hands.parent / "orrery.yaml")
     assert done.exit_code == 0
     made = load(hands.parent / "orrery.yaml").solve()
     for name, period in (("moon", Fraction("29.53059")), ("venus", Fraction("224.701"))):
@@ -275,12 +275,12 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
 
 
 @pytest.mark.parametrize(
-    ("asked", "said"),
+    ("requested", "said"),
     [
         (("train", "hands.yaml", "--range", "12:20"), "--range"),
         (("train", "hands.yaml", "-o", "hands.yaml", "--force"), "train itself"),
         (("train", "hands.yaml", "--tolerance", "-1"), "--tolerance"),
-        (("ratio", "235/19", "--least", "20"), "--least"),
+        (("ratio", "235/19", "--minimum", "20"), "--minimum"),
         (("ratio", "235/19", "--planets", "3"), "--planets"),
         (("ratio", "235/19", "--tolerance", "1e400"), "--tolerance"),
         (("ratio", "235/19", "--tolrance", "1e-6"), "--tolrance"),
@@ -296,8 +296,8 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
         ),
     ],
 )
-def test_what_a_search_would_pass_over_is_refused(hands: Path, asked: tuple[str, ...], said: str) -> None:
-    done = call("teeth", *asked)
+def test_what_a_search_would_pass_over_is_refused(hands: Path, requested: tuple[str, ...], said: str) -> None:
+    done = call("teeth", *requested)
     assert done.exit_code == 2
     assert said in " ".join(done.stderr.split())
     assert hands.read_text(encoding="utf-8") == HANDS
@@ -333,7 +333,7 @@ def test_a_file_is_written_in_the_form_of_its_name_whatever_is_printed(hands: Pa
 
 
 @pytest.mark.parametrize(
-    ("asked", "said"),
+    ("requested", "said"),
     [
         ("5.31 --stages 1", "ratio 5.31 --stages 1"),
         ("-235/19", "ratio -235/19"),
@@ -345,8 +345,8 @@ def test_a_file_is_written_in_the_form_of_its_name_whatever_is_printed(hands: Pa
         ("moon=29.53 venus=224.7", "orrery moon=29.53 venus=224.7"),
     ],
 )
-def test_a_question_without_its_word_is_answered_with_the_word(asked: str, said: str) -> None:
-    done = call("teeth", *asked.split())
+def test_a_question_without_its_word_is_answered_with_the_word(requested: str, said: str) -> None:
+    done = call("teeth", *requested.split())
     assert done.exit_code == 2
     words = " ".join(done.stderr.replace("│", " ").split())
     assert f"`geartrain teeth {said}`" in words

@@ -42,8 +42,8 @@ def test_json_holds_the_torque_over_the_turns_at_its_top_level(pin: Path) -> Non
     over = answer["over_turn"]
     assert over["input"]["link"] == "a"
     assert over["input"]["mean"] == pytest.approx(MEAN, rel=1e-8)
-    assert over["input"]["greatest"] == over["starting"] == pytest.approx(50.9784589, abs=5e-7)
-    assert over["input"]["least"] == pytest.approx(10 * 10 / 18, rel=1e-9)
+    assert over["input"]["maximum"] == over["starting"] == pytest.approx(50.9784589, abs=5e-7)
+    assert over["input"]["minimum"] == pytest.approx(10 * 10 / 18, rel=1e-9)
     assert over["efficiency"] == pytest.approx(10 / MEAN, rel=1e-8)
     assert (over["locked_share"], over["flank_changes"]) == (0, {"a~b": 0})
     assert json.loads(call("torques", pin, "--json").output)["over_turn"] is None
@@ -86,12 +86,12 @@ def test_a_train_that_locks_says_where(train_file: Write) -> None:
     assert "13.95 % of the run no torque balances" in call("torques", path, "--turns", "1", *SAMPLES).output
 
 
-def test_another_link_can_be_asked_and_a_period_followed(pin: Path) -> None:
+def test_another_link_can_be_requested_and_a_period_followed(pin: Path) -> None:
     turned = call("torques", pin, "--turns", "period", *SAMPLES, "--json")
     assert json.loads(turned.output)["over_turn"]["turns"] == 1
-    asked = call("torques", "norton-planetary", "--turns", "period")
-    assert asked.exit_code == 2
-    assert "nothing ripples" in asked.stderr
+    requested = call("torques", "norton-planetary", "--turns", "period")
+    assert requested.exit_code == 2
+    assert "nothing ripples" in requested.stderr
 
 
 @pytest.mark.parametrize("words", [("--csv",), ("--input", "a")])
@@ -106,7 +106,7 @@ def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: P
     picture = tmp_path / "t.svg"
     assert call("torques", pin, "--turns", "1", *SAMPLES, "--plot", picture).exit_code == 0
     drawn = picture.read_text(encoding="utf-8")
-    assert 'id="greatest"' in drawn
+    assert 'id="maximum"' in drawn
     assert "mean 12.098" in drawn
     assert 'id="locked"' not in drawn
     pin.write_text(LOCKS, encoding="utf-8")
@@ -114,7 +114,7 @@ def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: P
     assert 'id="locked"' in picture.read_text(encoding="utf-8")
 
 
-def test_what_is_lost_is_drawn_as_torque_at_the_link_that_is_asked() -> None:
+def test_what_is_lost_is_drawn_as_torque_at_the_link_that_is_requested() -> None:
     pytest.importorskip("matplotlib")
     from geartrain.drawing import torque_cycle_figure
 
@@ -147,7 +147,7 @@ def test_trials_of_friction_have_the_spread_that_the_closed_form_tells(pin: Path
     assert mean == pytest.approx(MEAN, abs=0.15)
     _, low, high = tried["mean"]["deviation"]
     assert low < 0.05 * 10 * log(9) / pi < high
-    assert tried["starting"]["mean"][0] > tried["greatest"]["mean"][0]
+    assert tried["starting"]["mean"][0] > tried["maximum"]["mean"][0]
     assert tried["spreads"] == {"a~b": {"sliding": 0.3, "deviation": 0.05}}
     assert (tried["wanted"], tried["done"], tried["locks"]["count"]) == (60, 60, 0)
     text = call("torques", pin, *words).output

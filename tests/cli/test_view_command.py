@@ -117,7 +117,7 @@ def test_a_train_that_cannot_turn_is_shown_and_the_exit_code_tells(train_file: W
 JAMMED = """
 links: {frame: {}, a: {wheels: {p: 27}}, b: {wheels: {q: 45}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-gears: [{pair: [p, q], tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.001}}]
+gears: [{pair: [p, q], tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.001}}]
 inputs: {a: 1}
 """
 
@@ -168,7 +168,7 @@ def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> 
 
 
 @pytest.mark.parametrize(
-    ("asked", "said"),
+    ("requested", "said"),
     [
         (("--embed", "--kiosk"), "--embed and --kiosk at once"),
         (("planetary", "--embed"), "two trains"),
@@ -178,8 +178,8 @@ def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> 
         (("planetary", "--dynamics"), "motion in time of two trains"),
     ],
 )
-def test_what_does_not_go_together_is_refused(here: Path, asked: tuple[str, ...], said: str) -> None:
-    assert said in refusal("worm", *asked)
+def test_what_does_not_go_together_is_refused(here: Path, requested: tuple[str, ...], said: str) -> None:
+    assert said in refusal("worm", *requested)
     assert list(here.iterdir()) == []
 
 

@@ -22,8 +22,8 @@ PAIR = """
     gears: [{pair: [p, w]}]
     inputs: {a: 1}
     outputs: {b: {}}
-    tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
-    cutting: {placement: {normal: 2 %}, tip: {normal: 3 %}}
+    tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
+    cutting: {pitch_deviation: {normal: 2 %}, tip: {normal: 3 %}}
 """
 PIN = """
     links: {frame: {}, a: {}, b: {}}
@@ -60,8 +60,8 @@ def test_any_number_of_workers_prints_the_same_bytes(
     train_file: Write, text: str, words: tuple[str, ...], count: int
 ) -> None:
     verb, *options = words
-    asked = (verb, train_file(text), *options)
-    (one, quiet), (many, said) = (ended(*asked, "--workers", workers) for workers in (1, count))
+    requested = (verb, train_file(text), *options)
+    (one, quiet), (many, said) = (ended(*requested, "--workers", workers) for workers in (1, count))
     assert one == many != ""
     assert quiet == ""
     assert re.fullmatch(rf"{verb}: \d+ tasks on {count} worker processes\n", said)
@@ -78,9 +78,9 @@ def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(tra
     train = train_file(PAIR)
     local, _ = ended("montecarlo", train, *MONTE_CARLO, "--workers", 1)
     with small_cluster() as cluster:
-        asked = command("montecarlo", train, *MONTE_CARLO, "--dask", cluster.scheduler_address)
+        requested = command("montecarlo", train, *MONTE_CARLO, "--dask", cluster.scheduler_address)
         victim = next(iter(cluster.workers.values())).pid
-        running = subprocess.Popen(asked, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
+        running = subprocess.Popen(requested, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
         until(lambda: any(tmp_path.glob("*.partial.jsonl")), "the run to begin")
         os.kill(victim, signal.SIGKILL)
         out, said = running.communicate(timeout=5 * PATIENCE)
@@ -91,7 +91,7 @@ def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(tra
 
 
 def test_both_workers_and_a_cluster_are_refused(train_file: Write) -> None:
-    asked = command("montecarlo", train_file(PAIR), "--workers", 2, "--dask", "tcp://127.0.0.1:1")
-    done = subprocess.run(asked, capture_output=True, text=True, check=False, timeout=PATIENCE)
+    requested = command("montecarlo", train_file(PAIR), "--workers", 2, "--dask", "tcp://127.0.0.1:1")
+    done = subprocess.run(requested, capture_output=True, text=True, check=False, timeout=PATIENCE)
     assert done.returncode == 2
     assert "both workers and a dask scheduler are given" in done.stderr

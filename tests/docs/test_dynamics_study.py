@@ -29,8 +29,8 @@ def test_a_flight_of_the_oracle_is_a_parabola_from_where_the_flank_falls_away() 
 
 def test_steps_and_teeth_that_yield_come_to_what_events_say() -> None:
     truth, rigid, soft = by_events(0.5, 1e-8), stepped(0.5, 2000, False), yielding(0.5, 100.0, 2000, False)
-    assert rigid.blows == pytest.approx(truth.blows, rel=0.06)
-    assert soft.blows == pytest.approx(truth.blows, rel=0.15)
+    assert rigid.impacts == pytest.approx(truth.impacts, rel=0.06)
+    assert soft.impacts == pytest.approx(truth.impacts, rel=0.15)
     assert soft.gap == pytest.approx(truth.gap, rel=0.01)
 
 
@@ -39,7 +39,7 @@ def test_the_kept_run_falls_to_the_first_order_and_settles() -> None:
     # bounces end where flights take two steps, which is not the same blow at each length of the step
     for restitution, within in ((0.0, 0.05), (0.5, 0.15)):
         rows = [row for row in records.pair if (row.restitution, row.method) == (restitution, "rigid steps")]
-        orders = [np.log(one.blows / two.blows) / np.log(two.steps / one.steps) for one, two in pairwise(rows[1:])]
+        orders = [np.log(one.impacts / two.impacts) / np.log(two.steps / one.steps) for one, two in pairwise(rows[1:])]
         assert orders == pytest.approx([1.0] * len(orders), abs=within)
     rigid = [row for row in records.train if not row.stiffness]
     assert {round(100 * row.apart) for row in rigid if row.restitution == 0} == {27}

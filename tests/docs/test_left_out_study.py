@@ -40,12 +40,12 @@ def quick() -> LeftOutRecords:
     return left_out(QUICK)
 
 
-def test_every_shipped_train_is_asked_or_says_why_not() -> None:
-    trees, not_asked = find_trees(tuple(shipped()))
-    asked = {name for name, _ in trees}
-    assert asked | {row.train for row in not_asked} == set(shipped())
-    assert not asked & {row.train for row in not_asked}
-    why = {row.train: row.why for row in not_asked}
+def test_every_shipped_train_is_requested_or_says_why_not() -> None:
+    trees, not_requested = find_trees(tuple(shipped()))
+    requested = {name for name, _ in trees}
+    assert requested | {row.train for row in not_requested} == set(shipped())
+    assert not requested & {row.train for row in not_requested}
+    why = {row.train: row.why for row in not_requested}
     assert why["longcase-clock-bs978"] == "the same parts as longcase-clock"
     assert why["voulgaris-2022"] == "the same parts as freeth-2006 and freeth-2008"
     assert why["worm"].endswith("it has worm wheels")
@@ -97,7 +97,7 @@ def test_a_stopped_run_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.slow
-def test_of_what_is_not_finished_less_is_asked() -> None:
+def test_of_what_is_not_finished_less_is_requested() -> None:
     full = {tuple(row.lost): row for row in left_out(["watch-going-train"]).rows}
     found = left_out(["watch-going-train"], limit=0.0)
     assert not found.whole
@@ -142,7 +142,7 @@ def test_a_pointer_of_each_speed_needs_an_arbor() -> None:
     dials = [exact_dial("a", 2, place="new"), exact_dial("b", -2, place="new"), exact_dial("c", 3, place="new")]
     problem = ReconstructionProblem(sure_arbor("x", x1=10), (), (*dials, exact_dial("d", 5)), Additions(1, 5, 6))
     assert fewest_new_arbors(problem) == 2  # magnitudes alone are told apart
-    near = replace(dials[2], least=Fraction(1), greatest=Fraction(9, 2))
+    near = replace(dials[2], minimum=Fraction(1), maximum=Fraction(9, 2))
     assert fewest_new_arbors(replace(problem, dials=(dials[0], near))) == 1
 
 
@@ -183,12 +183,12 @@ def test_what_came_in_time_is_gathered() -> None:
 def test_the_kept_run_found_every_train_again() -> None:
     (records,) = read(LeftOutRecords, "left-out")
     trees = {(tree.train, tree.part): tree for tree in records.trees}
-    asked = {(row.train, row.part, tuple(row.lost)) for row in records.rows}
-    assert len(asked) == len(records.rows)
+    requested = {(row.train, row.part, tuple(row.lost)) for row in records.rows}
+    assert len(requested) == len(records.rows)
     for part, tree in trees.items():
         for many in (1, 2):
-            asked -= {(*part, lost) for lost in combinations(tree.arbors, many)}
-    assert not asked
+            requested -= {(*part, lost) for lost in combinations(tree.arbors, many)}
+    assert not requested
     assert not records.lost
     assert all(row.note for row in records.rows if not row.is_whole)
 

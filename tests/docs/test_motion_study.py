@@ -80,7 +80,7 @@ def test_the_sum_of_ranges_is_above_and_independent_phases_are_near(
         assert independent.rms < 0.05 * train.outputs[independent.output]["rms"]
 
 
-def test_every_pair_of_the_differential_train_has_a_law(records: MotionRecords) -> None:
+def test_every_pair_of_the_differential_train_has_a_transmission(records: MotionRecords) -> None:
     price = records.trains[1]
     assert price.family == PRICE
     assert list(price.ideal) == []
@@ -123,10 +123,12 @@ def test_the_digits_agree_with_an_equation_solved_for_its_one_unknown() -> None:
     ratio = float(train.solve()["crank"])
     turns = 0.377
     given = 2 * np.pi * turns
-    hung = -float(mesh.law.angle(0.0)) / float(mesh.law.ratio)  # at the start, a tooth on the line of centres
+    hung = -float(mesh.transmission.angle(0.0)) / float(
+        mesh.transmission.ratio
+    )  # at the start, a tooth on the line of centres
 
     def residue(crank: float) -> float:
-        return float(mesh.law.angle(crank - hung)) + float(mesh.law.ratio) * hung - given
+        return float(mesh.transmission.angle(crank - hung)) + float(mesh.transmission.ratio) * hung - given
 
     crank = brentq(residue, abs(ratio) * given - 0.2, abs(ratio) * given + 0.2, xtol=1e-14)
     found = np.sign(ratio) * crank - ratio * given
@@ -136,7 +138,7 @@ def test_the_digits_agree_with_an_equation_solved_for_its_one_unknown() -> None:
     assert MotionTruth(whole).off(turns, np.array([found + 1e-6]))[0] == pytest.approx(1e-6, rel=1e-5)
 
 
-def test_marching_follows_pins_without_a_corner_to_many_digits() -> None:
+def test_marching_follows_pins_without_a_kink_to_many_digits() -> None:
     train = load("freeth-2021")
     outputs = ["mars", "moon", "venus"]
     turns = np.linspace(0, 0.1, 21)

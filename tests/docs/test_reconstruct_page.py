@@ -42,7 +42,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def asked(name: str) -> Reconstructions:
+def requested(name: str) -> Reconstructions:
     return find_reconstructions(evidence_question(read_evidence(name)).problem)
 
 
@@ -69,7 +69,7 @@ def test_every_evidence_of_the_page_has_its_answer_here() -> None:
 
 @pytest.mark.parametrize("name", ANSWERS)
 def test_evidence_of_the_page_has_the_trains_that_are_told(name: str, folder: Path) -> None:
-    found = asked(name)
+    found = requested(name)
     assert found.complete
     assert sorted(added(one.arbor) for one in found.candidates) == ANSWERS[name]
     assert sum(count.mechanisms for count in found.counts) == len(ANSWERS[name])
@@ -77,7 +77,7 @@ def test_evidence_of_the_page_has_the_trains_that_are_told(name: str, folder: Pa
 
 def test_all_four_trains_of_the_back_turn_both_pointers_as_the_dials_are_divided(folder: Path) -> None:
     right = {"metonic": Fraction(-5, 19), "saros": Fraction(-4, 223) * Fraction(235, 19)}
-    assert [speeds(one.arbor, Fraction(1)) for one in asked("back.yaml").candidates] == [right] * 4
+    assert [speeds(one.arbor, Fraction(1)) for one in requested("back.yaml").candidates] == [right] * 4
 
 
 def test_the_page_shows_as_many_trains_as_other_programs_found() -> None:

@@ -104,11 +104,11 @@ def test_a_ray_before_it_does_not_hide_a_path_that_comes_to_a_right_angle() -> N
 
 def test_a_solution_is_one_function_whatever_its_end() -> None:
     pitch = PitchSurfaces.spur(24, 36)
-    law = forms.stress_law(pitch, pitch.A, pitch.B, radians(20))
-    long, short = (solved(pitch, law, float(np.sin(radians(20))), end) for end in (1.6, 0.9))
+    transmission = forms.stress_law(pitch, pitch.A, pitch.B, radians(20))
+    long, short = (solved(pitch, transmission, float(np.sin(radians(20))), end) for end in (1.6, 0.9))
     d = np.linspace(0, 0.9, 50)
     np.testing.assert_allclose(long(d), short(d), rtol=3e-15)
-    warm: ChebyshevSeries = solved(pitch, law, float(np.sin(radians(20))), 1.6, near=short)
+    warm: ChebyshevSeries = solved(pitch, transmission, float(np.sin(radians(20))), 1.6, near=short)
     np.testing.assert_allclose(warm(d), long(d), rtol=3e-15)
 
 

@@ -119,7 +119,7 @@ def test_small_graphs_are_fitted(records: SphereRecords) -> None:
         assert row.exact
         assert row.residual < 1e-11
         assert row.moved < 3
-    moved = {(row.family, row.gears, row.aim, row.least): row.moved for row in records.fits}
+    moved = {(row.family, row.gears, row.aim, row.minimum): row.moved for row in records.fits}
     for family, gears in {(row.family, row.gears) for row in records.fits if row.family == "hull"}:
         assert moved[family, gears, "pitch", 50] < moved[family, gears, "pitch", 12], "finer rounding moves axes less"
 

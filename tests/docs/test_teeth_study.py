@@ -110,7 +110,7 @@ def test_brute_force_is_told_as_it_gets_better(records: TeethRecords) -> None:
         assert [row.seconds for row in trace] == sorted(row.seconds for row in trace)
 
 
-def test_every_question_is_asked_of_every_way(records: TeethRecords) -> None:
+def test_every_question_is_requested_of_every_way(records: TeethRecords) -> None:
     for rows in records.questions:
         assert [row.method for row in rows] == sorted((row.method for row in rows), key=METHODS.index)
         assert {row.method for row in rows} == set(METHODS)

@@ -9,7 +9,7 @@ from math import exp, log
 
 import numpy as np
 import pytest
-from sorge import Pair, least_play
+from sorge import Pair, minimum_backlash
 from studies.count_trials import Counted
 from studies.cut_pair_trials import (
     BLOCK,
@@ -27,8 +27,8 @@ from studies.cut_pair_trials import (
 from studies.uncertainty_records import COUNTS, DISPLACED, SINGLY, ErrorRecord, UncertaintyRecords, slope
 from studies.uncertainty_study import uncertainty
 
-from geartrain.workshop.cutting.least_backlash import nominal_backlash
 from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
+from geartrain.workshop.cutting.minimum_backlash import nominal_backlash
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
@@ -64,17 +64,17 @@ def test_the_chance_of_a_jam_by_hand() -> None:
             chance_of_jam(z, share)
 
 
-def test_the_pair_of_the_sum_jams_where_neighbours_use_up_its_play_and_only_there() -> None:
+def test_the_pair_of_the_sum_jams_where_neighbours_use_up_its_backlash_and_only_there() -> None:
     """The least play is that of a scan of the source's equations; the rule is that of the places alone."""
     rng = np.random.default_rng(3)
     places = rng.uniform(-1, 1, (300, 38))
     pair = uneven_driven(places)
-    play = least_play(Pair.of(pair.sizes, np))
-    assert play == pytest.approx(nominal_backlash(pair.sizes) * pair.sizes.p2, rel=1e-6)
+    backlash = minimum_backlash(Pair.of(pair.sizes, np))
+    assert backlash == pytest.approx(nominal_backlash(pair.sizes) * pair.sizes.p2, rel=1e-6)
     late = pair.second.place - np.roll(pair.second.place, 1, axis=1)
     assert (pair.first.place == 0).all()
     found = batch_verdicts(pair.sizes, pair.first, pair.second).jams
-    assert (found == (late.max(axis=1) > play)).all()
+    assert (found == (late.max(axis=1) > backlash)).all()
     assert (found == ((places - np.roll(places, 1, axis=1)).max(axis=1) > 2 * SHARE)).all()
     assert 0.15 < found.mean() < 0.35
 
@@ -84,30 +84,30 @@ def test_the_pair_of_the_sum_jams_where_neighbours_use_up_its_play_and_only_ther
 
 @pytest.mark.slow
 def test_counts_in_a_batch_are_solved_trains(records: UncertaintyRecords) -> None:
-    asked = Counted("freeth-2008", 40)
-    singles = asked.singly(8)
-    assert len(asked.question.doubts) == 35
-    assert asked.differing(singles) == 0
-    error, share = asked.off(singles)
+    requested = Counted("freeth-2008", 40)
+    singles = requested.singly(8)
+    assert len(requested.question.doubts) == 35
+    assert requested.differing(singles) == 0
+    error, share = requested.off(singles)
     assert error < 1e-15 * 5
     assert 0 < share <= 1
     # the Metonic year by the textbook product of its wheels, of every combination
     for at, (speeds, _) in enumerate(singles):
-        z = {wheel: int(column[at]) for wheel, column in asked.counts.items()}
+        z = {wheel: int(column[at]) for wheel, column in requested.counts.items()}
         month = Fraction(z["b2"], z["l1"]) * Fraction(z["l2"], z["m1"]) * Fraction(z["m2"], z["n1"])
         assert abs(speeds["metonic"]) == month
-        assert float(asked.told()["metonic"][0][at]) == pytest.approx(float(speeds["metonic"]), rel=1e-14)
+        assert float(requested.told()["metonic"][0][at]) == pytest.approx(float(speeds["metonic"]), rel=1e-14)
     rates = [row for row in records.rates if row.family == COUNTS]
     assert len(rates) == 4
     assert rates[0].method == SINGLY
 
 
 def test_some_drawn_combinations_fit_and_most_do_not() -> None:
-    asked = Counted("freeth-2008", 2000)
-    fits = asked.decided()
+    requested = Counted("freeth-2008", 2000)
+    fits = requested.decided()
     assert 0.01 < fits.mean() < 0.5
     declared = [
-        all(doubt.declared == asked.counts[wheel][at] for wheel, doubt in asked.question.doubts.items())
+        all(doubt.declared == requested.counts[wheel][at] for wheel, doubt in requested.question.doubts.items())
         for at in range(2000)
     ]
     assert fits[declared].all()
@@ -121,7 +121,7 @@ def test_a_comparison_tells_what_differs(errors: str) -> None:
     off, differing = batch.compared(found, singly)
     assert off < 1e-6
     assert differing == 0
-    moved = [(play + 0.01 * batch.pair.sizes.p2, (not stops, *rest)) for play, (stops, *rest) in singly]
+    moved = [(backlash + 0.01 * batch.pair.sizes.p2, (not stops, *rest)) for backlash, (stops, *rest) in singly]
     off, differing = batch.compared(found, moved)  # type: ignore[arg-type]
     assert off == pytest.approx(0.01, abs=1e-6)
     assert differing == 3

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from seen_figure import alike, crowded, hidden, without_quantity
 from shipped import train as load
-from test_tooth_figures import law
+from test_tooth_figures import transmission
 
 pytest.importorskip("matplotlib")
 
@@ -21,7 +21,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from geartrain.drawing import law_figure, motion_figure, power_figure, shapes_figure, sweep_figure
+from geartrain.drawing import motion_figure, power_figure, shapes_figure, sweep_figure, triangular_figure
 from geartrain.drawing.parameter_sweep_plot import parameter_label
 from geartrain.drawing.theme_colours import themed
 from geartrain.dynamics import MotionRun, find_power_flow
@@ -81,7 +81,7 @@ def test_greater_values_are_further_from_the_paper(theme: ThemeName) -> None:
 
 @pytest.mark.parametrize("theme", ["dark", "print"])
 def test_the_arrow_of_an_annotation_is_of_the_ink_of_its_theme(theme: ThemeName) -> None:
-    figure = law_figure(law(60, 30, 0.05))
+    figure = triangular_figure(transmission(60, 30, 0.05))
     (time,) = [text for axes in figure.axes for text in axes.texts if text.get_text() == "time"]
     with themed(figure, theme):
         assert to_hex(time.arrow_patch.get_edgecolor()) == THEMES[theme].ink  # type: ignore[attr-defined]
@@ -90,8 +90,8 @@ def test_the_arrow_of_an_annotation_is_of_the_ink_of_its_theme(theme: ThemeName)
 def test_words_at_a_line_stay_within_their_panel() -> None:
     """Of unequal angles, backwards, flank lies on flank near the rim."""
     sizes = TriangularSizes(60, 30, *equal_depth(60, 30, radians(30), radians(35)), radians(30), radians(35), 0.05)
-    for pair in (law(60, 30, 0.05), TriangularTransmission(sizes, 0.0, -1)):
-        figure = law_figure(pair)
+    for pair in (transmission(60, 30, 0.05), TriangularTransmission(sizes, 0.0, -1)):
+        figure = triangular_figure(pair)
         figure.draw_without_rendering()
         (words,) = [text for text in figure.axes[0].texts if text.get_gid() == "matching"]
         panel, box = figure.axes[0].get_window_extent(), words.get_window_extent()
@@ -100,7 +100,7 @@ def test_words_at_a_line_stay_within_their_panel() -> None:
 
 
 def test_numbers_of_the_instant_centre_keep_their_distance_where_a_wheel_stands() -> None:
-    figure = law_figure(law(60, 40, 0.05))
+    figure = triangular_figure(transmission(60, 40, 0.05))
     figure.draw_without_rendering()
     (beside,) = [each for each in figure.axes[1].child_axes if "instant centre" in each.get_ylabel()]
     at = beside.transData.transform([(0, tick) for tick in beside.get_yticks()])[:, 1]
@@ -127,7 +127,7 @@ def test_a_sweep_names_its_parameters_by_itself() -> None:
     ways = np.full(x.shape, "recess")
     figure = sweep_figure({"half_angle": x, "z1": y}, {"efficiency_mean": x}, ways, units={"half_angle": "deg"})
     assert (figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()) == ("half angle (deg)", "teeth of wheel 1")
-    figure = sweep_figure({"clearance": GRID}, {"efficiency_mean": GRID}, ways[0])
+    figure = sweep_figure({"clearance_factor": GRID}, {"efficiency_mean": GRID}, ways[0])
     assert figure.axes[-1].get_xlabel() == "clearance factor"
 
 

@@ -20,7 +20,7 @@ pytest.importorskip("matplotlib")
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from geartrain.drawing import law_figure, render, sweep_figure, teeth_figure
+from geartrain.drawing import render, sweep_figure, teeth_figure, triangular_figure
 from geartrain.drawing.tooth_contact import DRIVEN, DRIVER, tooth_pair_pose
 
 PAIRS = [(48, 96, 0.01), (96, 72, 0.025), (96, 96, 0.01), (15, 60, 0.02), (45, 225, 0.017), (12, 18, 0.03)]
@@ -29,7 +29,7 @@ Points = np.ndarray[tuple[int, int], np.dtype[np.float64]]
 
 
 @cache
-def law(z1: int, z2: int, excess: float, direction: int = 1) -> TriangularTransmission:
+def transmission(z1: int, z2: int, excess: float, direction: int = 1) -> TriangularTransmission:
     beta = radians(30)
     return TriangularTransmission(
         TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess), 0.2, direction
@@ -56,14 +56,14 @@ def from_line(point: Points, one: Points, other: Points) -> float:
 @pytest.mark.parametrize("direction", [1, -1])
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_contact_drawn_is_an_apex_on_the_other_flank(pair: tuple[int, int, float], direction: int) -> None:
-    pair_law = law(*pair, direction)
-    s = pair_law.sizes
-    for interval in pair_law.intervals:
+    pair_transmission = transmission(*pair, direction)
+    s = pair_transmission.sizes
+    for interval in pair_transmission.intervals:
         if interval.held is not None:
             continue
         x = interval.end + 0.3 * interval.width
-        ((point,),) = drawn(teeth_figure(pair_law, x), "contact")
-        y = float(pair_law.contact.path.couple.angle(interval.phase, x))
+        ((point,),) = drawn(teeth_figure(pair_transmission, x), "contact")
+        y = float(pair_transmission.contact.path.tooth_pair.angle(interval.phase, x))
         apex1 = np.array([s.R1 * cos(x), direction * s.R1 * sin(x)])
         apex2 = np.array([s.D - s.R2 * cos(y), direction * s.R2 * sin(y)])
         # roots of the two flanks that face each other: below the driver's tooth, above the driven one
@@ -83,10 +83,10 @@ def test_the_contact_drawn_is_an_apex_on_the_other_flank(pair: tuple[int, int, f
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_wheels_touch_and_do_not_overlap(pair: tuple[int, int, float], direction: int) -> None:
     geometry = pytest.importorskip("shapely.geometry")
-    pair_law = law(*pair, direction)
-    for interval in pair_law.intervals:
+    pair_transmission = transmission(*pair, direction)
+    for interval in pair_transmission.intervals:
         for share in (0.01, 0.5, 0.99):
-            here = tooth_pair_pose(pair_law, interval.start - share * interval.width)
+            here = tooth_pair_pose(pair_transmission, interval.start - share * interval.width)
             one, two = (geometry.Polygon(here.outline(which)) for which in (DRIVER, DRIVEN))
             assert one.is_valid
             assert two.is_valid
@@ -100,24 +100,24 @@ def test_the_wheels_touch_and_do_not_overlap(pair: tuple[int, int, float], direc
 @pytest.mark.parametrize("pair", [*PAIRS, (9, 120, 0.003), (400, 20, 0.01), (5000, 7000, 1e-5)])
 def test_the_few_teeth_drawn_are_all_that_are_in_view(pair: tuple[int, int, float]) -> None:
     geometry = pytest.importorskip("shapely.geometry")
-    pair_law = law(*pair)
-    figure = teeth_figure(pair_law, whole=False)
+    pair_transmission = transmission(*pair)
+    figure = teeth_figure(pair_transmission, whole=False)
     (axes,) = figure.axes
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     view = geometry.box(left, bottom, right, top)
     assert axes.get_aspect() == 1.0
     for which, name in ((DRIVER, "driver"), (DRIVEN, "driven")):
         (few,) = drawn(figure, name)
-        whole = geometry.Polygon(tooth_pair_pose(pair_law).outline(which)).intersection(view)
+        whole = geometry.Polygon(tooth_pair_pose(pair_transmission).outline(which)).intersection(view)
         assert geometry.Polygon(few).intersection(view).symmetric_difference(whole).area < 1e-12 * view.area
-        assert len(few) <= 2 * max(pair_law.sizes.z1, pair_law.sizes.z2) + 1
+        assert len(few) <= 2 * max(pair_transmission.sizes.z1, pair_transmission.sizes.z2) + 1
         if pair[0] > 1000:
             assert len(few) < 60
 
 
 def test_wheels_of_few_teeth_are_drawn_whole_and_others_on_demand() -> None:
-    (few,) = drawn(teeth_figure(law(12, 18, 0.03)), "driven")
-    (many,) = drawn(teeth_figure(law(48, 96, 0.01), whole=True), "driven")
+    (few,) = drawn(teeth_figure(transmission(12, 18, 0.03)), "driven")
+    (many,) = drawn(teeth_figure(transmission(48, 96, 0.01), whole=True), "driven")
     assert len(few) == 2 * 18 + 1, "closed"
     assert len(many) == 2 * 96 + 1
 
@@ -126,37 +126,37 @@ def test_wheels_of_few_teeth_are_drawn_whole_and_others_on_demand() -> None:
 def test_the_normal_passes_through_contact_and_instant_centre_which_divides_the_centres_by_the_speeds(
     pair: tuple[int, int, float],
 ) -> None:
-    pair_law = law(*pair)
-    figure, here = teeth_figure(pair_law), tooth_pair_pose(pair_law)
+    pair_transmission = transmission(*pair)
+    figure, here = teeth_figure(pair_transmission), tooth_pair_pose(pair_transmission)
     ((centre,),), ((point,),), ((one, other),) = (drawn(figure, name) for name in ("centre", "contact", "normal"))
-    assert centre == pytest.approx([pair_law.sizes.D * here.tau / (1 + here.tau), 0.0], abs=1e-12)
+    assert centre == pytest.approx([pair_transmission.sizes.D * here.tau / (1 + here.tau), 0.0], abs=1e-12)
     assert from_line(centre, one, other) < 1e-12
     assert from_line(point, one, other) < 1e-12
     x = here.alpha1
-    assert here.tau == pytest.approx(float(pair_law.contact.path.couple.speed(here.phase, x)), rel=1e-12)
+    assert here.tau == pytest.approx(float(pair_transmission.contact.path.tooth_pair.speed(here.phase, x)), rel=1e-12)
 
 
-def test_an_angle_that_no_couple_drives_at_is_a_position_of_a_tooth() -> None:
-    pair_law = law(96, 96, 0.01)
+def test_an_angle_that_no_tooth_pair_drives_at_is_a_position_of_a_tooth() -> None:
+    pair_transmission = transmission(96, 96, 0.01)
     for alpha1 in (0.0, radians(9), radians(-1.2), radians(500)):
-        here = tooth_pair_pose(pair_law, alpha1)
-        turns = (here.alpha1 - alpha1) / pair_law.sizes.p1
+        here = tooth_pair_pose(pair_transmission, alpha1)
+        turns = (here.alpha1 - alpha1) / pair_transmission.sizes.p1
         assert turns == pytest.approx(round(turns), abs=1e-9)
-        assert any(each.end <= here.alpha1 <= each.start for each in pair_law.intervals)
+        assert any(each.end <= here.alpha1 <= each.start for each in pair_transmission.intervals)
 
 
-def test_a_standstill_has_no_contact_to_mark() -> None:
-    figure = teeth_figure(law(*STANDS), radians(-8.9))
+def test_a_dwell_has_no_contact_to_mark() -> None:
+    figure = teeth_figure(transmission(*STANDS), radians(-8.9))
     assert [drawn(figure, name) for name in ("contact", "normal", "centre")] == [[], [], []]
-    assert "standstill" in figure.axes[0].get_title(loc="left")
+    assert "dwell" in figure.axes[0].get_title(loc="left")
 
 
 # ----------------------------------------------------------------------------------------------------------------- law
 
 
 @cache
-def drawn_law(pair: tuple[int, int, float]) -> Figure:
-    return law_figure(law(*pair))
+def drawn_transmission(pair: tuple[int, int, float]) -> Figure:
+    return triangular_figure(transmission(*pair))
 
 
 def panels(figure: Figure) -> list[Axes]:
@@ -166,9 +166,9 @@ def panels(figure: Figure) -> list[Axes]:
 
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_thick_lines_cover_the_real_path_and_nothing_else(pair: tuple[int, int, float]) -> None:
-    pair_law = law(*pair)
-    wanted = [(each.phase, degrees(each.end), degrees(each.start)) for each in pair_law.intervals]
-    for axes in panels(drawn_law(pair)):
+    pair_transmission = transmission(*pair)
+    wanted = [(each.phase, degrees(each.end), degrees(each.start)) for each in pair_transmission.intervals]
+    for axes in panels(drawn_transmission(pair)):
         found = [
             (str(line.get_gid()).split()[1], float(np.min(line.get_xdata())), float(np.max(line.get_xdata())))
             for line in axes.lines
@@ -180,38 +180,38 @@ def test_the_thick_lines_cover_the_real_path_and_nothing_else(pair: tuple[int, i
 
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_thin_lines_cover_the_reach(pair: tuple[int, int, float]) -> None:
-    pair_law = law(*pair)
-    reach, matching = degrees(pair_law.sizes.reach1), degrees(pair_law.sizes.matching)
-    figure = drawn_law(pair)
+    pair_transmission = transmission(*pair)
+    reach, matching = degrees(pair_transmission.sizes.reach1), degrees(pair_transmission.sizes.matching)
+    figure = drawn_transmission(pair)
     for recess, approach in zip(drawn(figure, "ideal recess"), drawn(figure, "ideal approach"), strict=True):
         assert recess[[0, -1], 0] == pytest.approx([-reach, matching])
         assert approach[[0, -1], 0] == pytest.approx([matching, reach])
 
 
-def test_the_curves_are_the_law() -> None:
-    pair_law = law(48, 96, 0.01)
-    figure = drawn_law((48, 96, 0.01))
+def test_the_curves_are_the_transmission() -> None:
+    pair_transmission = transmission(48, 96, 0.01)
+    figure = drawn_transmission((48, 96, 0.01))
     angle, speed, efficiency, first = drawn(figure, "real recess")
     (second,) = drawn(figure, "driven real recess")
     S = -np.radians(angle[:, 0])[1:-1]
-    assert pair_law.alpha1(S) == pytest.approx(-S, abs=1e-12)
-    assert angle[1:-1, 1] == pytest.approx(-np.degrees(pair_law.angle(S)), abs=1e-11)
-    assert speed[1:-1, 1] == pytest.approx(pair_law.speed(S), abs=1e-12)
-    assert efficiency[1:-1, 1] == pytest.approx(pair_law.efficiency(S), abs=1e-12)
+    assert pair_transmission.alpha1(S) == pytest.approx(-S, abs=1e-12)
+    assert angle[1:-1, 1] == pytest.approx(-np.degrees(pair_transmission.angle(S)), abs=1e-11)
+    assert speed[1:-1, 1] == pytest.approx(pair_transmission.speed(S), abs=1e-12)
+    assert efficiency[1:-1, 1] == pytest.approx(pair_transmission.efficiency(S), abs=1e-12)
     # power out over power in: arms are over radii in the mean ratio
     assert efficiency[:, 1] == pytest.approx(speed[:, 1] * second[:, 1] / first[:, 1] * 2, abs=1e-12)
     (beside,) = figure.axes[1].child_axes
     figure.draw_without_rendering()
-    centre = np.array(beside.get_ylim()) * pair_law.sizes.D
+    centre = np.array(beside.get_ylim()) * pair_transmission.sizes.D
     tau = np.array(figure.axes[1].get_ylim())
-    assert centre == pytest.approx(tau * (pair_law.sizes.D - centre), rel=1e-9)
+    assert centre == pytest.approx(tau * (pair_transmission.sizes.D - centre), rel=1e-9)
 
 
-def test_a_standstill_is_level_and_at_rest() -> None:
-    pair_law = law(*STANDS)
-    (still,) = [each for each in pair_law.intervals if each.held is not None]
+def test_a_dwell_is_level_and_at_rest() -> None:
+    pair_transmission = transmission(*STANDS)
+    (still,) = [each for each in pair_transmission.intervals if each.held is not None]
     assert still.held is not None
-    angle, speed, efficiency, arm = drawn(drawn_law(STANDS), "real standstill")
+    angle, speed, efficiency, arm = drawn(drawn_transmission(STANDS), "real dwell")
     assert angle[:, 1] == pytest.approx(degrees(still.held), abs=1e-12)
     assert (speed[:, 1] == 0).all()
     assert np.isnan(efficiency[:, 1]).all()
@@ -219,7 +219,7 @@ def test_a_standstill_is_level_and_at_rest() -> None:
 
 
 def test_every_jump_is_annotated() -> None:
-    figure = drawn_law((96, 72, 0.025))
+    figure = drawn_transmission((96, 72, 0.025))
     said = [text.get_text() for text in figure.axes[1].texts if text.get_gid() == "jump"]
     assert sorted(said) == ["jump 0.0682", "matching 0.0316"]
 
@@ -248,7 +248,7 @@ def test_a_sweep_over_one_parameter_has_three_panels_before_bands_cut_half_way()
 @pytest.mark.parametrize("indexing", ["ij", "xy"])
 def test_a_sweep_over_two_parameters_is_a_map_blank_where_nothing_turns(indexing: str) -> None:
     x, y = np.meshgrid([1.03, 1.01, 1.02], [20.0, 30.0, 40.0, 50.0], indexing=indexing)  # type: ignore[call-overload]
-    verdicts = np.where(x < 1.015, "jam", np.where(y > 45, "standstill", np.where(y > 25, "recess", "astride")))
+    verdicts = np.where(x < 1.015, "jam", np.where(y > 45, "dwell", np.where(y > 25, "recess", "astride")))
     figure = sweep_figure({"clearance": x, "half angle": y}, columns(*x.shape), verdicts)
     (mesh,) = [each for each in figure.axes[0].collections if each.get_gid() == "map"]
     shown = mesh.get_array()
@@ -289,9 +289,9 @@ def test_the_same_figure_is_the_same_file(suffix: str, start: bytes) -> None:
     assert b"<dc:date>" not in first
 
 
-@pytest.mark.parametrize("draw", [law_figure, teeth_figure])
+@pytest.mark.parametrize("draw", [triangular_figure, teeth_figure])
 def test_a_figure_drawn_again_is_the_same_vector_file(draw: Callable[[TriangularTransmission], Figure]) -> None:
-    assert render(draw(law(12, 18, 0.03)), ".svg") == render(draw(law(12, 18, 0.03)), ".svg")
+    assert render(draw(transmission(12, 18, 0.03)), ".svg") == render(draw(transmission(12, 18, 0.03)), ".svg")
 
 
 @pytest.mark.parametrize("suffix", [".gif", ""])
@@ -302,9 +302,9 @@ def test_another_suffix_is_refused_with_those_that_are_known(suffix: str) -> Non
 
 @pytest.mark.parametrize("pair", [(48, 96, 0.05), (3, 10, 0.01)])
 def test_wheels_without_contact_are_refused_with_their_verdict(pair: tuple[int, int, float]) -> None:
-    for draw in (law_figure, teeth_figure):
+    for draw in (triangular_figure, teeth_figure):
         with pytest.raises(GearTrainError, match="no contact to draw"):
-            draw(law(*pair))
+            draw(transmission(*pair))
 
 
 def fresh(code: str) -> subprocess.CompletedProcess[str]:

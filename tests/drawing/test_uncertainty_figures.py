@@ -293,7 +293,7 @@ def test_where_nothing_fits_nothing_is_drawn() -> None:
 
 @pytest.fixture(scope="module")
 def findings() -> MonteCarloResult:
-    plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=1 %"]), ("moon",))
+    plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=1 %"]), ("moon",))
     trials = run_trials(plan, 300)
     cleared = jamming_map(plan, [0.3, 0.6], [0.5, 4.0], 20)
     return MonteCarloResult(trials, cleared, [run_course(plan, 0, 12, 1, 20)])
@@ -309,9 +309,9 @@ def test_pictures_of_trials_show_their_trials(findings: MonteCarloResult) -> Non
     assert line(course, "median")[:, 1] == pytest.approx(np.degrees(np.median(findings.courses[0].errors, axis=0)))
     (axes,) = monte_carlo_figure(findings, "pairs").axes
     assert sum(bar.get_width() for bar in axes.patches) == pytest.approx(1)
-    settled = line(monte_carlo_figure(findings, "convergence"), "any pair")
-    assert settled[-1, 0] == 300
-    assert settled[-1, 1] == pytest.approx((trials.marks & 1).any(axis=1).mean())
+    converged = line(monte_carlo_figure(findings, "convergence"), "any pair")
+    assert converged[-1, 0] == 300
+    assert converged[-1, 1] == pytest.approx((trials.marks & 1).any(axis=1).mean())
     figure = monte_carlo_figure(findings, "map")
     (mesh,) = [each for each in figure.axes[0].collections if each.get_gid() == "map"]
     seen = np.array(mesh.get_array()).reshape(2, 2)
@@ -320,7 +320,7 @@ def test_pictures_of_trials_show_their_trials(findings: MonteCarloResult) -> Non
         assert seen[at] == each.events["jam"].value
 
 
-def test_pictures_of_what_was_not_asked_are_refused(findings: MonteCarloResult) -> None:
+def test_pictures_of_what_was_not_requested_are_refused(findings: MonteCarloResult) -> None:
     bare = MonteCarloResult(findings.trials)
     for picture in ("course", "sobol", "map", "colour"):
         with pytest.raises(QuestionError) as caught:
@@ -334,16 +334,16 @@ def test_indices_are_drawn_with_their_intervals() -> None:
     assert [bar.get_width() for bar in axes.patches] == [0.5, 0.3]
 
 
-def test_the_command_draws_what_it_is_asked_for(tmp_path: Path) -> None:
+def test_the_command_draws_what_it_is_requested_for(tmp_path: Path) -> None:
     train = tmp_path / "pair.yaml"
     train.write_text(PAIR, encoding="utf-8")
     plot = tmp_path / "map.svg"
-    asked = ("montecarlo", train, "--trials", 20, "--clearance", "0.2:0.8:2", "--picture", "map", "--plot", plot)
-    done = call(*asked)
+    requested = ("montecarlo", train, "--trials", 20, "--clearance", "0.2:0.8:2", "--picture", "map", "--plot", plot)
+    done = call(*requested)
     assert done.exit_code == 0, done.output
     assert "probability of a jam" in plot.read_text(encoding="utf-8")
-    assert call(*asked[:-3], "colour", "--plot", plot).exit_code == 2
-    assert call(*asked[:-1], tmp_path / "map.gif").exit_code == 2
+    assert call(*requested[:-3], "colour", "--plot", plot).exit_code == 2
+    assert call(*requested[:-1], tmp_path / "map.gif").exit_code == 2
 
 
 def test_the_command_draws_counts_in_doubt(tmp_path: Path) -> None:
@@ -365,7 +365,7 @@ gears: [{pair: [p, q]}]
 inputs: {a: 1}
 outputs: {b: {}}
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
-cutting: {placement: {normal: 2 %}}
+cutting: {pitch_deviation: {normal: 2 %}}
 """
 
 # ---------------------------------------------------------------------------------------------------------- all of them

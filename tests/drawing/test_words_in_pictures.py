@@ -28,7 +28,7 @@ from written_text import read_picture
 from geartrain.drawing import picture, render
 from geartrain.drawing.train_pictures import KINDS
 
-LEAST = 8.0  # points
+MINIMUM = 8.0  # points
 WIDEST = 34.0  # inches: 3,400 pixels as the command draws them
 FEW = ["planetary", "bevel-differential", "humpage", "longcase-clock", "ravigneaux-set", "rv-reducer", "worm"]
 ALL = sorted(path.stem for path in train_files())
@@ -41,7 +41,7 @@ def faults_of(figure: Figure) -> dict[str, object]:
     faults = {
         "over each other": found.overlaps(),
         "over the edge": found.clipped(),
-        "too small": found.small(LEAST),
+        "too small": found.small(MINIMUM),
         "too large": [side for side in (found.width, found.height) if side > 72 * WIDEST],
     }
     return {name: what for name, what in faults.items() if what}

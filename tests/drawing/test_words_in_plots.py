@@ -22,12 +22,12 @@ from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES
 from geartrain.workshop.monte_carlo.monte_carlo_plots import ErrorBands, histogram_figure, pointer_error_figure
 
-CUT = ["montecarlo", "moon-triangular", "--set", "placement=2%"]
+CUT = ["montecarlo", "moon-triangular", "--set", "pitch_deviation=2%"]
 PAIR = ["mesh", "triangular", "--teeth", 60, 30]
 QUICK = [
-    ["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05", "--vary", "friction=0:0.5:6"],
-    ["mesh", "triangular", "--teeth", 60, 30, "--vary", "clearance=1.01:1.2:7", "--vary", "friction=0:0.5:6"],
-    ["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05"],
+    ["mesh", "triangular", "--teeth", 60, 30, "--clearance-factor", "1.05", "--vary", "friction=0:0.5:6"],
+    ["mesh", "triangular", "--teeth", 60, 30, "--vary", "clearance-factor=1.01:1.2:7", "--vary", "friction=0:0.5:6"],
+    ["mesh", "triangular", "--teeth", 60, 30, "--clearance-factor", "1.05"],
     ["mesh", "involute", "--teeth", 24, 36],
     ["torques", "zf-8hp70", "--state", "1"],
     ["torques", "norton-compound"],
@@ -41,12 +41,12 @@ QUICK = [
     ["optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window"],
 ]  # fmt: skip
 SLOW = [
-    ["montecarlo", "freeth-2021-teeth", "--set", "placement=2%", "--trials", 6, "--picture", "course",
+    ["montecarlo", "freeth-2021-teeth", "--set", "pitch_deviation=2%", "--trials", 6, "--picture", "course",
      *("--output", "moon", "--output", "saturn", "--output", "mars")],
-    ["montecarlo", "pennestri-2002-teeth", "--set", "placement=2%", "--trials", 8, "--output", "moon", "--sobol",
+    ["montecarlo", "pennestri-2002-teeth", "--set", "pitch_deviation=2%", "--trials", 8, "--output", "moon", "--sobol",
      "--picture", "sobol"],
     ["optimise", "pennestri-2002-teeth", "--output", "moon", "--best", "jam", "--free", "window"],
-    ["montecarlo", "moon-triangular", "--set", "placement=2%", "--trials", 20, "--picture", "map"],
+    ["montecarlo", "moon-triangular", "--set", "pitch_deviation=2%", "--trials", 20, "--picture", "map"],
     ["budget", "freeth-2021"],
     ["budget", "freeth-2008"],
     ["mesh", "compare", "--teeth", 48, 24],
@@ -104,12 +104,24 @@ def test_a_plot_has_the_colours_of_its_theme(arguments: list[object], theme: str
 
 
 def test_words_of_wheels_in_contact_can_be_read(tmp_path: Path) -> None:
-    check(["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05"], tmp_path, "--teeth-plot")
+    check(["mesh", "triangular", "--teeth", 60, 30, "--clearance-factor", "1.05"], tmp_path, "--teeth-plot")
 
 
 def test_a_sweep_says_what_is_swept(tmp_path: Path) -> None:
     target = tmp_path / "plot.svg"
-    call("mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05", "--vary", "friction=0:0.5:3", "--plot", target)
+    call(
+        "mesh",
+        "triangular",
+        "--teeth",
+        60,
+        30,
+        "--clearance-factor",
+        "1.05",
+        "--vary",
+        "friction=0:0.5:3",
+        "--plot",
+        target,
+    )
     words = [text.words for text in read_picture(target.read_bytes()).texts]
     assert "triangular teeth, 60 and 30, wheel 1 drives: friction varied" in words
 

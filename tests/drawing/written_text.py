@@ -41,14 +41,14 @@ class WrittenPicture:
     height: float
     texts: list[WrittenText] = field(default_factory=list)
 
-    def overlaps(self, least: float = 0.4) -> list[tuple[str, str]]:
-        """Pairs of words whose boxes share a strip of more than `least` points."""
+    def overlaps(self, minimum: float = 0.4) -> list[tuple[str, str]]:
+        """Pairs of words whose boxes share a strip of more than `minimum` points."""
         found = []
         low = np.array([text.corners.min(0) for text in self.texts]).reshape(-1, 2)
         high = np.array([text.corners.max(0) for text in self.texts]).reshape(-1, 2)
         for one, other in combinations(range(len(self.texts)), 2):
             near = (low[one] < high[other]).all() and (low[other] < high[one]).all()
-            if near and depth(self.texts[one], self.texts[other]) > least:
+            if near and depth(self.texts[one], self.texts[other]) > minimum:
                 found.append((self.texts[one].words, self.texts[other].words))
         return found
 
@@ -57,18 +57,18 @@ class WrittenPicture:
         page = np.array([self.width, self.height])
         return [t.words for t in self.texts if (t.corners < margin).any() or (t.corners > page - margin).any()]
 
-    def small(self, least: float) -> list[tuple[str, float]]:
+    def small(self, minimum: float) -> list[tuple[str, float]]:
         """Words under a size [pt]."""
-        return [(text.words, text.size) for text in self.texts if text.size < least - 1e-6]
+        return [(text.words, text.size) for text in self.texts if text.size < minimum - 1e-6]
 
 
 def depth(one: WrittenText, other: WrittenText) -> float:
     """How far (pt) two boxes reach into each other; 0 or less where an axis parts them (separating axis theorem)."""
-    least = np.inf
+    minimum = np.inf
     for axis in (*one.edges, *other.edges):
         mine, its = one.corners @ axis, other.corners @ axis
-        least = min(least, min(mine.max(), its.max()) - max(mine.min(), its.min()))
-    return float(least)
+        minimum = min(minimum, min(mine.max(), its.max()) - max(mine.min(), its.min()))
+    return float(minimum)
 
 
 def read_picture(data: bytes) -> WrittenPicture:

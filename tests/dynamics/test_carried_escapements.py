@@ -99,7 +99,7 @@ drive: {{weight: 0.1 kg, drum: 2 mm}}
     weight = find_budget(train, BudgetQuestion(turns=1, samples=20, trials=4)).crank.weight
     pull = 0.1 * 9.80665 * 0.002
     assert weight.torque == pytest.approx(pull, rel=1e-12)
-    assert [weight.mean, weight.least] == pytest.approx([0.9**3 * pull / 600] * 2, rel=1e-9)
+    assert [weight.mean, weight.minimum] == pytest.approx([0.9**3 * pull / 600] * 2, rel=1e-9)
     assert weight.efficiency == pytest.approx(0.9**3, rel=1e-9)
 
 

@@ -12,7 +12,7 @@ from commands import call, ended, without
 from geartrain import GearTrainError, load
 from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition
 from geartrain.errors import MissingExtraError
-from geartrain.teeth.transmission_table import join_transmission_tables, law_along, make_transmission_table
+from geartrain.teeth.transmission_table import join_transmission_tables, make_transmission_table, transmission_along
 
 TOOTHED = ("moon-triangular", "sorge-pairs", "longcase-clock-bs978", "freeth-2021", "freeth-2021-teeth",
            "freeth-2021-cut", "freeth-2006", "voulgaris-2022")  # fmt: skip
@@ -35,11 +35,11 @@ def test_every_link_of_a_shipped_train_moves_as_without_kernels(name: str, way: 
     # on either side of a corner a speed has another value, and rounding chooses the side
     off = np.abs(fast.rate - plain.rate) / (1 + np.abs(plain.rate))
     assert np.mean(off < 1e-11) > 0.999
-    assert fast.turned_back == plain.turned_back
+    assert fast.reversing_drivers == plain.reversing_drivers
     assert np.array_equal(fast.turns, plain.turns)
 
 
-def test_laws_that_are_read_from_tables_are_read_from_the_same() -> None:
+def test_transmissions_that_are_read_from_tables_are_read_from_the_same() -> None:
     composition = load("moon-triangular").motion(outputs=["moon"], tolerance=1e-6)._forward
     turns = np.linspace(0, 95, 3001)
     plain, fast = composition.at(turns), compiled(composition).at(turns)
@@ -47,19 +47,19 @@ def test_laws_that_are_read_from_tables_are_read_from_the_same() -> None:
     assert np.abs(fast.error - load("moon-triangular").motion(outputs=["moon"])._forward.at(turns).error).max() > 1e-12
 
 
-def test_a_law_in_tables_is_the_law_itself_and_bit_for_bit_the_same_compiled() -> None:
+def test_a_transmission_in_tables_is_the_transmission_itself_and_bit_for_bit_the_same_compiled() -> None:
     for source in load("freeth-2021-teeth").motion(outputs=["mars"])._forward.used:
-        table = make_transmission_table(source.law)
+        table = make_transmission_table(source.transmission)
         assert table is not None
         tables = join_transmission_tables([table])
-        S = np.linspace(-2, 3, 997) * source.law.period
+        S = np.linspace(-2, 3, 997) * source.transmission.period
         found = np.zeros((2, 2, len(S)))
-        for at, kernel in enumerate((law_along, law_along.compiled)):
+        for at, kernel in enumerate((transmission_along, transmission_along.compiled)):
             kernel(tables, 0, S, found[at, 0], found[at, 1], np.zeros(len(S)), np.zeros(len(S), dtype=np.int32))
         assert np.array_equal(found[0], found[1])
         assert np.array_equal(found[0, 0], table.error(S))
-        assert np.abs(found[0, 0] - source.law.error(S)).max() < 1e-14
-        assert np.abs(found[0, 1] - source.law.speed(S)).max() < 1e-13
+        assert np.abs(found[0, 0] - source.transmission.error(S)).max() < 1e-14
+        assert np.abs(found[0, 1] - source.transmission.speed(S)).max() < 1e-13
 
 
 def test_the_kernel_in_plain_python_is_the_compiled_one() -> None:
@@ -88,7 +88,7 @@ def test_pairs_that_cannot_be_followed_are_refused_with_their_names(monkeypatch:
         composition.at(np.linspace(0, 1, 2000))
 
 
-def test_a_run_is_the_same_whether_kernels_are_asked_for_or_not() -> None:
+def test_a_run_is_the_same_whether_kernels_are_requested_for_or_not() -> None:
     train = load("moon-triangular")
     slow, fast = (
         train.motion(outputs=["moon"], fast=fast).transmission_errors(-3.0, 5001)["moon"] for fast in (False, True)
@@ -104,7 +104,7 @@ def test_the_command_says_the_same_with_kernels_and_without() -> None:
     assert slow.output == fast.output == default.output
 
 
-def test_kernels_that_are_asked_for_and_not_installed_are_named_with_their_extra(
+def test_kernels_that_are_requested_for_and_not_installed_are_named_with_their_extra(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     motion = load("moon-triangular").motion(outputs=["moon"], fast=True)

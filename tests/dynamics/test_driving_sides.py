@@ -65,7 +65,7 @@ def test_behind_a_carrier_power_decides_and_not_the_wheel_written_first(pair: st
     (mesh,) = behind(pair).meshes
     assert (mesh.driver, mesh.who.why) == ("o", "power flows so from sun to out")
     # 48 teeth driving 16: the reverse would be 0.908
-    assert mesh.law.efficiency_mean() == pytest.approx(0.8821535, abs=1e-7)
+    assert mesh.transmission.efficiency_mean() == pytest.approx(0.8821535, abs=1e-7)
     assert behind(pair, "1").meshes[0].verdict.kind == behind("o, c", "1").meshes[0].verdict.kind
     loaded = behind(pair, rest="loads: {out: 1 N m}").torques()
     assert float(loaded.efficiency or 0) == pytest.approx(
@@ -123,7 +123,7 @@ def _along(row: Row, rates: list[Fraction | None]) -> Fraction:
     return sum((a * (rate or 0) for a, rate in zip(row, rates, strict=False)), Fraction(0))
 
 
-def asked(seed: int) -> tuple[RandomTrain, list[str]]:
+def requested(seed: int) -> tuple[RandomTrain, list[str]]:
     """A random train that moves, and some of its shafts."""
     train, random = driven_train(seed), Random(seed)
     motion = move(train)
@@ -140,7 +140,7 @@ FAILED = (575,)  # the frame was taken for a planet like an idle wheel
 def test_the_driver_is_he_whose_power_overcomes_what_resists(seeds: range) -> None:
     counted = {"one way": 0, "both": 0}
     for seed in (*FAILED, *seeds[:: max(1, len(seeds) // (5 * SAMPLE))]):
-        train, outputs = asked(seed)
+        train, outputs = requested(seed)
         if not outputs:
             continue
         loaded = GearTrain.declare({**train.data, "outputs": {f"out {link}": {"of": link} for link in outputs}})
@@ -222,13 +222,13 @@ def test_no_order_of_declaration_changes_who_drives_nor_what_is_lost(name: str) 
         for mesh in train.meshes:
             mate = found[mesh.name]
             assert (mate.driver, mate.verdict.kind) == (mesh.driver, mesh.verdict.kind)
-            assert mate.law.efficiency_mean() == pytest.approx(mesh.law.efficiency_mean(), rel=1e-12)
-            assert mate.law.error_range() == pytest.approx(mesh.law.error_range(), abs=1e-12)
+            assert mate.transmission.efficiency_mean() == pytest.approx(mesh.transmission.efficiency_mean(), rel=1e-12)
+            assert mate.transmission.error_range() == pytest.approx(mesh.transmission.error_range(), abs=1e-12)
 
 
 def test_no_order_of_declaration_changes_who_drives_in_random_trains(seeds: range) -> None:
     for seed in seeds[:: max(1, len(seeds) // SAMPLE)]:
-        train, outputs = asked(seed)
+        train, outputs = requested(seed)
         plain = GearTrain.declare({**train.data, "outputs": {f"out {link}": {"of": link} for link in outputs}})
         assert dict(shuffled(plain, Random(seed)).mechanics.drivers()) == dict(plain.mechanics.drivers()), seed
 
@@ -302,10 +302,13 @@ def test_a_pair_written_the_other_way_round_moves_alike_from_the_same_phase(name
     meshes = {mesh.name: mesh for mesh in train.meshes}
     swapped = []
     for source in motion._forward.sources:
-        mesh, law = meshes[source.id], source.law
+        mesh, transmission = meshes[source.id], source.transmission
         first, second = mesh.gear.pair
         # where a tooth of the wheel that is now written first stands
-        driver, driven = source.phase / law.period, float(law.angle(source.phase)) / (float(law.ratio) * law.period)
+        driver, driven = (
+            source.phase / transmission.period,
+            float(transmission.angle(source.phase)) / (float(transmission.ratio) * transmission.period),
+        )
         phase = driver if second == mesh.driver else driven
         swapped.append(f"  - {{id: {source.id}, pair: [{second}, {first}], phase: {phase!r}}}")
     other = load(f"extends: {name}\nname: swapped\ngears:\n" + "\n".join(swapped)).motion()
@@ -332,13 +335,13 @@ def test_a_phase_that_vanishes_is_none(pair: str) -> None:
 def test_the_moon_of_a_train_with_driven_first_wheels_starts_with_their_teeth_on_the_line() -> None:
     """By hand: the four pairs to the Moon, each a law of the wheel before; of the last the first wheel is driven."""
     train = shipped.train("pennestri-2002-teeth")
-    laws = {mesh.name: mesh.law for mesh in train.meshes}
+    transmissions = {mesh.name: mesh.transmission for mesh in train.meshes}
     motion = train.motion(outputs=["moon"])
     turns = np.linspace(0, 5, 5001)
     S: Any = 2 * np.pi * turns
     for name in ("G2", "G3", "G11"):
-        S = laws[name].angle(S) - laws[name].angle(0.0)
-    last = laws["G6"]
+        S = transmissions[name].angle(S) - transmissions[name].angle(0.0)
+    last = transmissions["G6"]
     # the driver's angle that has a tooth of the driven wheel on the line of centres: its front flank touches there
     guesses = np.linspace(-2, 2, 400_001) * last.period
     start = guesses[np.argmin(np.abs(last.angle(guesses)))]
@@ -410,7 +413,7 @@ def test_each_state_has_its_own_driver() -> None:
 def test_the_trials_of_a_looped_train_run_without_a_warning() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        arguments = ("--trials", 64, "--set", "placement=0.1 deg", "--output", "moon", "--output", "17", "--json")
+        arguments = ("--trials", 64, "--set", "pitch_deviation=0.1 deg", "--output", "moon", "--output", "17", "--json")
         found = call("montecarlo", "pennestri-2002-teeth", *arguments)
     assert found.exit_code in (0, 1)
     assert json.loads(found.stdout)["outputs"]

@@ -91,7 +91,7 @@ def states(train: GearTrain) -> tuple[str | None, ...]:
     return train.states or (None,)
 
 
-def asked(train: GearTrain) -> Iterator[Torques]:
+def requested(train: GearTrain) -> Iterator[Torques]:
     """Under the declared loads, and driven from each end to the other."""
     for state in states(train):
         figures = torque_figures(train, state)
@@ -116,7 +116,7 @@ def written(random: Random) -> object:
 @pytest.mark.parametrize("name", catalogue.every_train())
 def test_no_shipped_train_creates_energy(name: str) -> None:
     train = catalogue.train(name).unfolded
-    for found in asked(train):
+    for found in requested(train):
         require_no_energy(train, found)
 
 
@@ -152,7 +152,7 @@ def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int)
     if plain.tooth_form is not None:
         data["friction"] = random.choice([0.02, 0.1])
     train = load(data).unfolded
-    for found in asked(train):
+    for found in requested(train):
         require_no_energy(train, found)
 
 
@@ -182,7 +182,7 @@ def test_no_random_train_creates_energy(seeds: range) -> None:
     answered = 0
     for seed in seeds[:: max(1, len(seeds) // SAMPLE)]:
         train = GearTrain.declare(lossy(seed, oblique=True))
-        for found in asked(train):
+        for found in requested(train):
             require_no_energy(train, found)
             answered += bool(found.verdict)
     assert answered > 50
@@ -201,15 +201,15 @@ loads: {{b: 3}}
 """
         train = load(text)
         (mesh,) = train.meshes
-        for law in (mesh.law, mesh.reversed):
-            require_sound(law)
-        for found in asked(train):
+        for transmission in (mesh.transmission, mesh.reversed):
+            require_sound(transmission)
+        for found in requested(train):
             require_no_energy(train, found)
 
 
-def require_sound(law: TransmissionFunction) -> None:
-    for mean in (law.efficiency_mean(), law.efficiency_at_constant_load()):
-        assert not mean > 1, law
+def require_sound(transmission: TransmissionFunction) -> None:
+    for mean in (transmission.efficiency_mean(), transmission.efficiency_at_constant_load()):
+        assert not mean > 1, transmission
 
 
 @pytest.mark.parametrize("second", ["[p, w]", "[w, p]"])
@@ -230,7 +230,7 @@ loads: {{b: 1}}
 # ----------------------------------------------------------------------------------------- which flows there are at all
 
 
-def flows_by_enumeration(data: Data, asked_for: Sequence[str]) -> set[tuple[Fraction, ...]] | None:
+def flows_by_enumeration(data: Data, requested_for: Sequence[str]) -> set[tuple[Fraction, ...]] | None:
     """Torques on the links asked for, in every consistent pattern of power flow; None where something stays open."""
     speeds, graph, wheels = solve_naively(data).speeds, turning_graph(data), wheel_table(data)
     links = [link for link in data["links"] if link != "frame"]
@@ -254,7 +254,7 @@ def flows_by_enumeration(data: Data, asked_for: Sequence[str]) -> set[tuple[Frac
         for side, (_, (i, j, k), a, b, _, (forward, backward)) in zip(pattern, meshes, strict=True):
             left, right = a * (backward if side < 0 else 1), b * (forward if side > 0 else 1)
             columns.append(_column(at, {i: left}, {j: right}, {k: -left - right}))
-        columns += [_column(at, {link: Fraction(1)}) for link in asked_for]
+        columns += [_column(at, {link: Fraction(1)}) for link in requested_for]
         columns += [_column(at, row) for row in rigid_rows(data)]
         matrix = [[column[row] for column in columns] + [-Fraction(data["loads"].get(link, 0))]
                   for row, link in enumerate(links)]  # fmt: skip
@@ -271,7 +271,7 @@ def flows_by_enumeration(data: Data, asked_for: Sequence[str]) -> set[tuple[Frac
             if sides != (0,)
         )
         if not blocked and all(side * power >= 0 for side, power in zip(pattern, powers, strict=True)):
-            found.add(tuple(x[len(meshes) : len(meshes) + len(asked_for)]))
+            found.add(tuple(x[len(meshes) : len(meshes) + len(requested_for)]))
     return found
 
 

@@ -18,7 +18,7 @@ def extremes(motion: Motion, turns: float, samples: int) -> np.ndarray:
     run = MotionRun(motion, turns, samples)
     run.run()
     assert all(tally.error_within == tally.speed_within == 0 for tally in run.statistics)
-    return np.array([(t.most, t.least, t.fast, t.slow) for t in run.statistics])
+    return np.array([(t.most, t.minimum, t.fast, t.slow) for t in run.statistics])
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_no_sample_is_beyond_them_and_samples_at_corners_reach_them(name: str, w
     composition = motion._forward if way > 0 else motion._backward
     low, high = sorted((0.0, end))
     found = extremes(motion, end, 50)
-    corners = motion.corner_positions(0, end).turns
+    corners = motion.kink_positions(0, end).turns
     near = [np.clip(corners + side * offset, low, high) for side in (-1, 1) for offset in (1e-12, 1e-9, 1e-7)]
     turns = np.concatenate([np.linspace(low, high, 20_001), *near])
     parts = [composition.at(turns[at : at + composition.chunk]) for at in range(0, len(turns), composition.chunk)]
@@ -63,13 +63,13 @@ def test_of_a_pin_alone_they_are_those_of_its_formula() -> None:
     assert tally.peak_to_peak == pytest.approx(2 * asin(e / r), rel=1e-8)
 
 
-def test_of_one_pair_they_are_those_of_its_law() -> None:
+def test_of_one_pair_they_are_those_of_its_transmission() -> None:
     train = load("moon-triangular")
     (tally,) = _run(train.motion(outputs=["sun"]), 3, 30).statistics
-    law = train.meshes[0].law
-    assert tally.peak_to_peak == pytest.approx(np.ptp(law.error_range()), rel=1e-10)
-    slow, fast = law.speed_range()
-    mean = float(law.ratio)
+    transmission = train.meshes[0].transmission
+    assert tally.peak_to_peak == pytest.approx(np.ptp(transmission.error_range()), rel=1e-10)
+    slow, fast = transmission.speed_range()
+    mean = float(transmission.ratio)
     assert sorted(tally.speeds) == pytest.approx([slow / mean, fast / mean], rel=1e-7)
 
 
@@ -111,17 +111,17 @@ def test_extremes_of_runs_of_a_row_are_those_of_its_entries() -> None:
     values = random.normal(size=23)
     table = RangeExtremes(values, values + 1)
     first, length = random.integers(-60, 60, 400), random.integers(1, 30, 400)
-    least, most = table.over(first, first + length - 1)
+    minimum, most = table.over(first, first + length - 1)
     for at in range(400):
         entries = values[np.arange(first[at], first[at] + min(length[at], 23)) % 23]
-        assert (least[at], most[at]) == (entries.min(), entries.max() + 1)
+        assert (minimum[at], most[at]) == (entries.min(), entries.max() + 1)
 
 
 def test_speeds_at_a_jump_count_from_both_sides() -> None:
     motion = load("longcase-clock-bs978").motion()
     found = _run(motion, 0.5, 11).statistics
     for at, tally in enumerate(found):
-        corners = motion.corner_positions(0, 0.5).turns
+        corners = motion.kink_positions(0, 0.5).turns
         beside = np.concatenate([corners - 1e-11, corners + 1e-11])
         rates = motion.at(beside[(beside > 0) & (beside < 0.5)]).rate[at]
         assert tally.fast >= rates.max() - 1e-8 * abs(rates).max()

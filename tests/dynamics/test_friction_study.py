@@ -58,7 +58,7 @@ def test_a_pin_and_four_pairs_with_other_coefficients(sliding: float) -> None:
         friction = FrictionInForce(sliding, 1.5 * sliding)
         found = common.figures(dict.fromkeys(common.run.train.contacts, friction))
         expected_figures = (
-            expected.mean, expected.greatest_torque, expected.starting_torque, expected.efficiency
+            expected.mean, expected.maximum_torque, expected.starting_torque, expected.efficiency
         )  # fmt: skip
         assert found == pytest.approx(expected_figures, rel=1e-13)
 
@@ -71,7 +71,7 @@ def test_trials_are_those_of_a_train_each() -> None:
         for trial, row in enumerate(rows):
             train = GearTrain(draw_friction(plan.declared, 3, trial))
             found = train.torques(turns=0.2, samples=40)
-            assert row == [found.mean, found.greatest_torque, found.starting_torque, found.efficiency]
+            assert row == [found.mean, found.maximum_torque, found.starting_torque, found.efficiency]
 
 
 def test_where_carriers_turn_every_trial_asks_who_drives() -> None:
@@ -80,11 +80,11 @@ def test_where_carriers_turn_every_trial_asks_who_drives() -> None:
     train = GearTrain(draw_friction(plan.declared, 1, 0))
     found = train.torques(turns=0.01, samples=10)
     assert work_frictions(plan, 1, [0, 1]) == [
-        [found.mean, found.greatest_torque, found.starting_torque, found.efficiency]
+        [found.mean, found.maximum_torque, found.starting_torque, found.efficiency]
     ]
 
 
-def test_a_trial_that_locks_is_asked_of_a_train_of_its_own() -> None:
+def test_a_trial_that_locks_is_requested_of_a_train_of_its_own() -> None:
     text = (
         PIN.replace("FRICTION", "{sliding: 0.3, deviation: 0.4}").replace("INPUT", "b: 1").replace("LOAD", "a: -1 N m")
     )
@@ -94,7 +94,7 @@ def test_a_trial_that_locks_is_asked_of_a_train_of_its_own() -> None:
     assert any(row[0] is not None for row in rows)
     for trial, row in enumerate(rows):
         found = GearTrain(draw_friction(plan.declared, 1, trial)).torques(turns=1, samples=60)
-        assert row == [found.mean, found.greatest_torque, found.starting_torque, found.efficiency]
+        assert row == [found.mean, found.maximum_torque, found.starting_torque, found.efficiency]
 
 
 @pytest.mark.parametrize("seed", range(24))

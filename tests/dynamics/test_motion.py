@@ -22,22 +22,22 @@ from geartrain.simulation import find_tooth_impacts
 from geartrain.teeth import Ideal, PinToSlotTransmission
 
 
-def test_along_an_ordinary_train_laws_are_composed_one_in_the_other() -> None:
+def test_along_an_ordinary_train_transmissions_are_composed_one_in_the_other() -> None:
     train = load("moon-triangular")
     motion = train.motion(outputs=["sun", "c", "d", "moon"])
     ripples = motion.transmission_errors(3.0, 5001)
     angle = next(iter(ripples.values())).angle
-    laws = [mesh.law for mesh in train.meshes]
+    transmissions = [mesh.transmission for mesh in train.meshes]
     S, rate = angle, np.ones_like(angle)
-    for name, law in zip(ripples, laws, strict=True):
+    for name, transmission in zip(ripples, transmissions, strict=True):
         # each wheel turns as far as the pair before turns it, from a tooth on the line of centres
-        rate = rate * law.speed(S)
-        S = law.angle(S) - law.angle(0.0)
+        rate = rate * transmission.speed(S)
+        S = transmission.angle(S) - transmission.angle(0.0)
         ripple = ripples[name]
         sense = 1 if ripple.mean > 0 else -1
         assert np.allclose(ripple.mean * angle + ripple.error, sense * S, rtol=0, atol=1e-10)
-        near_corner = np.abs(ripple.speed - sense * rate) > 1e-9
-        assert near_corner.mean() < 1e-3
+        near_kink = np.abs(ripple.speed - sense * rate) > 1e-9
+        assert near_kink.mean() < 1e-3
 
 
 # a driver of the study starts where the pair before holds it back: the phases (pitches) at which its teeth are then
@@ -51,7 +51,7 @@ gears:
 
 
 @pytest.mark.parametrize(
-    ("lagging", "turns", "samples", "peak", "rms", "least", "most"),
+    ("lagging", "turns", "samples", "peak", "rms", "minimum", "most"),
     [
         (True, 20, 400_001, 5.968, 1.238, 0.634, 1.763),
         pytest.param(True, 95, 4_000_001, 6.058, 1.2385, 0.630, 1.771, marks=pytest.mark.long),
@@ -61,20 +61,20 @@ gears:
     ],
 )
 def test_the_moon_runs_as_in_the_table(
-    lagging: bool, turns: float, samples: int, peak: float, rms: float, least: float, most: float
+    lagging: bool, turns: float, samples: int, peak: float, rms: float, minimum: float, most: float
 ) -> None:
     train = load("moon-triangular")
     if lagging:
         S, phases = 0.0, []
         for mesh in train.meshes:
-            phases.append(S / mesh.law.period)
-            S = float(mesh.law.angle(S))
+            phases.append(S / mesh.transmission.period)
+            S = float(mesh.transmission.angle(S))
         train = load(LAGGING % tuple(phases[1:]))
     found = train.motion(outputs=["moon"]).transmission_errors(turns, samples)
     ripple = found["moon"]
     assert degrees(ripple.peak_to_peak) == pytest.approx(peak, rel=2e-3)
     assert degrees(ripple.rms) == pytest.approx(rms, rel=1e-3)
-    assert ripple.speed.min() / ripple.mean == pytest.approx(least, abs=2e-3)
+    assert ripple.speed.min() / ripple.mean == pytest.approx(minimum, abs=2e-3)
     assert ripple.speed.max() / ripple.mean == pytest.approx(most, abs=6e-3)
 
 
@@ -103,16 +103,16 @@ def test_the_lunar_pointer_has_the_anomaly_of_its_pin() -> None:
 
 
 @pytest.mark.parametrize(
-    ("planet", "least", "most"), [("mars", -0.369, 0.718), ("jupiter", -0.134, 0.232), ("saturn", -0.079, 0.125)]
+    ("planet", "minimum", "most"), [("mars", -0.369, 0.718), ("jupiter", -0.134, 0.232), ("saturn", -0.079, 0.125)]
 )
-def test_the_superior_planets_go_back(planet: str, least: float, most: float) -> None:
+def test_the_superior_planets_go_back(planet: str, minimum: float, most: float) -> None:
     train = load("freeth-2021")
     motion = train.motion(outputs=[planet])
     found = motion.transmission_errors(100.0, 200_001)
     ripple = found[planet]
-    lead = float(train.solve()[motion._problem.lead])
+    lead = float(train.solve()[motion._problem.driving_link])
     speeds = ripple.speed * lead * np.sign(ripple.mean * lead)
-    assert speeds.min() == pytest.approx(least, abs=6e-4)
+    assert speeds.min() == pytest.approx(minimum, abs=6e-4)
     assert speeds.max() == pytest.approx(most, abs=6e-4)
     assert speeds.min() < 0
 
@@ -136,13 +136,13 @@ outputs: {right: {}}
 """
 
 
-def test_a_differential_is_the_solution_of_its_two_laws() -> None:
+def test_a_differential_is_the_solution_of_its_two_transmissions() -> None:
     train = load(DIFFERENTIAL)
     motion = train.motion()
     found = motion.transmission_errors(0.5, 101)
     angle = next(iter(found.values())).angle
     ripple = found["right"]
-    first, second = (mesh.law for mesh in train.meshes)
+    first, second = (mesh.transmission for mesh in train.meshes)
     for at in (0, 13, 50, 99):
         left, arm = angle[at], angle[at] / 3
 
@@ -185,14 +185,14 @@ outputs: {right: {}, arm: {}, lay: {}, planet: {}}
 """
 
 
-def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_laws() -> None:
+def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_transmissions() -> None:
     """The arm is turned by the wheel that its own planet turns."""
     train = load(SHUNT)
     motion = train.motion()
     assert [len(step.sources) for step in motion._forward.steps if step.coupled] == [4]
     found = motion.transmission_errors(0.3, 61)
     angle = next(iter(found.values())).angle
-    laws = {mesh.name: mesh.law for mesh in train.meshes}
+    transmissions = {mesh.name: mesh.transmission for mesh in train.meshes}
     pairs = (("l~p", "left", "planet", "arm"), ("q~r", "planet", "right", "arm"))
     pairs += (("v~w", "right", "lay", None), ("u~y", "lay", "arm", None))
     mean = {link: float(speed) for link, speed in train.solve().speeds.items()}
@@ -202,7 +202,7 @@ def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_laws(
         for name, driver, driven, carrier in pairs:
             base, still = (place[carrier], mean[carrier]) if carrier else (0.0, 0.0)
             ahead = np.sign(mean[driver] - still)
-            turned = float(laws[name].angle(ahead * (place[driver] - base)) - laws[name].angle(0.0))
+            turned = float(transmissions[name].angle(ahead * (place[driver] - base)) - transmissions[name].angle(0.0))
             assert -ahead * turned == pytest.approx(place[driven] - base, abs=1e-10), name
 
 
@@ -228,10 +228,10 @@ def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
     assert (found["moon"].speed == found["moon"].mean).all()
 
 
-def test_a_pin_alone_moves_its_slot_by_its_law() -> None:
+def test_a_pin_alone_moves_its_slot_by_its_transmission() -> None:
     train = load("freeth-2008")
     (joint,) = train.mechanics.pins
-    assert isinstance(joint.law, PinToSlotTransmission)
+    assert isinstance(joint.transmission, PinToSlotTransmission)
     source = train.motion(outputs=["moon"])._forward.sources
     assert [each.id for each in source] == [joint.coupling.name]
 
@@ -273,11 +273,11 @@ def test_a_phase_is_that_of_the_first_wheel_whoever_drives() -> None:
     plain = load(PAIR).motion()
     declared = PAIR.replace("{pair: [p, w]}", "{pair: [p, w], phase: 1/4}").replace("[u, v]", "[u, v], phase: 0.3")
     shifted = load(declared).motion()
-    law = {source.id: source.law for source in plain._forward.sources}
+    transmission = {source.id: source.transmission for source in plain._forward.sources}
     first, second = shifted._forward.sources
     assert first.phase == pytest.approx(2 * pi / 24 / 4, rel=1e-15)
     # the first wheel of the second pair is driven: its own tooth is 0.3 of a pitch past the line of centres
-    assert float(law["u~v"].angle(second.phase)) == pytest.approx(0.3 * 2 * pi / 30, rel=1e-11)
+    assert float(transmission["u~v"].angle(second.phase)) == pytest.approx(0.3 * 2 * pi / 30, rel=1e-11)
     # a phase of the first pair is a turn of the crank by as much
     turns = np.linspace(0, 2, 101)
     moved = plain.at(turns + 1 / 24 / 4).error[0] - plain.at([1 / 24 / 4]).error[0]
@@ -302,7 +302,7 @@ def test_random_phases_are_those_of_their_seed_and_leave_declared_ones() -> None
     assert {each[0] for each in starts} == {train._forward.sources[0].phase}
 
 
-def test_turned_back_the_other_flanks_drive_and_all_play_is_taken_up() -> None:
+def test_turned_back_the_other_flanks_drive_and_all_backlash_is_taken_up() -> None:
     motion = load(PAIR).motion()
     ahead = motion.transmission_errors(1.0, 4001)
     back = motion.transmission_errors(-1.0, 4001)
@@ -313,9 +313,9 @@ def test_turned_back_the_other_flanks_drive_and_all_play_is_taken_up() -> None:
     (mesh, _) = load(PAIR).meshes
     first = [motion._forward.at(-angle).error[0] for angle in (np.linspace(0, 1 / 24, 50),)]
     behind = motion._backward.at(-np.linspace(0, 1 / 24, 50)).error[0]
-    play = -(behind - first[0])  # b turns against a
-    assert (play > 0).all()
-    assert play.min() == pytest.approx(mesh.verdict.play, rel=0.05)
+    backlash = -(behind - first[0])  # b turns against a
+    assert (backlash > 0).all()
+    assert backlash.min() == pytest.approx(mesh.verdict.backlash, rel=0.05)
 
 
 def test_power_decides_who_drives_where_a_load_is_declared() -> None:
@@ -333,8 +333,8 @@ def test_power_decides_who_drives_where_a_load_is_declared() -> None:
     passage = backwards.at(np.linspace(0, 1, 201))
     b = -24 / 36 * 2 * pi * passage.turns + passage.error[0]
     # the first wheel is driven here: a tooth of it, not of its driver, is on the line of centres at the start
-    assert np.allclose(source.law.angle(source.phase), 0, atol=1e-15)
-    assert np.allclose(source.law.angle(source.phase - b), 2 * pi * passage.turns, rtol=0, atol=1e-11)
+    assert np.allclose(source.transmission.angle(source.phase), 0, atol=1e-15)
+    assert np.allclose(source.transmission.angle(source.phase - b), 2 * pi * passage.turns, rtol=0, atol=1e-11)
 
 
 def test_the_mean_angle_keeps_its_phase_over_a_million_million_turns() -> None:
@@ -351,8 +351,8 @@ def test_estimates_and_spectrum_are_those_of_the_table_and_of_a_fourier_sum() ->
     assert degrees(found["bound"]["peak_to_peak"]) == pytest.approx(6.46, abs=5e-3)
     assert degrees(found["independent"]["rms"]) == pytest.approx(1.2385, abs=5e-5)
     # the same sums from angles at which flanks are brought to touch, `marching.Teeth.touching`
-    for how, greatest, rms in (("superposed", 0.9538, 0.19181), ("superposed_with_lag", 0.7162, 0.11933)):
-        assert degrees(found[how]["difference"]["greatest"]) == pytest.approx(greatest, abs=1e-4)
+    for how, maximum, rms in (("superposed", 0.9538, 0.19181), ("superposed_with_lag", 0.7162, 0.11933)):
+        assert degrees(found[how]["difference"]["maximum"]) == pytest.approx(maximum, abs=1e-4)
         assert degrees(found[how]["difference"]["rms"]) == pytest.approx(rms, abs=1e-5)
     run.find_spectra()
     lines = run.spectra["moon"]
@@ -381,7 +381,7 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
         a, b = (10**12 * count + (side == driven) * count for side, count in enumerate((circuit.a, circuit.b)))
         circuits = [*train.circuits[:at], circuit._replace(a=a, b=b), *train.circuits[at + 1 :]]
         case = train.declaration.case(state)
-        lead = case.inputs[motion._problem.lead]
+        lead = case.inputs[motion._problem.driving_link]
         changed = solve(
             replace(train.kinematics.whole, circuits=circuits),
             case,
@@ -488,21 +488,25 @@ def test_an_interrupted_summary_says_what_it_has_seen(tmp_path: Path, monkeypatc
     assert data["partial"] == {"done": sum(seen), "of": 100_001}
 
 
-BLOWS = PAIR.replace("b: {wheels", "b: {inertia: 3 g cm2, wheels").replace("c: {wheels", "c: {inertia: 5 g cm2, wheels")
+IMPACTS = PAIR.replace("b: {wheels", "b: {inertia: 3 g cm2, wheels").replace(
+    "c: {wheels", "c: {inertia: 5 g cm2, wheels"
+)
 
 
-def test_a_blow_strikes_the_inertia_of_all_that_turns_with_the_driven_wheel() -> None:
-    train = load(BLOWS + "rate: 2 turn/s\n")
+def test_a_impact_strikes_the_inertia_of_all_that_turns_with_the_driven_wheel() -> None:
+    train = load(IMPACTS + "rate: 2 turn/s\n")
     first, second = find_tooth_impacts(train.mechanics).values()
     ratio = 20 / 30
     assert first.inertia == pytest.approx((3 + 5 * ratio**2) * 1e-7, rel=1e-12)
     assert second.inertia == pytest.approx(5e-7, rel=1e-12)
-    law = train.meshes[0].law
-    dissipated = sum(leap.size**2 / 2 for leap in law.speed_leaps()) * (3 + 5 * ratio**2) * 1e-7 * (4 * pi) ** 2
+    transmission = train.meshes[0].transmission
+    dissipated = (
+        sum(leap.size**2 / 2 for leap in transmission.speed_leaps()) * (3 + 5 * ratio**2) * 1e-7 * (4 * pi) ** 2
+    )
     assert first.power == pytest.approx(dissipated * 2 * 24, rel=1e-12)
     assert second.rate == pytest.approx(2 * 24 / 36 * 20, rel=1e-12)
     assert find_tooth_impacts(load(PAIR).mechanics) == {}
-    assert find_tooth_impacts(load(BLOWS).mechanics) == {}
+    assert find_tooth_impacts(load(IMPACTS).mechanics) == {}
 
 
 def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
@@ -576,24 +580,24 @@ def test_a_slot_points_to_its_pin_whichever_way_the_pin_goes(kind: str, radius: 
     seen = to_pin if kind == "pin_and_slot" else -to_pin
     assert np.allclose(np.exp(1j * out), seen / np.abs(seen), rtol=0, atol=1e-12)
     if kind == "pin_and_slot":
-        assert not passage.turned_back
+        assert not passage.reversing_drivers
     else:  # its slot rocks, and the wheel on it with it
-        assert passage.turned_back == {"x~y"}
+        assert passage.reversing_drivers == {"x~y"}
 
 
 def test_what_a_run_tells_is_of_that_run_alone() -> None:
     motion = load(REVERSED_PIN.replace("KIND", "pin_follower").replace("RADIUS", "4")).motion()
     whole = MotionRun(motion, turns=1.0, samples=1001)
     whole.run()
-    assert whole.turned_back == {"x~y"}
+    assert whole.reversing_drivers == {"x~y"}
     # the slot has not begun to rock back yet where this run ends
     short = MotionRun(motion, turns=0.1, samples=101)
     short.run()
-    assert short.turned_back == set()
+    assert short.reversing_drivers == set()
 
 
 @pytest.mark.parametrize("name", ["freeth-2021-teeth", "pennestri-2002-teeth"])
-def test_every_law_holds_at_the_angle_where_its_driver_stands(name: str) -> None:
+def test_every_transmission_holds_at_the_angle_where_its_driver_stands(name: str) -> None:
     train = load(name)
     links = list(train.declaration.links)
     motion = train.motion(outputs=links)
@@ -613,10 +617,19 @@ def test_every_law_holds_at_the_angle_where_its_driver_stands(name: str) -> None
         first = mesh.driver == circuit.wheels[0]
         driver, driven = (i - k, j - k) if first else (j - k, i - k)
         way = np.sign(driver[-1] - driver[0])
-        law, start = mesh.law, 0.0
+        transmission, start = mesh.transmission, 0.0
         if not first:  # a tooth of the driven wheel is on the line of centres
-            start = brentq(lambda S, law=law: float(law.angle(S)), -2 * law.period, 2 * law.period, xtol=1e-16)
-        turned = np.sign(circuit.a * circuit.b) * way * (law.angle(start + way * driver) - law.angle(start))
+            start = brentq(
+                lambda S, transmission=transmission: float(transmission.angle(S)),
+                -2 * transmission.period,
+                2 * transmission.period,
+                xtol=1e-16,
+            )
+        turned = (
+            np.sign(circuit.a * circuit.b)
+            * way
+            * (transmission.angle(start + way * driver) - transmission.angle(start))
+        )
         assert np.allclose(driven, -turned, rtol=0, atol=1e-9), circuit.id
 
 
@@ -627,7 +640,7 @@ def test_a_tally_of_stretches_is_that_of_the_whole() -> None:
     for part in np.split(np.arange(1000), [10, 300, 950]):
         tally.add(error[part], rate[part])
     assert tally.rms == pytest.approx(float(np.std(error)), rel=1e-13)
-    assert (tally.least, tally.most, tally.slow) == (error.min(), error.max(), rate.min())
+    assert (tally.minimum, tally.most, tally.slow) == (error.min(), error.max(), rate.min())
 
 
 def test_speeds_of_pairs_that_hang_on_each_other_are_the_slopes_of_their_angles() -> None:
@@ -639,7 +652,7 @@ def test_speeds_of_pairs_that_hang_on_each_other_are_the_slopes_of_their_angles(
     assert np.abs(passage.rate).max() > 0.01
 
 
-ExactRatio = type(Ideal(form="ideal").law(1, 1))
+ExactRatio = type(Ideal(form="ideal").transmission(1, 1))
 
 
 class Saw(ExactRatio):
@@ -658,16 +671,16 @@ class Saw(ExactRatio):
         return 1 + 2 * self.height * np.where(x < self.rise, 1 / self.rise, -1 / (2 * pi - self.rise))
 
 
-def test_newton_is_kept_from_leaping_over_corners_and_refuses_a_dead_centre() -> None:
+def test_newton_is_kept_from_leaping_over_kinks_and_refuses_a_dead_centre() -> None:
     base = np.linspace(0, 2 * pi, 5001)[None]
     one = CoupledErrors(("m",), (Saw(0.5, 0.2),), np.array([1.0]), np.array([[-4.0]]))
     delta, rate, turning = solve_coupled_errors(one, base, [1.0])
-    law = one.laws[0]
-    assert np.abs(delta[0] - law.error(base[0] - 4 * delta[0])).max() < 1e-13
+    transmission = one.transmissions[0]
+    assert np.abs(delta[0] - transmission.error(base[0] - 4 * delta[0])).max() < 1e-13
     assert np.allclose(turning[0], 1 - 4 * rate[0])
     # the driven side drives its own driver faster than it is driven: past a dead centre
     with pytest.raises(GearTrainError, match="dead centre"):
-        solve_coupled_errors(CoupledErrors(("m",), one.laws, np.array([1.0]), np.array([[4.0]])), base, [1.0])
+        solve_coupled_errors(CoupledErrors(("m",), one.transmissions, np.array([1.0]), np.array([[4.0]])), base, [1.0])
 
 
 class Points(ExactRatio):
@@ -725,16 +738,16 @@ def test_extremes_are_found_between_the_positions() -> None:
     run.run()
     (tally,) = run.statistics
     assert degrees(tally.peak_to_peak) == pytest.approx(5.980, abs=5e-4)
-    least, most = tally.speeds
-    assert (least, most) == (pytest.approx(0.6365, abs=5e-4), pytest.approx(1.768, abs=5e-4))
+    minimum, most = tally.speeds
+    assert (minimum, most) == (pytest.approx(0.6365, abs=5e-4), pytest.approx(1.768, abs=5e-4))
     fine = motion.at(np.linspace(0, 20, 4_000_001)).error[0]
-    assert tally.least <= fine.min() + 1e-9
+    assert tally.minimum <= fine.min() + 1e-9
     assert tally.most >= fine.max() - 1e-12
     assert tally.most <= fine.max() + 2e-5
     # nothing beyond the ends of the run is counted
     short = MotionRun(motion, 0.05, 51)
     short.run()
-    corners = motion.corner_positions(0, 0.05).turns
-    inside = motion.at(np.concatenate([np.linspace(0, 0.05, 200_001), corners])).error[0]
+    kinks = motion.kink_positions(0, 0.05).turns
+    inside = motion.at(np.concatenate([np.linspace(0, 0.05, 200_001), kinks])).error[0]
     assert short.statistics[0].most <= inside.max() + 1e-9
-    assert short.statistics[0].least >= inside.min() - 1e-9
+    assert short.statistics[0].minimum >= inside.min() - 1e-9

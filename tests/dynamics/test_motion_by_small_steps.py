@@ -98,17 +98,17 @@ def test_all_pairs_touch_at_the_start_where_the_composition_has_them(name: str) 
 
 @pytest.mark.parametrize("name", TRAINS)
 @pytest.mark.parametrize(
-    ("method", "least", "most", "left"),
+    ("method", "minimum", "most", "left"),
     [("Euler", 0.8, 1.2, 1e-2), ("midpoint", 1.85, 2.15, 1e-4), ("Runge-Kutta", 3.7, 4.3, 1e-8)],
 )
 def test_with_collisions_located_each_method_has_its_own_order(
-    name: str, method: str, least: float, most: float, left: float
+    name: str, method: str, minimum: float, most: float, left: float
 ) -> None:
     errors = [off(name, QUARTER, PLACES, steps, method) for steps in LOCATED]
-    assert least < order([error.mean() for error in errors], LOCATED) < most
-    assert least < order([error.max() for error in errors], LOCATED) < most
+    assert minimum < order([error.mean() for error in errors], LOCATED) < most
+    assert minimum < order([error.max() for error in errors], LOCATED) < most
     # at the last place too the difference falls as it should, to the error that the order allows
-    expected = (LOCATED[0] / LOCATED[-1]) ** least
+    expected = (LOCATED[0] / LOCATED[-1]) ** minimum
     assert errors[-1][-1] < 1.5 * expected * errors[0].max()
     assert errors[-1].max() < left
 

@@ -25,7 +25,7 @@ links:
   c: {{wheels: {{r: 40}}, inertia: 5 g cm2, bearing: 1 N mm}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
 gears: [{{pair: [p, q], phase: {0}}}, {{pair: [s, r], phase: {1}}}]
-tooth_form: {{form: triangular, half_angle: 30 deg, clearance: 1.02}}
+tooth_form: {{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}}
 friction: 0
 inputs: {{a: 1}}
 loads: {{c: -1 N mm}}
@@ -97,7 +97,7 @@ def test_time_steps_start_at_the_same_teeth(phases: tuple[float, float]) -> None
 
 @pytest.mark.parametrize("phases", PHASES)
 def test_trials_of_teeth_without_errors_start_at_the_same_teeth(phases: tuple[float, float]) -> None:
-    plan = find_trial_plan(chain(phases), read_error_overrides(["placement=1e-9 deg"]), ["c"])
+    plan = find_trial_plan(chain(phases), read_error_overrides(["pitch_deviation=1e-9 deg"]), ["c"])
     found = run_course(plan, 0, 80, seed=3, trials=2)
     x = 2 * pi * found.turns
     expected = np.array([turned(phases, each) for each in x]) - 20 / 31 * 15 / 40 * x

@@ -432,8 +432,8 @@ def test_collisions_stand_beside_sliding() -> None:
     train = load(STRUCK)
     table = rows(page(train), "where")
     assert table[0] == ["where", "sliding", "of power in", "of all sliding", "impact", "of power in"]
-    law = train.meshes[0].law
-    lost = sum(leap.size**2 / 2 for leap in law.speed_leaps())
+    transmission = train.meshes[0].transmission
+    lost = sum(leap.size**2 / 2 for leap in transmission.speed_leaps())
     energy = lost * (4 + 7 * (24 / 40) ** 2) * 1e-7 * (2 * pi * 3) ** 2
     data = torque_figures(train).to_dict()["losses"]
     assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)

@@ -203,7 +203,7 @@ def test_trains_have_the_flows_that_a_trial_of_all_patterns_finds(
     moving: Mapping[str, Fraction] = {**speeds, "frame": ZERO}
     assume(all(moving[f"s{at}"] for at in range(len(parts) + 1)))
     ends = ("s0", f"s{len(parts)}")
-    loaded, asked = ends if at_input else ends[::-1]
+    loaded, requested = ends if at_input else ends[::-1]
     balance = TorqueBalance(
         tuple(links),
         tuple(
@@ -211,7 +211,7 @@ def test_trains_have_the_flows_that_a_trial_of_all_patterns_finds(
             for at, (i, j, k, a, b, eta) in enumerate(meshes)
         ),
         {loaded: sense / moving[loaded]},
-        (asked,),
+        (requested,),
         tuple(held),
     )
     try:
@@ -226,7 +226,7 @@ LOCKING = Stage("set", False, (30, 29, 30, 32, 1, 1), (Fraction(9, 10), Fraction
 PLAIN = Stage("pair", False, (1, 1, 1, 1, 23, 41), (Fraction(19, 20), ONE, ONE))
 
 
-def long_train(parts: Sequence[Stage], loaded: str, asked: str, power: int) -> TorqueBalance:
+def long_train(parts: Sequence[Stage], loaded: str, requested: str, power: int) -> TorqueBalance:
     """Speeds stage by stage; a set has the speed ratio arm/sun of 1/(1 - i0), i0 its basic ratio."""
     links, meshes, held = joined(parts)
     speeds = {"frame": ZERO, "s0": ONE}
@@ -246,7 +246,7 @@ def long_train(parts: Sequence[Stage], loaded: str, asked: str, power: int) -> T
             for at, (i, j, k, a, b, eta) in enumerate(meshes)
         ),
         {loaded: power / speeds[loaded]},
-        (asked,),
+        (requested,),
         tuple(held),
     )
 
@@ -425,7 +425,7 @@ def test_all_consistent_flows_are_those_of_the_case(case: dict[str, Any]) -> Non
 )  # fmt: skip
 def test_the_efficiency_is_the_ratio_with_each_tooth_ratio_lessened_by_its_loss(case: dict[str, Any]) -> None:
     """Kreines' and Mueller's rule: the ratio of speeds with every basic ratio times eta to the sign of its flow."""
-    (known,), (asked,) = case["torque_known"], case["torque_unknown"]
+    (known,), (requested,) = case["torque_known"], case["torque_unknown"]
     balance = balance_of(case)
     plain = TorqueBalance(
         balance.links,
@@ -448,7 +448,7 @@ def test_the_efficiency_is_the_ratio_with_each_tooth_ratio_lessened_by_its_loss(
         matrix.append([*(ONE if link == known else ZERO for link in links), ONE])
         speeds, only = eliminated(matrix)
         assert only
-        return speeds[links.index(asked)]
+        return speeds[links.index(requested)]
 
     (solution,) = case["solutions"]
     assert ratio(False) / ratio(True) in (Fraction(solution["efficiency"]), 1 / Fraction(solution["efficiency"]))

@@ -92,7 +92,7 @@ def test_two_inputs_and_equal_loads_are_decided_by_statics(inputs: str) -> None:
     assert sum(found.powers.values()) == 0
 
 
-def test_naming_the_link_that_is_asked_for_anyway_changes_nothing() -> None:
+def test_naming_the_link_that_is_requested_for_anyway_changes_nothing() -> None:
     loads = "left: -10 N m, right: -10 N m"
     found = axle("case: 1, left: 1", loads, "solve_for: case").torques()
     assert found == axle("case: 1, left: 1", loads).torques()
@@ -231,12 +231,12 @@ def equilibria(draw: st.DrawFn) -> tuple[Data, str, dict[str, Fraction]]:
         data["fixed"] = [draw(st.sampled_from(moving))]
     if draw(st.booleans()) and len(moving) > 1:
         data["locks"] = [list(draw(st.permutations(moving))[:2])]
-    asked = draw(st.sampled_from(moving))
-    data["inputs"] = {asked: Fraction(1)}
+    requested = draw(st.sampled_from(moving))
+    data["inputs"] = {requested: Fraction(1)}
     assume(not is_a_linkage(data))
     assume(solve_naively(data).kind in ("free", "determined"))
     loads = loads_of(data, {name: draw(numbers) for name in columns(data)})
-    return data, asked, loads
+    return data, requested, loads
 
 
 def ask(data: Data, loads: Mapping[str, Fraction]) -> Torques:
@@ -248,18 +248,18 @@ def ask(data: Data, loads: Mapping[str, Fraction]) -> Torques:
 @given(equilibria())
 @settings(max_examples=150, deadline=None)
 def test_the_torque_of_an_input_follows_from_equilibrium_whatever_is_free(found: tuple[Data, str, Any]) -> None:
-    data, asked, loads = found
-    known = {link: torque for link, torque in loads.items() if link != asked}
+    data, requested, loads = found
+    known = {link: torque for link, torque in loads.items() if link != requested}
     answer = ask(data, known)
     assert answer.verdict, answer.verdict
     # a link that can move has one torque that balances; the others are as given
-    assert answer.external.get(asked, 0) == loads[asked]
+    assert answer.external.get(requested, 0) == loads[requested]
     braked = {held.links[0] for held in answer.held if len(held.links) == 1}
     acting = {link: torque for link, torque in answer.external.items() if torque and link not in braked}
     assert acting == {link: torque for link, torque in loads.items() if torque and link not in braked}
     # every link is in balance with its pairs, brakes and locks, where these are plain
     if answer.verdict.kind == "determined":
-        rest = {link: loads[link] for link in known} | {asked: loads[asked]}
+        rest = {link: loads[link] for link in known} | {requested: loads[requested]}
         for pair in answer.pairs.values():
             for link, torque in zip(pair.links, pair.torques, strict=True):
                 rest[link] = rest.get(link, Fraction(0)) + torque
@@ -275,13 +275,13 @@ def test_the_torque_of_an_input_follows_from_equilibrium_whatever_is_free(found:
 def test_loads_that_do_work_in_some_free_motion_are_unbalanced(
     found: tuple[Data, str, Any], draw: st.DataObject
 ) -> None:
-    data, asked, loads = found
-    motions = virtual_motions(data, [asked])
+    data, requested, loads = found
+    motions = virtual_motions(data, [requested])
     moving = sorted({link for motion in motions for link in motion})
     assume(moving)
     loads = dict(loads)
     loads[draw.draw(st.sampled_from(moving))] += 1
-    answer = ask(data, {link: torque for link, torque in loads.items() if link != asked})
+    answer = ask(data, {link: torque for link, torque in loads.items() if link != requested})
     assert answer.verdict.kind == "unbalanced", answer.verdict
     # what it says would help does: it makes every free motion powerless
     for link in answer.verdict.candidates:

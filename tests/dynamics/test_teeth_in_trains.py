@@ -14,7 +14,7 @@ from models import PAIR
 from geartrain import GearTrainError, load
 from geartrain.teeth import GearMesh, Triangular
 
-TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}\nfriction: 0.1\ninputs: {a: 1}"
+TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}\nfriction: 0.1\ninputs: {a: 1}"
 # 20/60 turns between 1.01031 and 1.0390 (30 deg, equal depth)
 
 
@@ -34,10 +34,10 @@ def test_power_flows_from_the_input_unless_a_driver_is_declared() -> None:
     declared = PAIR.replace("pair: [p, w]", "pair: [p, w], driver: w")
     (mesh,) = load(declared.format(rest=TEETH)).meshes
     assert (mesh.driver, mesh.who.why) == ("w", "declared")
-    assert mesh.law.ratio == 3
+    assert mesh.transmission.ratio == 3
 
 
-@pytest.mark.parametrize(("clearance", "kind"), [("1.001", "jam"), ("1.05", "standstill")])
+@pytest.mark.parametrize(("clearance", "kind"), [("1.001", "jam"), ("1.05", "dwell")])
 def test_teeth_that_cannot_turn_fail_the_check_and_the_report(tmp_path, clearance: str, kind: str) -> None:
     path = tmp_path / "t.yaml"
     path.write_text(PAIR.format(rest=TEETH.replace("1.02", clearance)), encoding="utf-8")
@@ -128,11 +128,11 @@ print([name for name in sys.modules if name in heavy], "numpy" in sys.modules)
     assert done.stdout.strip() == "[] True"
 
 
-def test_ideal_teeth_have_the_law_of_their_counts_and_import_nothing() -> None:
+def test_ideal_teeth_have_the_transmission_of_their_counts_and_import_nothing() -> None:
     code = """
 import sys
 from geartrain.teeth import Ideal
-laws = [Ideal(form="ideal").law(20, 60, driver=driver) for driver in (1, 2)]
+laws = [Ideal(form="ideal").transmission(20, 60, driver=driver) for driver in (1, 2)]
 assert [str(law.ratio) for law in laws] == ['1/3', '3']
 assert [law.error_range() for law in laws] == [(0.0, 0.0)] * 2
 assert "numpy" not in sys.modules

@@ -56,7 +56,7 @@ def test_every_form_gives_an_external_pair_its_exact_ratio(form: str) -> None:
     assert (mesh.form, mesh.driver, mesh.driven) == (form, "p", "w")
     assert mesh.verdict
     assert mesh.faults == ()
-    assert mesh.law.ratio == Fraction(1, 3)
+    assert mesh.transmission.ratio == Fraction(1, 3)
     assert mesh.rigid
 
 
@@ -64,7 +64,7 @@ def test_every_form_gives_an_external_pair_its_exact_ratio(form: str) -> None:
 def test_every_form_but_pins_gives_a_bevel_pair_the_angle_of_its_axes(form: str) -> None:
     axes = "axes: {A: {direction: [0, 0, 1]}, B: {direction: [1, 0, 1]}}"
     mesh = only(pair(f"{{form: {form}}}", "{teeth: 20, kind: bevel}", "{teeth: 60, kind: bevel}", axes))
-    pitch = mesh.law.path.pitch
+    pitch = mesh.transmission.path.pitch
     assert pitch.bevel
     shaft = pitch.R1 + pitch.R2
     assert shaft == pytest.approx(pi / 4, rel=1e-15)
@@ -86,7 +86,7 @@ def test_a_shaft_angle_lies_between_the_ways_in_which_both_wheels_face(
     if dot * dot == size:
         assert "how the axes of its bevels meet" in said(train)
     else:
-        pitch = only(train).law.path.pitch
+        pitch = only(train).transmission.path.pitch
         shaft = pitch.R1 + pitch.R2
         assert shaft == pytest.approx(acos(dot / sqrt(size)), abs=1e-7)
 
@@ -133,7 +133,7 @@ def test_a_contrate_is_taken_for_a_spur_wheel_whatever_the_axes() -> None:
     axes = "axes: {A: {direction: [0, 0, 1]}, B: {direction: [1, 0, 0]}}"
     mesh = only(pair(INVOLUTE, "20", "{teeth: 60, kind: contrate}", axes))
     assert mesh.note == "the contrate is taken for a spur wheel"
-    assert not mesh.law.path.pitch.bevel
+    assert not mesh.transmission.path.pitch.bevel
 
 
 @pytest.mark.parametrize("crank", ["a", "b"])
@@ -145,8 +145,8 @@ def test_a_ring_may_be_named_first_and_stays_the_second_gear(crank: str) -> None
     turned = only(load(text.replace("pair: [p, w]", "pair: [w, p]")))
     assert (turned.gears, plain.gears) == (("p", "w"), ("p", "w"))
     assert turned.driver == plain.driver == {"a": "p", "b": "w"}[crank]
-    assert turned.law.ratio == plain.law.ratio == (Fraction(1, 3) if crank == "a" else 3)
-    assert turned.law.efficiency_mean() == plain.law.efficiency_mean()
+    assert turned.transmission.ratio == plain.transmission.ratio == (Fraction(1, 3) if crank == "a" else 3)
+    assert turned.transmission.efficiency_mean() == plain.transmission.efficiency_mean()
     assert turned.reversed.efficiency_mean() == plain.reversed.efficiency_mean()
 
 
@@ -163,8 +163,8 @@ def test_lengths_with_a_unit_are_compared_with_the_modules_of_the_wheels() -> No
     wheels = ("{teeth: 20, module: 2 mm}", "{teeth: 60, module: 2 mm}")
     mesh = only(pair("{form: involute, backlash: 0.1 mm}", *wheels))
     # 0.1 mm on the driven pitch circle of 60 mm, and a pitch there of 2 mm pi
-    assert mesh.verdict.play == pytest.approx(0.1 / 60, rel=1e-12)
-    assert mesh.play == pytest.approx(0.1 / (2 * pi), rel=1e-12)
+    assert mesh.verdict.backlash == pytest.approx(0.1 / 60, rel=1e-12)
+    assert mesh.backlash == pytest.approx(0.1 / (2 * pi), rel=1e-12)
 
 
 # faults ---------------------------------------------------------------------------------------------------------------
@@ -244,10 +244,10 @@ def test_conjugate_teeth_among_others_change_no_bit_of_any_motion(form: str) -> 
     assert motion(f"{{form: {form}}}") == motion("{form: ideal}")
 
 
-def test_no_position_is_asked_of_a_law_that_is_rigid(monkeypatch: pytest.MonkeyPatch) -> None:
-    calls, law = [], type(load("planetary-24-18-60-involute").meshes[0].law)
+def test_no_position_is_requested_of_a_transmission_that_is_rigid(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls, transmission = [], type(load("planetary-24-18-60-involute").meshes[0].transmission)
     for name in ("error", "speed", "error_and_speed", "angle"):
-        monkeypatch.setattr(law, name, lambda self, S, name=name: calls.append(name))
+        monkeypatch.setattr(transmission, name, lambda self, S, name=name: calls.append(name))
     motion = load("planetary-24-18-60-involute").motion()
     for turns in (5.0, -5.0):
         run = MotionRun(motion, turns, 1001)
@@ -260,7 +260,7 @@ def test_no_position_is_asked_of_a_law_that_is_rigid(monkeypatch: pytest.MonkeyP
     assert all(tally.peak_to_peak == tally.rms == 0 for tally in run.statistics)
 
 
-def test_turning_back_every_driven_wheel_is_ahead_by_the_play_between() -> None:
+def test_turning_back_every_driven_wheel_is_ahead_by_the_backlash_between() -> None:
     form = "{form: involute, backlash: 0.1}"
     motion = load(CHAIN.format(first=form, second=form)).motion(outputs=["b", "c"])
     turns = np.linspace(0, 3, 5)
@@ -273,29 +273,29 @@ def test_turning_back_every_driven_wheel_is_ahead_by_the_play_between() -> None:
     assert not passage.rate.any()
 
 
-def test_play_of_rigid_teeth_shifts_where_the_next_teeth_stand() -> None:
+def test_backlash_of_rigid_teeth_shifts_where_the_next_teeth_stand() -> None:
     train = load(CHAIN.format(first="{form: involute, backlash: 0.3}", second=RIPPLING))
     plain = load(CHAIN.format(first="{form: ideal}", second=RIPPLING))
     turns = np.linspace(0, 1, 101)
     real, ideal = train.motion(outputs=["c"]), plain.motion(outputs=["c"])
     found, other = real._backward, ideal._backward
     lag = 0.3 / 30
-    law = next(mesh.law for mesh in train.meshes if mesh.form == "triangular").turned_back()
+    transmission = next(mesh.transmission for mesh in train.meshes if mesh.form == "triangular").reversed_motion()
     # c's error is that of its own teeth where b really stands, and what b is ahead by, carried on
     b = 2 * pi * -turns / 3 + lag
     hung, apart = (
         each.at(-turns).error[0] - motion.pointer_offsets["c"] for each, motion in ((found, real), (other, ideal))
     )
-    np.testing.assert_allclose(hung, law.error(b) + lag * 24 / 36, atol=1e-12)
-    np.testing.assert_allclose(apart, law.error(b - lag), atol=1e-12)
+    np.testing.assert_allclose(hung, transmission.error(b) + lag * 24 / 36, atol=1e-12)
+    np.testing.assert_allclose(apart, transmission.error(b - lag), atol=1e-12)
 
 
-def test_teeth_at_another_distance_than_their_own_bring_their_law_to_the_motion() -> None:
+def test_teeth_at_another_distance_than_their_own_bring_their_transmission_to_the_motion() -> None:
     wide = "{form: cycloidal, centre_distance: 40.1}"
     train = load(CHAIN.format(first=wide, second="{form: ideal}"))
     mesh = only(train)
     assert not mesh.rigid
-    low, high = mesh.law.error_range()
+    low, high = mesh.transmission.error_range()
     assert high - low > 1e-6
     assert only(pair("{form: cycloidal, centre_distance: 40}")).rigid
     assert only(pair("{form: involute, centre_distance: 40.1}")).rigid
@@ -330,7 +330,7 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
     assert collect_report(train).to_dict()["motion"] == []
 
 
-def test_the_motion_of_a_train_where_nothing_ripples_can_be_asked_for_everything() -> None:
+def test_the_motion_of_a_train_where_nothing_ripples_can_be_requested_for_everything() -> None:
     result = call(
         "motion",
         "planetary-24-18-60-involute",
@@ -415,7 +415,7 @@ def test_any_simple_planetary_has_the_efficiency_of_willis_for_its_basic_one(
     train = load(text)
     first, second = train.meshes
     i0 = -ring / sun
-    there = first.law.efficiency_at_constant_load() * second.law.efficiency_at_constant_load()  # type: ignore[attr-defined]
+    there = first.transmission.efficiency_at_constant_load() * second.transmission.efficiency_at_constant_load()  # type: ignore[attr-defined]
     back = first.reversed.efficiency_at_constant_load() * second.reversed.efficiency_at_constant_load()
     assert float(train.driven("carrier", "sun").efficiency or 0) == pytest.approx(
         (1 - i0 * there) / (1 - i0), rel=1e-12
@@ -457,10 +457,13 @@ def test_the_losses_of_a_bevel_differential_are_those_of_arcs_on_the_sphere_and_
 
 def test_the_balance_of_a_bevel_differential_with_one_wheel_held_is_exact_in_friction() -> None:
     train = load("bevel-differential-involute")
-    laws: dict[str, GearMesh] = {mesh.name: mesh for mesh in train.mechanics.meshes_in("one wheel held")}
-    drive = laws["pinion~c41"].law.efficiency_at_constant_load()
+    transmissions: dict[str, GearMesh] = {mesh.name: mesh for mesh in train.mechanics.meshes_in("one wheel held")}
+    drive = transmissions["pinion~c41"].transmission.efficiency_at_constant_load()
     # in the crown's frame power goes from the held wheel to the loaded one
-    eta0 = laws["l16~p10"].law.efficiency_at_constant_load() * laws["r16~p10"].law.efficiency_at_constant_load()
+    eta0 = (
+        transmissions["l16~p10"].transmission.efficiency_at_constant_load()
+        * transmissions["r16~p10"].transmission.efficiency_at_constant_load()
+    )
     found = train.torques("one wheel held").efficiency
     assert float(found or 0) == pytest.approx(drive * 2 / (1 + 1 / eta0), rel=1e-13)
 
@@ -470,11 +473,11 @@ def test_the_losses_of_a_wolfrom_set_are_those_of_its_torques_by_hand() -> None:
     found = train.torques()
     assert [pair.driver for pair in found.pairs.values()] == ["s12", "p30", "r70"]
     meshes = {mesh.name: mesh for mesh in train.meshes}
-    eta1 = meshes["s12~p30"].law.efficiency_at_constant_load()
-    eta2 = meshes["p30~r72"].law.efficiency_at_constant_load()
+    eta1 = meshes["s12~p30"].transmission.efficiency_at_constant_load()
+    eta2 = meshes["p30~r72"].transmission.efficiency_at_constant_load()
     ring = meshes["p28~r70"]
     # there it is the driver's torque that is given
-    eta3 = (ring.law if ring.driver == "r70" else ring.reversed).efficiency_mean()
+    eta3 = (ring.transmission if ring.driver == "r70" else ring.reversed).efficiency_mean()
     # in the arm's frame sun and loaded ring put power in, and the held ring takes it out
     sun = (1 - eta2 * eta3 * 24 / 25) / (1 + 6 * eta1 * eta2)
     assert float(found.external["sun"]) == pytest.approx(sun, rel=1e-12)
@@ -524,7 +527,7 @@ def test_a_mixed_train_shows_each_family_in_its_own_table() -> None:
     reach = sum(sqrt((R + 1) ** 2 - (R * cos(ALPHA)) ** 2) - R * sin(ALPHA) for R in (10, 30))
     assert conjugate["contact_ratio"] == pytest.approx(reach / (pi * cos(ALPHA)), rel=1e-12)
     assert conjugate["efficiency"]["mean"] == pytest.approx(1 - mean_loss(20, 60, 0.1), abs=2e-6)
-    assert set(triangular) - set(conjugate) == {"clearance", "window", "sizes", "intervals", "jumps", "impacts"}
+    assert set(triangular) - set(conjugate) == {"clearance_factor", "window", "sizes", "intervals", "jumps", "impacts"}
     assert "Pairs that keep their ratio" in call("motion", "longcase-clock-cycloidal", "--samples", "10").output
 
 
@@ -546,7 +549,7 @@ def test_the_page_tells_what_each_form_loses_in_a_planetary(row: list[str]) -> N
     pairs = f"gears: [{{pair: [p, ring], tooth_form: {form}}}]\ntooth_form: {form}"
     train = load(f"extends: planetary-24-18-60\nname: t\nfriction: 0.06\n{pairs}\n")
     assert not any(mesh.faults for mesh in train.meshes)
-    losses = [1 - mesh.law.efficiency_at_constant_load() for mesh in train.meshes]
+    losses = [1 - mesh.transmission.efficiency_at_constant_load() for mesh in train.meshes]
     ways = [1 - float(train.driven(*ends).efficiency or 0) for ends in (("carrier", "sun"), ("sun", "carrier"))]
     assert [f"{100 * loss:.4f} %" for loss in (*losses, *ways)] == figures
 

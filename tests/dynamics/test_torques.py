@@ -93,12 +93,12 @@ def test_without_losses_powers_sum_to_zero_exactly(name: str) -> None:
         assert found.external[source] * answer.speeds[source] == 1
 
 
-def test_real_teeth_lose_what_their_laws_say() -> None:
+def test_real_teeth_lose_what_their_transmissions_say() -> None:
     train = load("sorge-pairs")
     for mesh in train.meshes:
         found = train.driven(f"fig{mesh.name}", "crank")
         # the load is given: it is the driver's torque that varies within a turn
-        assert float(found.efficiency) == pytest.approx(mesh.law.efficiency_at_constant_load(), rel=1e-14)
+        assert float(found.efficiency) == pytest.approx(mesh.transmission.efficiency_at_constant_load(), rel=1e-14)
         assert found.pairs[mesh.name].driver == mesh.driver
         back = train.driven("crank", f"fig{mesh.name}")
         assert float(back.efficiency) == pytest.approx(mesh.reversed.efficiency_at_constant_load(), rel=1e-14)
@@ -245,7 +245,7 @@ LOADED = SET.format(s=24, p=18, q=18, r=60, e=1, f=1, rest="fixed: [ring]\ninput
 def test_a_load_decides_the_torque_of_the_input() -> None:
     found = load(LOADED).torques()
     assert found.verdict.kind == "determined"
-    assert found.asked == ("sun",)
+    assert found.requested == ("sun",)
     assert sum(found.powers.values()) == 0
     # three external torques about one axis: sun, arm and the brake of the ring balance
     assert sum(found.external.values()) == 0
@@ -272,7 +272,7 @@ def test_friction_alone_decides_what_the_crank_takes() -> None:
     found = load(PAIR).torques()
     assert found.verdict.kind == "determined"
     assert "friction" in found.verdict.text
-    assert found.asked == ("a",)
+    assert found.requested == ("a",)
     # b turns once, backwards, against 3 N m: a power of 3 in turns, through a pair that loses a tenth
     assert found.external == {"a": 3 / Fraction(9, 10) / 2}
     assert found.bearing_loss == 3
@@ -284,22 +284,22 @@ def test_power_enters_at_the_crank_wherever_speeds_are_counted() -> None:
     # the same speeds, counted at b; the crank is c, which makes -4 turns for one of b
     text = PAIR.replace("inputs: {a: 2}", "inputs: {b: -1}\ncrank: c")
     found = load(text).torques()
-    assert found.asked == ("c",)
+    assert found.requested == ("c",)
     assert found.external == {"c": 3 / Fraction(8, 10) / 4}
     loaded = load(text + "loads: {a: -1 N m}\n").torques()
-    assert loaded.asked == ("c",)
+    assert loaded.requested == ("c",)
     # 2 leave at a through a pair that loses a tenth, 3 are rubbed away at b
     assert loaded.external == {"a": -1, "c": (2 / Fraction(9, 10) + 3) / Fraction(8, 10) / 4}
     assert sum(loaded.powers.values()) == loaded.loss
     both = load(text + "loads: {a: -1 N m, c: 3 N m}\nsolve_for: b\n").torques()
-    assert both.asked == ("b",)
+    assert both.requested == ("b",)
     assert both.external["b"] == (3 * 4 * Fraction(8, 10) - 3 - 2 / Fraction(9, 10)) * 1
 
 
 def test_the_crank_of_the_antikythera_train_takes_what_its_pointers_take() -> None:
     train = load("extends: freeth-2008\nloads: {moon: -1}\n")
     found = train.torques()
-    assert found.asked == (train.declaration.crank,) != tuple(train.declaration.inputs)
+    assert found.requested == (train.declaration.crank,) != tuple(train.declaration.inputs)
     crank = train.declaration.crank
     assert found.external[crank] == train.solve()["moon"] / train.solve()[crank]
 
@@ -423,7 +423,7 @@ def test_the_command_prints_keys_and_verdicts(tmp_path: Path) -> None:
         "state", "verdict", "efficiency", "circulating", "links", "pairs", "power_in", "loss", "drives",
         "flow", "losses", "watts_per_unit", "held", "left_out",
     }  # fmt: skip
-    assert data["links"]["sun"]["asked"] is True
+    assert data["links"]["sun"]["requested"] is True
     assert set(data["pairs"]["s~p"]) == {"driver", "torques", "power", "loss", "shared"}
     assert data["efficiency"] == 1.0
     assert call("torques", path).exit_code == 0

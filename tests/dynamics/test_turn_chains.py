@@ -15,7 +15,7 @@ SEEDS = range(24)
 
 
 def outlines_of(train: GearTrain) -> dict[str, Outlines]:
-    return {mesh.name: Outlines.of(mesh.law.sizes) for mesh in train.meshes}
+    return {mesh.name: Outlines.of(mesh.transmission.sizes) for mesh in train.meshes}
 
 
 def loads_of(chain: Chain) -> dict[str, float]:

@@ -46,20 +46,20 @@ def test_bodies_in_balance_have_the_printed_torque_of_a_pin_that_drives_a_slot()
 
 def test_outlines_touch_where_the_transmission_functions_say() -> None:
     for mesh in load("moon-triangular").meshes:
-        wheels = Outlines.of(mesh.law.sizes)
+        wheels = Outlines.of(mesh.transmission.sizes)
         t = np.linspace(-1.0, 1.0, 400)
-        assert wheels.places(t).driven == pytest.approx(mesh.law.angle(t), abs=1e-14)
-        assert wheels.moments(t, 0.2)[0] == pytest.approx(mesh.law.speed(t), rel=1e-12)
+        assert wheels.places(t).driven == pytest.approx(mesh.transmission.angle(t), abs=1e-14)
+        assert wheels.moments(t, 0.2)[0] == pytest.approx(mesh.transmission.speed(t), rel=1e-12)
 
 
 def test_triangular_pairs_at_a_constant_load() -> None:
     printed = [0.9585852, 0.9413106, 0.9027585, 0.9232000]
     found = []
     for mesh in load("moon-triangular").meshes:
-        wheels = Outlines.of(mesh.law.sizes)
+        wheels = Outlines.of(mesh.transmission.sizes)
         pitch = 2 * pi / wheels.z1
         speed, torque = wheels.moments((np.arange(20_000) + 0.5) * pitch / 20_000, 0.2)
-        assert mesh.law.efficiency(np.arange(100) * pitch / 97) == pytest.approx(
+        assert mesh.transmission.efficiency(np.arange(100) * pitch / 97) == pytest.approx(
             np.divide(*wheels.moments(np.arange(100) * pitch / 97, 0.2)), rel=1e-12
         )
         assert speed.mean() == pytest.approx(wheels.z1 / wheels.z2, rel=2e-5)

@@ -80,14 +80,14 @@ def test_means_of_a_pin_are_those_of_the_forces_on_it(r: float, e: float, f: flo
 
 
 @given(st.floats(0.01, 0.99), st.floats(0.0, 2.0))
-def test_means_of_a_pin_are_those_of_its_law(share: float, f: float) -> None:
-    for law in (PinToSlotTransmission(1.0, share, f), SlotToPinTransmission(1.0, share, f)):
-        if isinstance(law, SlotToPinTransmission) and f >= 0.95 * law.locking_friction:
+def test_means_of_a_pin_are_those_of_its_transmission(share: float, f: float) -> None:
+    for transmission in (PinToSlotTransmission(1.0, share, f), SlotToPinTransmission(1.0, share, f)):
+        if isinstance(transmission, SlotToPinTransmission) and f >= 0.95 * transmission.locking_friction:
             continue
         S = (np.arange(1 << 15) + 0.5) * (2 * pi / (1 << 15))
-        eta, tau = law.efficiency(S), law.speed(S)
-        assert law.efficiency_mean() == pytest.approx(eta.mean(), rel=1e-4)
-        assert law.efficiency_at_constant_load() == pytest.approx(tau.mean() / np.mean(tau / eta), rel=1e-4)
+        eta, tau = transmission.efficiency(S), transmission.speed(S)
+        assert transmission.efficiency_mean() == pytest.approx(eta.mean(), rel=1e-4)
+        assert transmission.efficiency_at_constant_load() == pytest.approx(tau.mean() / np.mean(tau / eta), rel=1e-4)
 
 
 def test_the_pin_of_known_forces_takes_its_mean_at_the_crank() -> None:
@@ -106,7 +106,7 @@ def test_the_pin_of_known_forces_takes_its_mean_at_the_crank() -> None:
 
 def test_a_given_crank_torque_takes_the_mean_at_constant_torque_of_the_driver() -> None:
     found = load(PIN.replace("loads: {b: -10 N m}", "loads: {a: 10 N m}")).torques()
-    assert found.asked == ("b",)
+    assert found.requested == ("b",)
     assert float(found.external["b"]) == pytest.approx(-8.357499, abs=5e-7)
 
 
@@ -178,17 +178,17 @@ def test_friction_on_teeth_without_a_form_is_named() -> None:
 def test_a_train_of_real_teeth_asks_the_crank_for_the_mean_of_its_positions() -> None:
     """moon-triangular with 1 N mm on the Moon, four pairs stepped together: no two have teeth in step for long."""
     train = load(MOON)
-    laws = {mesh.name: mesh.law for mesh in train.meshes}
+    transmissions = {mesh.name: mesh.transmission for mesh in train.meshes}
     alone = {"a~b1": 0.9585852, "b2~c1": 0.9413106, "c2~d1": 0.9027585, "d2~e": 0.9232}
     for name, efficiency in alone.items():
-        assert laws[name].efficiency_at_constant_load() == pytest.approx(efficiency, abs=6e-8)
+        assert transmissions[name].efficiency_at_constant_load() == pytest.approx(efficiency, abs=6e-8)
     count, turns = 400_000, 95  # of the crank: after as many the whole train stands as at first
     x = (np.arange(count) + 0.5) * (2 * pi * turns / count)
     torque = np.ones(count)
     for name in alone:
-        law = laws[name]
-        torque *= law.speed(x) / law.efficiency(x)
-        x = law.angle(x)
+        transmission = transmissions[name]
+        torque *= transmission.speed(x) / transmission.efficiency(x)
+        x = transmission.angle(x)
     stepped = float(torque.mean())
     assert stepped == pytest.approx(3.55536, rel=2e-4)
     found = train.torques()
@@ -216,15 +216,15 @@ loads: {c: 3 N m}
 def test_teeth_a_pin_and_a_bearing_in_a_row_cost_the_product_of_their_means() -> None:
     train = load(BOTH)
     found = train.torques()
-    teeth = train.meshes[0].law.efficiency_at_constant_load()
+    teeth = train.meshes[0].transmission.efficiency_at_constant_load()
     truth = 3.5 * (24 / 36) * (1 + 0.2 / pi * log(15 / 5)) / teeth
     assert truth == pytest.approx(2.555516, abs=1e-6)
     assert float(found.external["a"]) == pytest.approx(truth, rel=1e-12)
-    law = PinToSlotTransmission(10, 5, 0.2)
+    transmission = PinToSlotTransmission(10, 5, 0.2)
     x = (np.arange(200_000) + 0.5) * (2 * pi * 3 / 200_000)
-    y = train.meshes[0].law
+    y = train.meshes[0].transmission
     S = y.angle(x)
-    stepped = 3.5 * np.mean(y.speed(x) / y.efficiency(x) * law.speed(S) / law.efficiency(S))
+    stepped = 3.5 * np.mean(y.speed(x) / y.efficiency(x) * transmission.speed(S) / transmission.efficiency(S))
     assert stepped == pytest.approx(2.55551, abs=3e-4)
     assert float(found.external["a"]) == pytest.approx(float(stepped), rel=2e-4)
 
@@ -244,9 +244,9 @@ solve_for: c
     train = load(text)
     found = train.torques()
     one, other = train.meshes
-    left = 10 - 20 / 30 / one.law.efficiency_at_constant_load()
-    law = other.law if other.driver == "q" else other.reversed
-    assert float(found.external["c"]) == pytest.approx(left * law.efficiency_mean() * 36 / 24, rel=1e-12)
+    left = 10 - 20 / 30 / one.transmission.efficiency_at_constant_load()
+    transmission = other.transmission if other.driver == "q" else other.reversed
+    assert float(found.external["c"]) == pytest.approx(left * transmission.efficiency_mean() * 36 / 24, rel=1e-12)
     assert "mean efficiency" not in names(found)
 
 
@@ -333,14 +333,16 @@ def test_the_captions_of_pictures_name_what_is_left_out(tmp_path: Path) -> None:
 
 
 def test_the_means_of_teeth_are_worked_out_once_whatever_is_loaded(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[object] = []
-    law = type(load(MOON).meshes[0].law)
-    mean = law.efficiency_mean
-    monkeypatch.setattr(law, "efficiency_mean", lambda law: asked.append(law) or mean(law))
+    requested: list[object] = []
+    transmission = type(load(MOON).meshes[0].transmission)
+    mean = transmission.efficiency_mean
+    monkeypatch.setattr(
+        transmission, "efficiency_mean", lambda transmission: requested.append(transmission) or mean(transmission)
+    )
     train = load(MOON)
     assert train.driven("moon", "sun").verdict
-    once = len(asked)
+    once = len(requested)
     assert once == 2 * len(train.declaration.gears), "either wheel driving"
     assert train.driven("d", "crank").verdict
     assert train.torques().verdict
-    assert len(asked) == once
+    assert len(requested) == once

@@ -153,7 +153,7 @@ def test_declared_places_agree_with_radii() -> None:
         ("30.05 mm", "tooth_form: {form: cycloidal}", [("P1", "error")]),
         ("30.5 mm", "tooth_form: {form: involute, centre_distance: 30.5 mm}", []),
         ("30.5 mm", "tooth_form: {form: involute, centre_distance: 30.5}", []),
-        ("30.05 mm", "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}", [("P1", "note")]),
+        ("30.05 mm", "tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}", [("P1", "note")]),
     ],
 )
 def test_how_far_teeth_may_stand_from_their_distance(distance: str, form: str, said: list[tuple[str, str]]) -> None:
@@ -213,7 +213,7 @@ def test_declared_teeth_that_cannot_reach_are_an_error_that_names_the_shifts() -
     assert "shift" not in cycloidal
 
 
-def test_more_distance_is_more_play_of_involutes() -> None:
+def test_more_distance_is_more_backlash_of_involutes() -> None:
     """2 da tan(20 deg) = 0.0364 at da = 0.05; the play measured on outlines is 0.0352 on the pitch circle."""
     text = pair(
         sized(20, "1 mm"), sized(40, "1 mm"), more=places(A="0 mm", B="30.05 mm") + "\ntooth_form: {form: involute}"

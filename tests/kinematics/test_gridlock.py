@@ -85,15 +85,15 @@ def solids() -> Iterable[Any]:
         solid = make()
         gears, meshes, drop = ARCHIMEDEAN[name]
         yield pytest.param(solid, gears, meshes, drop, id=name)
-        dual, least = CATALAN[name]
-        yield pytest.param(polyhedra.dual(solid), meshes + 2 - gears, meshes, least, id=dual)
+        dual, minimum = CATALAN[name]
+        yield pytest.param(polyhedra.dual(solid), meshes + 2 - gears, meshes, minimum, id=dual)
     for n in range(3, 9):
         yield pytest.param(polyhedra.prism(n), n + 2, 3 * n, n, id=f"{n}-prism")
     for n in range(4, 9):
         yield pytest.param(polyhedra.antiprism(n), 2 * n + 2, 4 * n, 0, id=f"{n}-antiprism")
     for n in range(4, 9):
-        least = 0 if n % 2 == 0 else 2
-        yield pytest.param(polyhedra.dual(polyhedra.prism(n)), 2 * n, 3 * n, least, id=f"{n}-bipyramid")
+        minimum = 0 if n % 2 == 0 else 2
+        yield pytest.param(polyhedra.dual(polyhedra.prism(n)), 2 * n, 3 * n, minimum, id=f"{n}-bipyramid")
 
 
 def ordinary(teeth: Sequence[int], meshes: Iterable[tuple[int, int]], rings: Iterable[int] = ()) -> Data:
@@ -125,7 +125,7 @@ def proved(release: MeshRemoval, firm: Iterable[str] = ()) -> int:
 
 
 @pytest.mark.parametrize(("solid", "gears", "meshes", "drop"), list(solids()))
-def test_gears_on_all_faces_need_the_least_disengaging_that_is_known(
+def test_gears_on_all_faces_need_the_minimum_disengaging_that_is_known(
     solid: polyhedra.Map, gears: int, meshes: int, drop: int
 ) -> None:
     pairs = polyhedra.neighbours(solid)
@@ -137,7 +137,7 @@ def test_gears_on_all_faces_need_the_least_disengaging_that_is_known(
     assert found.moves == (drop == 0)
     if found.release is not None:
         assert len(found.release.meshes) == drop
-        assert found.release.least
+        assert found.release.minimum
         assert GearTrain.declare(less(data, found.release.meshes)).solve().verdict
 
 
@@ -213,7 +213,7 @@ def test_each_diagonal_of_a_lattice_costs_one_mesh(large: bool, monkeypatch: pyt
         monkeypatch.setattr("geartrain.kinematics.gridlock.removal_choice.LARGE", 100)
     data = lattice(30, [(3, 4), (3, 20), (17, 9), (28, 28)])
     found = GearTrain.declare(data).kinematics.gridlock
-    assert found.release.least
+    assert found.release.minimum
     assert proved(found.release) == 4
     assert set(found.release.meshes) == {gear["id"] for gear in data["gears"][-4:]}
     assert found.release.method == ("loops" if large else "matching")
@@ -335,7 +335,7 @@ def test_a_follower_holds_nothing_but_itself() -> None:
 # against enumeration --------------------------------------------------------------------------------------------------
 
 
-def least_by_trying(network: GainGraph) -> int:
+def minimum_by_trying(network: GainGraph) -> int:
     loose = [mesh for mesh in range(len(network.ends)) if mesh not in network.firm]
     return next(
         size for size in range(len(loose) + 1) for some in itertools.combinations(loose, size) if _closed(network, some)
@@ -374,13 +374,13 @@ RATIOS = (1, 1, -1, Fraction(2), Fraction(3, 2), Fraction(1, 2))
 
 @given(st.one_of(networks(SIGNS, firm=True), networks(RATIOS, firm=True)))
 def test_a_chosen_set_is_as_small_as_trying_all_sets_finds(network: GainGraph) -> None:
-    least = least_by_trying(network)
-    assert is_balanced(network) == (least == 0)
-    assume(least > 0)
+    minimum = minimum_by_trying(network)
+    assert is_balanced(network) == (minimum == 0)
+    assume(minimum > 0)
     choice = choose_removal(network, walk_gain_graph(network))
     assert _closed(network, choice.meshes)
     assert not network.firm.intersection(choice.meshes)
-    assert len(choice.meshes) == choice.at_least == least
+    assert len(choice.meshes) == choice.at_least == minimum
     if choice.method == "one":
         assert choice.choices == [
             mesh for mesh in range(len(network.ends)) if mesh not in network.firm and _closed(network, [mesh])
@@ -399,7 +399,7 @@ def test_a_matching_of_odd_regions_is_as_small_as_trying_all_sets_finds(network:
         if join is not None:
             assert _closed(part, join.meshes)
             assert not part.firm.intersection(join.meshes)
-            assert len(join.meshes) == least_by_trying(part)
+            assert len(join.meshes) == minimum_by_trying(part)
 
 
 @given(st.one_of(networks(SIGNS, firm=True), networks(RATIOS, firm=True)))
@@ -455,19 +455,19 @@ def test_nine_mutual_wheels_are_beyond_the_plane_and_small_enough_to_search_or_s
         pairs = list(itertools.combinations(range(count), 2))
         network = GainGraph(count, pairs, dict.fromkeys(range(len(pairs)), -1))
         choice = choose_removal(network, walk_gain_graph(network))
-        least = len(pairs) - (count // 2) * (count - count // 2)  # what no two halves can keep
+        minimum = len(pairs) - (count // 2) * (count - count // 2)  # what no two halves can keep
         assert is_balanced(network, choice.meshes)
-        assert choice.at_least <= least <= len(choice.meshes)
+        assert choice.at_least <= minimum <= len(choice.meshes)
         if len(pairs) <= SMALL or choice.method != "greedy":
-            assert len(choice.meshes) == choice.at_least == least
+            assert len(choice.meshes) == choice.at_least == minimum
 
 
 def test_a_greedy_set_says_that_a_smaller_one_may_do() -> None:
-    good, least = (MeshRemoval(("a", "b", "c"), "greedy", bound) for bound in (2, 3))
-    assert (good.least, least.least) == (False, True)
+    good, minimum = (MeshRemoval(("a", "b", "c"), "greedy", bound) for bound in (2, 3))
+    assert (good.minimum, minimum.minimum) == (False, True)
     assert "at least 2" in str(good)
-    assert "at least" not in str(least)
-    assert all("a, b, c" in str(each) for each in (good, least))
+    assert "at least" not in str(minimum)
+    assert all("a, b, c" in str(each) for each in (good, minimum))
 
 
 # whole trains, against dense elimination ------------------------------------------------------------------------------
@@ -516,14 +516,14 @@ def test_what_is_said_of_random_trains_is_what_trying_all_sets_finds(data: Data)
     found = GearTrain.declare(data).kinematics.gridlock
     names = [gear["id"] for gear in data["gears"]]
     sets = (some for size in range(len(names) + 1) for some in itertools.combinations(names, size))
-    least = next((some for some in sets if _frees(data, some)), None)
-    assert found.moves == (least == ())
+    minimum = next((some for some in sets if _frees(data, some)), None)
+    assert found.moves == (minimum == ())
     if found.release is None:
-        assert found.moves or least is None
+        assert found.moves or minimum is None
         return
     assert _frees(data, found.release.meshes)
-    assert found.release.least
-    assert len(found.release.meshes) == len(least)
+    assert found.release.minimum
+    assert len(found.release.meshes) == len(minimum)
     if found.release.method == "one" and len(found.release.meshes) == 1:
         assert set(found.release.choices) == {name for name in names if _frees(data, [name])}
     for jam in found.jams:
@@ -599,7 +599,7 @@ def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) 
     assert data["moves"] is False
     assert set(data["jams"][0]) == {"carrier", "loop", "links", "meshes", "by", "release"}
     assert data["release"] == data["jams"][0]["release"]
-    assert set(data["release"]) == {"meshes", "method", "least", "at_least", "choices", "proofs"}
+    assert set(data["release"]) == {"meshes", "method", "minimum", "at_least", "choices", "proofs"}
     assert data["release"]["choices"] == ["a20~b30", "b30~c40", "c40~a20"]
     moving = json.loads(call("report", "planetary", "--json").stdout)[0]["gridlock"]
     assert moving == {"moves": True, "jams": [], "held": [], "release": None}

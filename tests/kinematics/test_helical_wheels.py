@@ -308,7 +308,7 @@ def test_the_shipped_pair_runs() -> None:
     assert "0.807635" in call("torques", "crossed-helical").stdout
 
 
-def test_a_pair_is_asked_for_by_its_helix() -> None:
+def test_a_pair_is_requested_for_by_its_helix() -> None:
     told = call("mesh", "involute", "--teeth", "21", "50", "--helix", "18deg")
     assert "in transverse modules of 1.05146222 normal ones" in " ".join(told.stdout.split())
     assert "Contact ratio 1.5" in told.stdout

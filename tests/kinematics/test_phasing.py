@@ -175,15 +175,15 @@ def test_whole_millimetres_are_exact_and_a_third_of_a_turn_cannot_be_written_in_
 
 
 def test_four_gears_on_a_square_close_if_four_divides_the_alternating_sum_of_their_teeth() -> None:
-    corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    kinks = [(0, 0), (1, 0), (1, 1), (0, 1)]
     ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
     for teeth in product((12, 13, 14, 15), repeat=4):
-        closure = GearTrain.declare(ordinary(teeth, corners, ring)).closure
+        closure = GearTrain.declare(ordinary(teeth, kinks, ring)).closure
         assert closure.how == "exact"
         total = teeth[0] - teeth[1] + teeth[2] - teeth[3]
         assert abs(closure.worst) == abs(wrapped(Fraction(total, 4)))
-    check_in_space(GearTrain.declare(ordinary((12, 13, 14, 15), corners, ring)))
-    check_in_space(GearTrain.declare(ordinary((12, 13, 14, 17), corners, ring)))
+    check_in_space(GearTrain.declare(ordinary((12, 13, 14, 15), kinks, ring)))
+    check_in_space(GearTrain.declare(ordinary((12, 13, 14, 17), kinks, ring)))
 
 
 @settings(max_examples=60, deadline=None)
@@ -198,11 +198,11 @@ def test_four_gears_on_a_quadrilateral_are_judged_as_teeth_in_space_are(
     if diagonal < 1e-3 or high - low < 0.1:
         return
 
-    def corner(near: float, far: float, side: int) -> tuple[float, float]:
+    def kink(near: float, far: float, side: int) -> tuple[float, float]:
         x = (diagonal**2 + near**2 - far**2) / (2 * diagonal)
         return x, side * math.sqrt(max(near**2 - x**2, 0.0))
 
-    places = [(0.0, 0.0), corner(a, b, 1), (diagonal, 0.0), corner(d, c, 1 if reflex else -1)]
+    places = [(0.0, 0.0), kink(a, b, 1), (diagonal, 0.0), kink(d, c, 1 if reflex else -1)]
     exact = [[Fraction(x).limit_denominator(10**9), Fraction(y).limit_denominator(10**9)] for x, y in places]
     train = GearTrain.declare(ordinary(teeth, exact, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     closure = train.closure
@@ -306,11 +306,11 @@ def kernel(rows: Sequence[Sequence[int]]) -> list[list[int]]:
     done, columns = 0, len(rows[0])
     for column in range(columns):
         while len(live := [at for at in range(done, len(wide)) if wide[at][column]]) > 1:
-            least = min(live, key=lambda at: abs(wide[at][column]))
+            minimum = min(live, key=lambda at: abs(wide[at][column]))
             for at in live:
-                if at != least:
-                    times = wide[at][column] // wide[least][column]
-                    wide[at] = [a - times * b for a, b in zip(wide[at], wide[least], strict=True)]
+                if at != minimum:
+                    times = wide[at][column] // wide[minimum][column]
+                    wide[at] = [a - times * b for a, b in zip(wide[at], wide[minimum], strict=True)]
         if live:
             wide[done], wide[live[0]] = wide[live[0]], wide[done]
             done += 1
@@ -419,7 +419,7 @@ def coupled(sun: int, planet: int, ring: int, copies: int, places: Sequence[tupl
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(2, 4), st.integers(8, 30), st.data(), st.sampled_from([1, 2, 3]))
-def test_carriers_geared_together_are_asked_for_what_only_all_their_meshes_fulfil(
+def test_carriers_geared_together_are_requested_for_what_only_all_their_meshes_fulfil(
     copies: int, sun: int, draw: st.DataObject, denominator: int
 ) -> None:
     train = GearTrain.declare(coupled(sun, 10, sun + 20, copies, [(21, k) for k in range(copies)]))
@@ -758,22 +758,22 @@ def test_a_rule_has_no_condition_that_follows_from_others() -> None:
     assert find_divisibility_rule([{"3": Fraction(2)}]).text == "always"
 
 
-def test_play_takes_up_a_small_miss_and_not_a_large_one() -> None:
+def test_backlash_takes_up_a_small_miss_and_not_a_large_one() -> None:
     data = ordinary([20, 20, 20, 20], [(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)])
     data["tooth_form"] = {"form": "triangular", "half_angle": "30 deg", "window": 0.1}
     closure = GearTrain.declare(data).closure
     assert closure.fits is True
-    assert set(closure.plays) == {"w0~w1", "w1~w2", "w2~w3", "w3~w0"}
-    (play,) = {round(play, 9) for play in closure.plays.values()}
+    assert set(closure.backlashes) == {"w0~w1", "w1~w2", "w2~w3", "w3~w0"}
+    (backlash,) = {round(backlash, 9) for backlash in closure.backlashes.values()}
     small = 1e-4  # of w2 moved outwards along the diagonal; errors grow in proportion
     data["axes"]["A2"]["position"] = [str(1 + Fraction(1, 10**4))] * 2 + ["0"]
     rate = GearTrain.declare(data).closure.spread / small
     for part in (0.9, 1.1):
-        shift = Fraction(part * play / 2 / rate).limit_denominator(10**9)
+        shift = Fraction(part * backlash / 2 / rate).limit_denominator(10**9)
         data["axes"]["A2"]["position"] = [str(1 + shift)] * 2 + ["0"]
         closure = GearTrain.declare(data).closure
         assert closure.kind == "misses"
-        assert closure.spread == pytest.approx(part * play / 2, rel=0.05)
+        assert closure.spread == pytest.approx(part * backlash / 2, rel=0.05)
         assert closure.fits is (part < 1)
     del data["tooth_form"]
     assert GearTrain.declare(data).closure.fits is None
@@ -790,7 +790,7 @@ def test_loops_through_axes_without_positions_are_counted_and_not_judged() -> No
     assert json.dumps(bare.to_dict())
 
 
-def test_a_loop_that_cannot_turn_is_not_asked_for_phases() -> None:
+def test_a_loop_that_cannot_turn_is_not_requested_for_phases() -> None:
     data = ordinary([12, 12, 12], [(0, 0), (2, 0), (1, Fraction(7, 4))], [(0, 1), (1, 2), (2, 0)])
     closure = GearTrain.declare(data).closure
     assert (closure.kind, closure.rigid) == ("open", 1)
@@ -840,11 +840,11 @@ def test_a_lattice_is_judged_by_its_squares() -> None:
     assert broken.spread < broken.last
 
 
-def test_both_ways_of_least_squares_leave_the_same_errors(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_both_ways_of_minimum_squares_leave_the_same_errors(monkeypatch: pytest.MonkeyPatch) -> None:
     from geartrain.numerics import sparse_least_squares as squares
 
-    asked = spherical_phasing(icosidodecahedron(), {"5": 12, "3": 6}).problem
-    rows, right = asked._by_nodes, asked.errors(asked.tree_angles)
+    requested = spherical_phasing(icosidodecahedron(), {"5": 12, "3": 6}).problem
+    rows, right = requested._by_nodes, requested.errors(requested.tree_angles)
     dense = right - rows.times(rows.least_squares(right))
     monkeypatch.setattr(squares, "_DENSE", 0)
     gradients = right - rows.times(rows.least_squares(right))
@@ -859,7 +859,7 @@ def test_floats_fail_where_they_say_they_may() -> None:
     assert first_float_failure() in (10**13, 10**14, 10**15)
 
 
-def test_closure_brings_numpy_alone_and_nothing_without_being_asked() -> None:
+def test_closure_brings_numpy_alone_and_nothing_without_being_requested() -> None:
     code = "import geartrain, sys; t = geartrain.load('three-planets'); t.solve()"
     tail = (
         "; print(sorted({name.split('.')[0] for name in sys.modules} & {'numpy', 'scipy', 'networkx', 'matplotlib'}))"

@@ -41,7 +41,7 @@ def test_a_slot_turns_by_the_winding_number_of_its_pin_in_the_carriers_frame(cou
 
 
 @pytest.mark.parametrize("turns", [1.1 / 9.6, 36 / 14.04])
-def test_the_winding_number_is_what_the_law_of_the_slot_gains_in_a_turn(turns: float) -> None:
+def test_the_winding_number_is_what_the_transmission_of_the_slot_gains_in_a_turn(turns: float) -> None:
     # phi + atan2(e sin phi, r - e cos phi), followed numerically over one turn of the pin
     angles, total, steps = [], 0.0, 4000
     for at in range(steps + 1):

@@ -13,11 +13,11 @@ from reference_solver import rank_of, solve_naively, willis_rows
 from sampling import few_or_many
 from strategies import (
     Data,
-    asked_trains,
     driven_trains,
     ordinary_trains,
     overdriven_trains,
     planetary_sets,
+    requested_trains,
     rerooted,
     trains,
     turning,
@@ -41,7 +41,7 @@ def same_answer(one: Answer, other: Answer) -> bool:
 
 
 @some
-@given(asked_trains())
+@given(requested_trains())
 def test_verdict_speeds_and_undetermined_links_are_those_of_dense_elimination(data: Data) -> None:
     known, answer = solve_naively(data), solved(data)
     assert answer.verdict.kind == known.kind
@@ -51,7 +51,7 @@ def test_verdict_speeds_and_undetermined_links_are_those_of_dense_elimination(da
 
 
 @some
-@given(asked_trains())
+@given(requested_trains())
 def test_counts_and_carriers_are_those_of_dense_elimination(data: Data) -> None:
     known, train = solve_naively(data), GearTrain.declare(data)
     assert {circuit.id: circuit.carrier for circuit in train.circuits} == known.carriers
@@ -63,7 +63,7 @@ def test_counts_and_carriers_are_those_of_dense_elimination(data: Data) -> None:
 
 
 @some
-@given(asked_trains())
+@given(requested_trains())
 def test_the_inputs_a_free_train_asks_for_settle_it_and_none_is_spare(data: Data) -> None:
     verdict = solved(data).verdict
     assume(verdict.kind == "free")
@@ -126,7 +126,7 @@ def test_two_speeds_for_links_that_a_loop_locks_together_are_contradictory() -> 
 
 
 @some
-@given(asked_trains())
+@given(requested_trains())
 def test_every_loop_shown_is_a_loop_of_meshes_in_one_carriers_frame(data: Data) -> None:
     train = GearTrain.declare(data)
     _, carriers = willis_rows(data)
@@ -163,7 +163,7 @@ def renamed(data: Data, names: dict[str, str]) -> Data:
 
 
 @some
-@given(asked_trains(), st.randoms(use_true_random=False))
+@given(requested_trains(), st.randoms(use_true_random=False))
 def test_relabelling_the_links_changes_nothing(data: Data, random: Any) -> None:
     fresh = ["1", "01", "no", "null", "1:30", "a b", "ω", "~", "true", "frame"][: len(data["links"])]
     random.shuffle(fresh)
@@ -175,7 +175,7 @@ def test_relabelling_the_links_changes_nothing(data: Data, random: Any) -> None:
 
 
 @some
-@given(asked_trains(), st.randoms(use_true_random=False))
+@given(requested_trains(), st.randoms(use_true_random=False))
 def test_reordering_the_declaration_changes_nothing(data: Data, random: Any) -> None:
     def shuffled(items: Any) -> list[Any]:
         items = list(items)
@@ -197,7 +197,7 @@ def test_reordering_the_declaration_changes_nothing(data: Data, random: Any) -> 
 
 
 @some
-@given(asked_trains(), st.sampled_from([2, 3, 1000]))
+@given(requested_trains(), st.sampled_from([2, 3, 1000]))
 def test_ratio_is_unchanged_when_all_teeth_are_multiplied(data: Data, factor: int) -> None:
     other = deepcopy(data)
     for part in other["links"].values():
@@ -211,7 +211,7 @@ def test_ratio_is_unchanged_when_all_teeth_are_multiplied(data: Data, factor: in
 @some
 @given(st.data())
 def test_any_equivalent_tree_of_coaxial_joints_gives_the_same_carriers_mobility_and_speeds(draw: Any) -> None:
-    data = draw.draw(asked_trains())
+    data = draw.draw(requested_trains())
     other = draw.draw(rerooted(data))
     one, two = GearTrain.declare(data), GearTrain.declare(other)
     assert [circuit.carrier for circuit in one.circuits] == [circuit.carrier for circuit in two.circuits]
@@ -316,7 +316,7 @@ def test_floats_are_exact_to_their_own_estimate(data: Data) -> None:
 
 
 @some
-@given(asked_trains(), st.data())
+@given(requested_trains(), st.data())
 def test_asking_for_one_output_gives_its_speed_in_the_full_answer_for_no_more_work(data: Data, draw: Any) -> None:
     train = GearTrain.declare(data)
     link = draw.draw(st.sampled_from(list(data["links"])))
@@ -346,7 +346,7 @@ def test_an_output_that_is_determined_is_so_whatever_is_free_or_locked_together_
 
 
 @some
-@given(asked_trains(), st.data())
+@given(requested_trains(), st.data())
 def test_reversing_an_axis_changes_the_sign_of_its_own_links_and_of_no_other(data: Data, draw: Any) -> None:
     axis_of: dict[str, str] = {}
     todo = ["frame"]

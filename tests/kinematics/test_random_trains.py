@@ -42,10 +42,10 @@ def told(train: RandomTrain, motion: Motion, answer: Answer) -> str:
     return ""
 
 
-def unlike(train: RandomTrain, motion: Motion, asked: GearTrain, full: Answer) -> Iterator[str]:
+def unlike(train: RandomTrain, motion: Motion, requested: GearTrain, full: Answer) -> Iterator[str]:
     """Outputs and links that are told one way when all is solved, and another when they alone are asked for."""
     for name in [*train.data["outputs"], *train.data["links"]]:
-        one = asked.solve(full.state, output=name)
+        one = requested.solve(full.state, output=name)
         speed, alone = (told_speed(answer, name) for answer in (full, one))
         kind = full.verdict.kind if full.verdict.kind != "free" or speed is None else "determined"
         if (speed, kind) != (alone, one.verdict.kind):
@@ -79,15 +79,15 @@ def test_random_trains_do_what_their_joints_do(seeds: range) -> None:
     assert not [said for seed in seeds for said in judged(*moving(seed))]
 
 
-def test_an_output_asked_for_alone_is_what_it_is_among_all(seeds: range) -> None:
+def test_an_output_requested_for_alone_is_what_it_is_among_all(seeds: range) -> None:
     wrong = []
     for seed in seeds[:: max(1, len(seeds) // 700)]:
         train, motions = moving(seed)
         if any(motion.kind == "refused" for motion in motions.values()):
             continue
-        asked = GearTrain.declare(train.data)
-        for full in asked.answers():
-            wrong += unlike(train, motions[full.state], asked, full)
+        requested = GearTrain.declare(train.data)
+        for full in requested.answers():
+            wrong += unlike(train, motions[full.state], requested, full)
     assert not wrong
 
 
@@ -96,9 +96,9 @@ def test_floats_know_what_fractions_know() -> None:
         train, motions = moving(seed)
         if any(motion.kind == "refused" for motion in motions.values()):
             continue
-        asked = GearTrain.declare(train.data)
-        for exact in asked.answers():
-            floats = asked.solve(exact.state, method="floats")
+        requested = GearTrain.declare(train.data)
+        for exact in requested.answers():
+            floats = requested.solve(exact.state, method="floats")
             assert (floats.verdict.kind, set(floats.speeds)) == (exact.verdict.kind, set(exact.speeds)), seed
             for name, result in exact.outputs.items():
                 near = floats.outputs[name].speed
@@ -111,10 +111,10 @@ def test_the_verdict_modulo_a_prime_is_that_of_fractions() -> None:
         train, motions = moving(seed)
         if any(motion.kind == "refused" for motion in motions.values()):
             continue
-        asked = GearTrain.declare(train.data)
-        reduced = asked.kinematics.whole.reduced
-        for answer in asked.answers():
-            verdict = exact_verdict(reduced, asked.kinematics.cases[answer.state], asked.kinematics.signs)
+        requested = GearTrain.declare(train.data)
+        reduced = requested.kinematics.whole.reduced
+        for answer in requested.answers():
+            verdict = exact_verdict(reduced, requested.kinematics.cases[answer.state], requested.kinematics.signs)
             assert verdict.kind == answer.verdict.kind, (seed, answer.state)
 
 

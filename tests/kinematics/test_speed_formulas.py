@@ -50,7 +50,7 @@ def planetary(inputs: str, fixed: str, output: str) -> GearTrain:
 
 
 @pytest.mark.parametrize(
-    ("driven", "held", "asked", "written"),
+    ("driven", "held", "requested", "written"),
     [
         ("sun", "ring", "carrier", "z_s/(z_s + z_r)"),
         ("carrier", "ring", "sun", "1 + z_r/z_s"),
@@ -61,9 +61,9 @@ def planetary(inputs: str, fixed: str, output: str) -> GearTrain:
     ],
 )
 def test_the_six_gears_of_a_planetary_set_are_those_of_textbooks(
-    driven: str, held: str, asked: str, written: str
+    driven: str, held: str, requested: str, written: str
 ) -> None:
-    assert planetary(driven, held, asked).formula(asked).ratio.text == written
+    assert planetary(driven, held, requested).formula(requested).ratio.text == written
 
 
 def wolfrom() -> GearTrain:

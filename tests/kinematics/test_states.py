@@ -72,7 +72,7 @@ def test_engaged_clutches_add_to_what_is_fixed() -> None:
     assert set(verdict.prescriptions) >= {"'sun' is fixed by B", "'ring' is fixed"}
 
 
-def test_a_train_with_states_must_be_asked_for_one_of_them() -> None:
+def test_a_train_with_states_must_be_requested_for_one_of_them() -> None:
     train = load(FREE_SET.format(rest=STATES))
     with pytest.raises(GearTrainError, match="name one of: low, high"):
         train.solve()

@@ -28,7 +28,7 @@ OBLIQUE = {
     "lu-daolong-hodometer",
 }
 # in these it is cranks and hands on axes across the others, and the phase ball:
-BEHIND_A_CORNER = {
+BEHIND_A_KINK = {
     "lantern-mill": {"second", "shaft", "stone"},
     "freeth-2006": {"a"},
     "freeth-2008": {"a"},
@@ -89,7 +89,7 @@ def test_a_train_on_parallel_axes_has_the_speeds_of_dense_elimination(name: str)
         for output, result in answer.outputs.items():
             if {result.of, result.relative_to} <= set(reference.speeds):
                 assert result.speed == reference.speeds[result.of] - reference.speeds[result.relative_to], output
-    assert missing == BEHIND_A_CORNER.get(name, set())
+    assert missing == BEHIND_A_KINK.get(name, set())
 
 
 @pytest.mark.parametrize("name", every_train(name for name in shipped() if name not in OBLIQUE))
@@ -118,7 +118,7 @@ def chain(train: GearTrain, teeth: dict[str, int]) -> Fraction:
     return ratio
 
 
-def test_what_turns_corners_has_the_ratio_counted_by_hand() -> None:
+def test_what_turns_kinks_has_the_ratio_counted_by_hand() -> None:
     assert abs(Fraction(load("worm").solve()["wheel"])) == Fraction(2, 60)
     # Humpage: arm held, the casing makes -20/76 of the pinion, the output -(20/56)(24/35)
     arm = Fraction(20, 20 + 76)

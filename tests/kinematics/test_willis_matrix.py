@@ -44,8 +44,8 @@ def test_elimination_of_the_matrix_gives_the_speeds_of_the_joint_rates() -> None
     """With bevels, nested carriers, equal planets, and several units of speed."""
     for seed in range(60):
         train = driven_train(seed)
-        asked, motion = GearTrain.declare(train.data), move(train)
-        found = asked.equations().matrix()
+        requested, motion = GearTrain.declare(train.data), move(train)
+        found = requested.equations().matrix()
         for link, speed in dense_solution(found).items():
             assert not motion.is_rotation(link) or speed == motion.speed(link), (seed, link)
 
@@ -95,7 +95,7 @@ def test_every_shipped_train_has_its_matrix_in_every_state(name: str) -> None:
             assert np.abs(speeds - truth).max() <= 1e-9 * np.abs(truth).max()
 
 
-def test_the_greatest_counts_are_held_exactly() -> None:
+def test_the_maximum_counts_are_held_exactly() -> None:
     top = 10**12
     wheels = {"a": {"wheels": {"p": top - 1}}, "b": {"wheels": {"q": top}}, "arm": {"wheels": {}}}
     joints = [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "arm"], "axis": "A"}]

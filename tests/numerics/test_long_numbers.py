@@ -19,7 +19,7 @@ from geartrain.errors import RangeError
 from geartrain.numerics import decimal
 from geartrain.numerics.exact import abridged_text, as_float, count_digits, fraction_text, is_short, read_fraction
 
-LEAST = 640  # digits: no process can set its limit lower, but for none at all
+MINIMUM = 640  # digits: no process can set its limit lower, but for none at all
 PAIRS = 60
 
 
@@ -27,9 +27,9 @@ PAIRS = 60
 def limit() -> Iterator[None]:
     """The lowest limit there is on integers and their digits; nobody may move it."""
     before = sys.get_int_max_str_digits()
-    sys.set_int_max_str_digits(LEAST)
+    sys.set_int_max_str_digits(MINIMUM)
     yield
-    assert sys.get_int_max_str_digits() == LEAST, "the limit is the user's"
+    assert sys.get_int_max_str_digits() == MINIMUM, "the limit is the user's"
     sys.set_int_max_str_digits(before)
 
 
@@ -85,7 +85,7 @@ whole = st.integers(-(10**30), 10**30) | st.builds(
 def test_integers_of_any_size_are_written_and_counted_as_python_does_without_its_limit(number: int) -> None:
     sys.set_int_max_str_digits(0)
     plain = str(number)
-    sys.set_int_max_str_digits(LEAST)
+    sys.set_int_max_str_digits(MINIMUM)
     assert fraction_text(number) == plain
     assert count_digits(number) == len(plain.lstrip("-"))
     assert read_fraction(plain) == number
@@ -160,14 +160,16 @@ SHOWN = [
     ("export", "--to", "parts", "--as", "csv"),
     ("export", "-o", "train.rexsj"),
 ]
-ASKED = [
+REQUESTED = [
     *((command, data) for command in TOLD for data in (NEAR, FAR, LOADED, LOOP)),
     *((command, data) for command in SHOWN for data in (NEAR, FAR)),
     *((command, LOADED) for command in [("torques",), ("torques", "--json")]),
 ]
 
 
-@pytest.mark.parametrize(("command", "data"), ASKED, ids=lambda part: " ".join(part) if isinstance(part, tuple) else "")
+@pytest.mark.parametrize(
+    ("command", "data"), REQUESTED, ids=lambda part: " ".join(part) if isinstance(part, tuple) else ""
+)
 def test_every_command_tells_long_numbers(
     command: tuple[str, ...], data: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

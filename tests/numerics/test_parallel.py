@@ -112,7 +112,7 @@ def test_no_tasks_have_no_results(executor: Executor | None) -> None:
 def test_a_journal_changes_no_result_and_gives_it_again_without_work(executor: Executor | None, tmp_path: Path) -> None:
     plain = list(run(gated, [(str(tmp_path), n, 99) for n in range(30)], executor))
     for _ in range(2):
-        with Journal(tmp_path / "journal", {"asked": 1}) as journal:
+        with Journal(tmp_path / "journal", {"requested": 1}) as journal:
             assert list(run(gated, [(str(tmp_path), n, 99) for n in range(30)], executor, journal)) == plain
             assert len(journal) == 30
     assert sorted(number for number, _ in begun(tmp_path)) == sorted(2 * list(range(30)))
@@ -528,7 +528,7 @@ import json, sys
 sys.path.insert(0, {tests!r})
 from clusters import gated
 from geartrain.numerics import Journal, open_executor, run
-with Journal({folder!r} + "/journal", {{"asked": 1}}) as journal, open_executor({workers}) as executor:
+with Journal({folder!r} + "/journal", {{"requested": 1}}) as journal, open_executor({workers}) as executor:
     print(json.dumps(list(run(gated, [({folder!r}, n, 6) for n in range(20)], executor, journal))))
 """
 
@@ -555,7 +555,7 @@ def test_a_run_cut_by_a_signal_leaves_a_journal_and_nobody_behind(
     assert err.count("Traceback") == (cut is signal.SIGINT), f"only the run itself says a word: {err}"
     until(lambda: not any(alive(pid) for _, pid in begun(tmp_path)), "the workers to leave")
     (tmp_path / "gate").touch()
-    with Journal(tmp_path / "journal", {"asked": 1}) as journal:
+    with Journal(tmp_path / "journal", {"requested": 1}) as journal:
         assert list(run(gated, [(str(tmp_path), n, 6) for n in range(20)], None, journal)) == [n**2 for n in range(20)]
     assert [sum(n == each for n, _ in begun(tmp_path)) for each in range(6)] == [1] * 6
 
@@ -634,7 +634,7 @@ def test_work_that_cannot_be_sent_to_a_process_is_done_here(processes: Executor)
     assert list(run(lambda number: [number, os.getpid()], range(3), processes)) == [[n, os.getpid()] for n in range(3)]
 
 
-def test_the_work_that_is_asked_of_some_workers_is_theirs_from_the_first_task() -> None:
+def test_the_work_that_is_requested_of_some_workers_is_theirs_from_the_first_task() -> None:
     announced: list[tuple[int, int]] = []
     with open_executor(2, announce=lambda *numbers: announced.append(numbers)) as executor:
         found = list(run(slow, [0.0] * 3, executor))
@@ -657,11 +657,11 @@ def test_workers_are_as_many_as_the_cores_this_process_may_use(monkeypatch: pyte
 
 
 @pytest.mark.parametrize(
-    ("asked", "said"),
+    ("requested", "said"),
     [({"workers": 0}, "0 workers"), ({"workers": 2, "dask": "tcp://x:1"}, "both workers and a dask scheduler")],
 )
-def test_what_cannot_be_asked_is_refused(asked: dict[str, Any], said: str) -> None:
-    with pytest.raises(QuestionError, match=said), open_executor(**asked):
+def test_what_cannot_be_requested_is_refused(requested: dict[str, Any], said: str) -> None:
+    with pytest.raises(QuestionError, match=said), open_executor(**requested):
         pass
 
 

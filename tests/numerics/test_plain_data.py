@@ -79,18 +79,18 @@ class Grouped(Result):
     """Keys in objects of their own, and numbers told in two ways."""
 
     KEYS = (
-        group("size", "least", Key("most", to=float)),
+        group("size", "minimum", Key("most", to=float)),
         Key("errors", keys=(Key("exact", "."), Key("value", ".", float))),
     )
 
-    least: Fraction
+    minimum: Fraction
     most: Fraction
     errors: dict[str, Fraction]
 
 
 def test_keys_can_stand_in_a_group_and_tell_one_number_twice() -> None:
     assert Grouped(Fraction(1, 2), Fraction(3, 2), {"a": Fraction(1, 4)}).to_dict() == {
-        "size": {"least": "1/2", "most": 1.5},
+        "size": {"minimum": "1/2", "most": 1.5},
         "errors": {"a": {"exact": "1/4", "value": 0.25}},
     }
 

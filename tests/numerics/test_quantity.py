@@ -143,7 +143,7 @@ def test_a_wrong_unit_is_refused(text: str, dimension: str, said: str) -> None:
         Quantity.parse(text, dimension, plain=False)
 
 
-def test_a_plain_number_is_welcome_where_only_ratios_are_asked() -> None:
+def test_a_plain_number_is_welcome_where_only_ratios_are_requested() -> None:
     quantity = Quantity.parse("5/2", "speed", plain=True)
     assert (quantity.value, quantity.unit, quantity.dimension) == (Fraction(5, 2), None, None)
 

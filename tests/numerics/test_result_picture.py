@@ -36,7 +36,7 @@ def test_each_kind_of_result_names_what_draws_it() -> None:
         assert first.annotation == kind.__name__, f"{kind.__name__}: {kind.FIGURE} takes {first.annotation}"
 
 
-def test_a_motion_draws_the_outputs_that_are_asked_for() -> None:
+def test_a_motion_draws_the_outputs_that_are_requested_for() -> None:
     motion = shipped.train("moon-triangular").motion(outputs=["moon"])
     figure = motion.plot("moon", turns=0.25, samples=101)
     own = drawing.motion_figure(MotionRun(motion, 0.25, 101))

@@ -85,7 +85,7 @@ def test_no_number_of_states_changes_the_shape(files: Path, verb: str) -> None:
 
 
 @pytest.mark.parametrize("verb", ["solve", "torques"])
-def test_one_state_asked_for_has_one_shape_whatever_others_there_are(files: Path, verb: str) -> None:
+def test_one_state_requested_for_has_one_shape_whatever_others_there_are(files: Path, verb: str) -> None:
     one, two = (data(verb, f"{name}.yaml", "--state", "only", "--json") for name in ("one", "two"))
     assert list(one) == list(two)
     assert [each["state"] for each in one["states"]] == [each["state"] for each in two["states"]] == ["only"]
@@ -108,13 +108,13 @@ def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
 # ------------------------------------------------------------------------------------------------- all other questions
 
 RATIO = ("teeth", "ratio", "7/3", "--stages", "1", "--best", "2")
-CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "placement=2 %")
+CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "pitch_deviation=2 %")
 DOUBT = ("posterior", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
 PAIR = ("--teeth", "20", "30")
 TRIANGULAR = ("mesh", "triangular", *PAIR)
 IN_TIME = ("--rate", "1", "--turns", "0.1", "--skip", "0", "--steps", "200", "--no-fast")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
-ASKED: dict[str, list[tuple[str, ...]]] = {
+REQUESTED: dict[str, list[tuple[str, ...]]] = {
     "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
     "dynamics": [
         ("dynamics", "heavy.yaml", *IN_TIME),
@@ -136,7 +136,7 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
     "budget": [
         ("budget", "moon-triangular", "--turns", "1", "--samples", "64"),
         ("budget", "freeth-2008", "--turns", "1", "--samples", "64", "--output", "moon"),
-        ("budget", "moon-triangular", "--turns", "1", "--cutting", "placement=1 %", "--trials", "4"),
+        ("budget", "moon-triangular", "--turns", "1", "--cutting", "pitch_deviation=1 %", "--trials", "4"),
     ],
     "montecarlo": [CUT, (*CUT, "--output", "moon"), (*CUT, "--clearance", "0.2:0.8:2")],
     "posterior": [
@@ -176,8 +176,8 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
     "mesh triangular": [
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.9"),
-        (*TRIANGULAR, "--clearance", "1.5"),
-        (*TRIANGULAR, "--clearance", "1.0001"),
+        (*TRIANGULAR, "--clearance-factor", "1.5"),
+        (*TRIANGULAR, "--clearance-factor", "1.0001"),
         (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2"),
         (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
     ],
@@ -201,9 +201,9 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
 }
 
 
-@pytest.mark.parametrize("question", all_but({"bench", "strength"}, ASKED))
+@pytest.mark.parametrize("question", all_but({"bench", "strength"}, REQUESTED))
 def test_one_shape_for_one_question(files: Path, question: str) -> None:
-    found = [data(*words, "--json") for words in ASKED[question]]
+    found = [data(*words, "--json") for words in REQUESTED[question]]
     for each in found:
         holds(question, each)
     if isinstance(found[0], dict) and question != "teeth set --kind list":
@@ -212,7 +212,7 @@ def test_one_shape_for_one_question(files: Path, question: str) -> None:
 
 def test_every_question_is_tried() -> None:
     others = {"solve", "report", "compare", "torques", "sphere --survey", "graph --as json", "graph --as matrix"}
-    assert {*ASKED, *others} == set(ANSWERS)
+    assert {*REQUESTED, *others} == set(ANSWERS)
 
 
 @pytest.mark.parametrize("form", ["json", "matrix"])

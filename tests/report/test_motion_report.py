@@ -32,7 +32,7 @@ def test_outputs_that_are_left_out_are_named() -> None:
     ]
 
 
-def test_every_output_has_its_column_when_asked() -> None:
+def test_every_output_has_its_column_when_requested() -> None:
     section = pairs(every_output=True)
     assert columns(section) == [*map(str, range(3, 21)), "sun", "moon"]
     assert not any("Left out" in line for line in section.paragraphs)

@@ -314,7 +314,7 @@ def test_the_json_of_a_report_says_what_the_markdown_says(name: str, tmp_path: P
 
 
 @pytest.mark.parametrize("suffix", [".md", ".html", ".json", ".HTML", ""])
-def test_several_trains_stand_in_one_report_in_the_order_asked(suffix: str, tmp_path: Path) -> None:
+def test_several_trains_stand_in_one_report_in_the_order_requested(suffix: str, tmp_path: Path) -> None:
     names = ["zf-8hp70", "worm", "planetary"]
     titles = [load(name).declaration.title for name in names]
     out = tmp_path / f"r{suffix}"

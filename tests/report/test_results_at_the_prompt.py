@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
@@ -158,10 +159,10 @@ RESULTS: dict[str, Case] = {
     "motion figures": (lambda: reports("motion"), (*MOTION, "--turns", "1", "--samples", "64")),
     "transmission error": (lambda: load("moon-triangular").motion().transmission_error("moon"), None),
     "errors at positions": (lambda: load("moon-triangular").motion().at([0.0, 0.1]), None),
-    "corners": (lambda: load("moon-triangular").motion().corner_positions(0, 1), None),
+    "corners": (lambda: load("moon-triangular").motion().kink_positions(0, 1), None),
     # core: teeth
     "mesh": (lambda: load(PAIR).meshes[0], ("mesh", "involute", "--teeth", "24", "36")),
-    "transmission function": (lambda: load("sorge-pairs").meshes[0].law, None),
+    "transmission function": (lambda: load("sorge-pairs").meshes[0].transmission, None),
     "pin": (pin, ("mesh", "pin", "--pin-radius", "10", "--offset", "5")),
     "comparison of forms": (
         lambda: room("teeth").compare_forms(room("teeth.conjugate").WheelPair(24, 36), ["cycloidal"]),

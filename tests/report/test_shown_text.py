@@ -90,7 +90,7 @@ def odd_outputs(file: Path, parent: str, of: str) -> Path:
     "command",
     [
         lambda file, out: ("motion", file, "--turns", "1", "--samples", "8", "-o", out, *outputs()),
-        lambda file, out: ("montecarlo", file, "--trials", "2", "--set", "placement=2 %", "-o", out, *outputs()),
+        lambda file, out: ("montecarlo", file, "--trials", "2", "--set", "pitch_deviation=2 %", "-o", out, *outputs()),
     ],
 )
 def test_columns_of_names_with_commas_do_not_shift(tmp_path: Path, command: Callable[..., Any]) -> None:

@@ -60,7 +60,7 @@ def test_what_a_changed_train_extends_is_the_file_it_came_from(tmp_path: Path) -
     assert formulas.parent == "mine.yaml"
 
 
-def test_a_scene_has_formulas_only_where_they_are_asked_for_and_can_be_had() -> None:
+def test_a_scene_has_formulas_only_where_they_are_requested_for_and_can_be_had() -> None:
     assert make_scene(shipped.train("worm")).formulas is None
     idle = load("name: idle\nframe: f\nlinks: {f: {}, a: {wheels: {p: 10}}}\nrevolutes: {A: [f, a]}\ninputs: {}\n")
     assert make_scene(idle, formulas=True).formulas is None

@@ -214,7 +214,7 @@ def test_small_letters_and_accents_are_engraved_as_capitals() -> None:
     assert capitals("Ἴσθμια été") == "ΙΣΘΜΙΑ ETE"
 
 
-def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_asked() -> None:
+def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_requested() -> None:
     for inwards, angle in ((False, 0.0), (True, pi)):
         strokes = list(curved_text("HH", 0.1, CurvedLine(1000.0, angle, inwards)))
         across = [x for stroke in strokes for x, _ in stroke]

@@ -28,7 +28,7 @@ SIGHT = {
                          [-0.078411, 0.930809, 0.147602],
                          [0.004733, 0.691367, 0.303900]]),
 }  # fmt: skip
-LEAST = {"all colours": 11.0, "no red": 11.0, "no green": 11.0, "no blue": 7.0}  # CIEDE2000; one is just to be seen
+MINIMUM = {"all colours": 11.0, "no red": 11.0, "no green": 11.0, "no blue": 7.0}  # CIEDE2000; one is just to be seen
 XYZ = np.array(
     [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
 )
@@ -97,7 +97,7 @@ def test_any_two_series_and_the_ink_are_told_apart(name: str, sight: str) -> Non
     theme = THEMES[name]  # type: ignore[index]
     seen = {colour: lab(SIGHT[sight] @ linear(colour)) for colour in (*theme.series, theme.ink)}
     close = {(a, b): ciede2000(seen[a], seen[b]) for a, b in combinations(seen, 2)}
-    assert min(close.values()) > LEAST[sight], min(close, key=lambda pair: close[pair])
+    assert min(close.values()) > MINIMUM[sight], min(close, key=lambda pair: close[pair])
 
 
 @pytest.mark.parametrize("name", THEMES)

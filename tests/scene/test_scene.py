@@ -18,7 +18,7 @@ from models import pair, planetary
 from reference_solver import _dense as solve_rows
 from reference_solver import rigid_rows, solve_naively, turning_graph, willis_rows
 from sampling import few_or_many
-from strategies import asked_trains, driven_trains, rerooted
+from strategies import driven_trains, requested_trains, rerooted
 
 from geartrain import GearTrain, load
 from geartrain.scene import Scene, lay_out, make_scene
@@ -47,8 +47,8 @@ def test_speeds_are_the_exact_ones_and_all_numbers_point_somewhere(name: str, st
     train = shipped.train(name).unfolded
     scene = shipped.scene(name, state)
     answer = train.solve(state or (train.states[0] if train.states else None))
-    assert scene.lead is not None
-    lead = Fraction(answer[scene.bodies[scene.lead].id])
+    assert scene.driving_link is not None
+    lead = Fraction(answer[scene.bodies[scene.driving_link].id])
     for body in scene.bodies:
         assert Fraction(body.shown or "") == answer.speeds[body.id]
         assert Fraction(body.speed or "") * lead == answer.speeds[body.id]
@@ -75,7 +75,7 @@ def _check_numbers(scene: Scene) -> None:
 
 
 @settings(max_examples=SAMPLE)
-@given(asked_trains())
+@given(requested_trains())
 def test_every_train_has_a_scene_whatever_its_verdict(data: dict[str, Any]) -> None:
     scene = make_scene(GearTrain.declare(data))
     truth = solve_naively(data)
@@ -158,7 +158,7 @@ def test_pairs_of_a_path_come_in_order_from_the_input() -> None:
     scene = shipped.scene("longcase-clock")
     for pointer in scene.pointers:
         wheels = {each.id: each.wheels for each in scene.pairs}
-        known = {scene.bodies[scene.lead or 0].id}
+        known = {scene.bodies[scene.driving_link or 0].id}
         for name in pointer.pairs:
             links = {scene.bodies[scene.wheels[at].body].id for at in wheels[name]}
             assert links & known
@@ -189,7 +189,7 @@ def test_a_loop_that_does_not_close_is_marked_pair_by_pair() -> None:
 
 def test_a_train_that_is_free_or_stands_shows_no_speeds_that_it_does_not_have() -> None:
     free = make_scene(planetary("inputs: {}"))
-    assert (free.verdict["kind"], free.lead, free.movement.kind) == ("free", None, "still")
+    assert (free.verdict["kind"], free.driving_link, free.movement.kind) == ("free", None, "still")
     held = make_scene(pair("inputs: {a: 0}"))
     assert held.movement.kind == "still"
 

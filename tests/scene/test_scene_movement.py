@@ -32,20 +32,20 @@ class Reader:
         """`back` for negative turns."""
         self.data = json.loads(json.dumps(data))
         self.movement = (back and self.data["back"]) or self.data["movement"]
-        self.laws = [self._law(law) for law in self.movement["laws"]]
+        self.transmissions = [self._transmission(transmission) for transmission in self.movement["transmissions"]]
 
     @staticmethod
-    def _law(law: Mapping[str, Any]) -> tuple[float, list[float], list[tuple[float, ...]]]:
+    def _transmission(transmission: Mapping[str, Any]) -> tuple[float, list[float], list[tuple[float, ...]]]:
         breaks, numbers = (
             struct.unpack(f"<{len(raw) // 8}d", raw)
-            for raw in (b64decode(law[key]) for key in ("breaks", "coefficients"))
+            for raw in (b64decode(transmission[key]) for key in ("breaks", "coefficients"))
         )
         width = len(numbers) // (len(breaks) - 1)
         rows = [numbers[at : at + width] for at in range(0, len(numbers), width)]
-        return law["period"], list(breaks), rows
+        return transmission["period"], list(breaks), rows
 
-    def error_of_law(self, number: int, S: float) -> float:
-        period, breaks, rows = self.laws[number]
+    def error_of_transmission(self, number: int, S: float) -> float:
+        period, breaks, rows = self.transmissions[number]
         u = S - period * floor(S / period)
         cell = min(max(bisect_right(breaks, u) - 1, 0), len(rows) - 1)
         x = u - (breaks[cell] + breaks[cell + 1]) / 2
@@ -75,8 +75,8 @@ class Reader:
         cycles = Fraction(source["cycles"]) * turns
         rest = float(cycles - floor(cycles))
         own = source["driver_sense"] * errors[source["driver"]] - source["carrier_sense"] * errors[source["carrier"]]
-        S = source["start"] + self.laws[source["law"]][0] * rest + source["forward"] * own
-        return float(source["sense"] * self.error_of_law(source["law"], S))
+        S = source["start"] + self.transmissions[source["transmission"]][0] * rest + source["forward"] * own
+        return float(source["sense"] * self.error_of_transmission(source["transmission"], S))
 
     def angles(self, turns: float) -> list[float]:
         """Angle of every body about its direction (rad), whole turns taken off its mean."""
@@ -135,7 +135,7 @@ def test_the_plain_data_move_every_pointer_as_the_train_does(name: str, back: bo
     assert compared(shipped.train(name), back) < AGREE
 
 
-TRIANGULAR = "form: triangular, half_angle: 30 deg, clearance: 1.01"
+TRIANGULAR = "form: triangular, half_angle: 30 deg, clearance_factor: 1.01"
 PAIRS = """
 links:
   frame: {{}}
@@ -155,7 +155,9 @@ outputs: {{a: , b: , c: {{relative_to: a}}}}
 @pytest.mark.parametrize("speed", ["1", "-3/7"])
 @pytest.mark.parametrize("driver", ["p", "q"])
 @pytest.mark.parametrize("form", [TRIANGULAR, "form: involute, backlash: 0.1"])
-def test_play_phases_starting_angles_and_opposed_axes_are_kept(form: str, driver: str, speed: str, back: bool) -> None:
+def test_backlash_phases_starting_angles_and_opposed_axes_are_kept(
+    form: str, driver: str, speed: str, back: bool
+) -> None:
     assert compared(geartrain.load(PAIRS.format(form=form, driver=driver, speed=speed)), back) < AGREE
 
 
@@ -181,15 +183,18 @@ def test_the_way_back_is_written_only_where_it_differs() -> None:
     assert max(map(off, forwards, backwards)) > 1e-4
 
 
-def test_laws_alike_are_written_once() -> None:
+def test_transmissions_alike_are_written_once() -> None:
     scene = shipped.scene("freeth-2021-teeth")
-    kinds = {(source.law, scene.movement.laws[source.law].period) for source in scene.movement.sources}
-    assert len(kinds) == len(scene.movement.laws) < len(scene.movement.sources)
-    for law in scene.movement.laws:
-        assert law.breaks[0] == 0
-        assert law.breaks[-1] == law.period
-        assert (np.diff(law.breaks) > 0).all()
-        assert len(law.breaks) == len(law.coefficients) + 1
+    kinds = {
+        (source.transmission, scene.movement.transmissions[source.transmission].period)
+        for source in scene.movement.sources
+    }
+    assert len(kinds) == len(scene.movement.transmissions) < len(scene.movement.sources)
+    for transmission in scene.movement.transmissions:
+        assert transmission.breaks[0] == 0
+        assert transmission.breaks[-1] == transmission.period
+        assert (np.diff(transmission.breaks) > 0).all()
+        assert len(transmission.breaks) == len(transmission.coefficients) + 1
 
 
 def test_everything_stands_as_before_after_the_period() -> None:
@@ -211,7 +216,7 @@ revolutes:
   - {pair: [frame, c], axis: C}
   - {pair: [frame, d], axis: D}
 gears: [{pair: [wa, wb]}, {pair: [wb, wc]}, {pair: [wc, wd]}, {pair: [wd, wa]}]
-tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}
+tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}
 inputs: {a: 1}
 """
     scene = make_scene(geartrain.load(loop))
@@ -221,7 +226,7 @@ inputs: {a: 1}
     assert [body.speed for body in scene.bodies] == ["0", "1", "-2/3", "1/2", "-2/5"]
 
 
-def test_a_pin_stands_where_its_law_has_it() -> None:
+def test_a_pin_stands_where_its_transmission_has_it() -> None:
     """The slot, drawn from its axis to the pin in the zero pose and turned with its body, always holds the pin."""
     train = geartrain.load(
         """

@@ -72,7 +72,7 @@ def test_what_a_contact_does_adds_up_to_the_shares_that_the_run_counted(pin: tup
     assert contact.at == scene.couplings[0].pin_at
 
 
-def test_every_blow_is_kept_or_lies_within_a_sample_of_a_harder_one(pin: tuple[TimeRun, Scene]) -> None:
+def test_every_impact_is_kept_or_lies_within_a_sample_of_a_harder_one(pin: tuple[TimeRun, Scene]) -> None:
     run, scene = pin
     assert scene.run is not None
     (contact,) = scene.run.contacts
@@ -80,9 +80,9 @@ def test_every_blow_is_kept_or_lies_within_a_sample_of_a_harder_one(pin: tuple[T
     times = run.impacts.time - start
     assert len(times) == run.impacts.total > 3
     for time, speed in zip(times, run.impacts.speed, strict=True):
-        near = np.abs(contact.blow_times - time) < scene.run.step
-        assert contact.blow_speeds[near].max() >= speed
-    assert contact.blow_speeds.max() == run.impacts.speed.max()
+        near = np.abs(contact.impact_times - time) < scene.run.step
+        assert contact.impact_speeds[near].max() >= speed
+    assert contact.impact_speeds.max() == run.impacts.speed.max()
 
 
 def test_teeth_meet_where_pitch_circles_touch() -> None:
@@ -106,13 +106,13 @@ def test_an_escapement_strikes_at_the_rim_of_its_wheel_once_a_beat() -> None:
     assert scene.run is not None
     contact = next(each for each in scene.run.contacts if each.kind == "escapement")
     assert contact.states == ""
-    gaps = np.diff(contact.blow_times[contact.blow_speeds > 0.5 * contact.hardest])
+    gaps = np.diff(contact.impact_times[contact.impact_speeds > 0.5 * contact.hardest])
     assert np.allclose(gaps, 0.1, atol=0.01)
     wheel = next(each for each in scene.wheels if each.id == "e")
     assert np.linalg.norm(np.subtract(contact.at, wheel.centre)) == pytest.approx(wheel.radius)
 
 
-def test_a_pair_without_play_is_on_its_drive_flank() -> None:
+def test_a_pair_without_backlash_is_on_its_drive_flank() -> None:
     train = geartrain.load(CLOCK.replace("[g, p]", "[g, p], efficiency: 0.9"))
     scene = make_scene(train, run=train.dynamics(turns=0.01, skip=0.0, steps=50_000, fast=False))
     assert scene.run is not None

@@ -105,7 +105,7 @@ def pair_of(z1: int, z2: int, form: Mapping[str, Any], **more: Any) -> GearTrain
     )
 
 
-TRIANGULAR = {"form": "triangular", "half_angle": "30 deg", "clearance": "1.01"}
+TRIANGULAR = {"form": "triangular", "half_angle": "30 deg", "clearance_factor": "1.01"}
 
 
 @pytest.mark.parametrize(

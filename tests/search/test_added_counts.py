@@ -12,7 +12,7 @@ import pytest
 from geartrain.search.reconstruct.added_counts import AddedCounts, Wanted
 from geartrain.search.reconstruct.train_topology import AddedWheels
 
-LEAST, GREATEST = 5, 9
+MINIMUM, MAXIMUM = 5, 9
 DIALS = "pqrs"
 
 
@@ -23,7 +23,7 @@ def random_question(chance: random.Random) -> tuple[AddedWheels, Wanted]:
         dials = tuple(sorted(chance.sample(DIALS, chance.randint(1, 4))))
         kinds.setdefault(dials, [0, 0])[chance.randint(0, 1)] += 1
     groups = tuple((dials, drivers, driven) for dials, (drivers, driven) in sorted(kinds.items()))
-    quotients = quotients_of(groups, [chance.randint(LEAST, GREATEST) for _ in range(4)])
+    quotients = quotients_of(groups, [chance.randint(MINIMUM, MAXIMUM) for _ in range(4)])
     widths = {dial: Fraction(chance.choice((0, 0, 1, 5, 30)), 100) for dial in DIALS}
     wanted = tuple((dial, (each * (1 - widths[dial]), each * (1 + widths[dial]))) for dial, each in quotients.items())
     return AddedWheels(groups, chance.choice((0, 0, 1))), wanted
@@ -44,7 +44,7 @@ def choices(added: AddedWheels, wanted: Wanted) -> set[tuple[int, ...]]:
     wheels = sum(drivers + driven for _, drivers, driven in added.groups)
     return {
         counts
-        for counts in product(range(LEAST, GREATEST + 1), repeat=wheels)
+        for counts in product(range(MINIMUM, MAXIMUM + 1), repeat=wheels)
         if all(low <= quotients_of(added.groups, [*counts])[dial] <= high for dial, (low, high) in wanted)
     }
 
@@ -52,8 +52,8 @@ def choices(added: AddedWheels, wanted: Wanted) -> set[tuple[int, ...]]:
 @pytest.mark.parametrize("seed", range(60))
 def test_counts_are_those_of_trial(seed: int) -> None:
     added, wanted = random_question(random.Random(seed))
-    counts, expected = AddedCounts(LEAST, GREATEST), choices(added, wanted)
-    idle = (GREATEST - LEAST + 1) ** added.idle
+    counts, expected = AddedCounts(MINIMUM, MAXIMUM), choices(added, wanted)
+    idle = (MAXIMUM - MINIMUM + 1) ** added.idle
     assert counts.count(added, wanted) == len(expected) * idle
     listed = list(counts.assignments(added, wanted))
     flat = [tuple(each for group in added.groups for own in one[group[0]] for each in own) for one, _ in listed]
@@ -68,11 +68,11 @@ def test_a_quotient_that_no_other_group_changes_is_kept_within_the_bounds_of_all
     bounds = {"p": ("1/500", "1/5"), "q": ("99/100", "102/100"), "r": ("1", "101/100")}
     wanted = tuple((dial, (Fraction(low), Fraction(high))) for dial, (low, high) in bounds.items())
     counts = AddedCounts(10, 120)
-    asked: list[object] = []
+    requested: list[object] = []
     count = counts._count
-    counts._count = lambda groups, wanted: asked.append(wanted) or count(groups, wanted)  # type: ignore[assignment,func-returns-value]
+    counts._count = lambda groups, wanted: requested.append(wanted) or count(groups, wanted)  # type: ignore[assignment,func-returns-value]
     quotients = {
         Fraction(y, x) for y in range(10, 121) for x in range(10, 121) if 0 <= Fraction(y, x) - 1 <= Fraction(1, 100)
     }
     assert counts.count(AddedWheels(groups, 0), wanted) > 0
-    assert len(asked) == 1 + 2 * len(quotients)  # then p is asked, and that nothing is left
+    assert len(requested) == 1 + 2 * len(quotients)  # then p is asked, and that nothing is left

@@ -89,12 +89,12 @@ def test_kinds_are_as_defined(value: Fraction, most: int) -> None:
 @given(positive, bounds)
 def test_a_list_of_convergents_or_best_ones_is_the_whole_list_without_the_others(value: Fraction, most: int) -> None:
     found = approximants(value, most)
-    for least, kinds in (("convergent", ["convergent"]), ("best", ["convergent", "best"])):
-        assert approximants(value, most, least) == tuple(a for a in found if a.kind in kinds)  # type: ignore[arg-type]
+    for minimum, kinds in (("convergent", ["convergent"]), ("best", ["convergent", "best"])):
+        assert approximants(value, most, minimum) == tuple(a for a in found if a.kind in kinds)  # type: ignore[arg-type]
 
 
-def values(number: Fraction, most: int, least: str) -> list[str]:
-    return [str(found.value) for found in approximants(number, most, least)]  # type: ignore[arg-type]
+def values(number: Fraction, most: int, minimum: str) -> list[str]:
+    return [str(found.value) for found in approximants(number, most, minimum)]  # type: ignore[arg-type]
 
 
 def test_convergents_of_pi_and_of_the_root_of_two_are_the_known_ones() -> None:
@@ -234,9 +234,9 @@ def test_long_ranges_give_what_a_look_at_every_count_gives(
 
 
 @pytest.mark.parametrize("value", ["1", "254/235", "29.53059/27.32166", "0.73", "1/2", "2.000001", "3.7"])
-@pytest.mark.parametrize("least", [12, 2000, 4500])
-def test_so_do_ranges_where_the_tree_is_the_shorter_way(value: str, least: int) -> None:
-    check_ranges(read_ratio(value).value, range(least, 6000), range(least // 2, 6000), Fraction(1, 10**6), 50)
+@pytest.mark.parametrize("minimum", [12, 2000, 4500])
+def test_so_do_ranges_where_the_tree_is_the_shorter_way(value: str, minimum: int) -> None:
+    check_ranges(read_ratio(value).value, range(minimum, 6000), range(minimum // 2, 6000), Fraction(1, 10**6), 50)
 
 
 @given(st.integers(10**30, 10**32), st.integers(10**7, 10**9))

@@ -20,7 +20,7 @@ from geartrain.search.reconstruct import (
     read_evidence,
     search_tasks,
 )
-from geartrain.search.reconstruct.reconstruction_problem import AskedQuestion
+from geartrain.search.reconstruct.reconstruction_problem import RequestedQuestion
 from geartrain.search.reconstruct.search_tasks import TopologyTask, done_shares, expect_cost, rough, topology_tasks
 
 TOY = ReconstructionProblem(
@@ -35,13 +35,13 @@ def doubtful() -> ReconstructionProblem:
     return evidence_question(read_evidence("back-train-doubt")).problem
 
 
-def test_what_is_asked_is_counted() -> None:
+def test_what_is_requested_is_counted() -> None:
     """2 x 5 x 19 x 13 x 2 x 3 readings."""
-    assert AskedQuestion.of(doubtful()) == AskedQuestion(6, 10, 14820, 2, 2, (12, 225))
-    assert str(AskedQuestion.of(doubtful())) == (
+    assert RequestedQuestion.of(doubtful()) == RequestedQuestion(6, 10, 14820, 2, 2, (12, 225))
+    assert str(RequestedQuestion.of(doubtful())) == (
         "6 arbors with 10 wheels, their counts in 14820 ways; 2 dials; at most 2 added wheels of 12 to 225 teeth"
     )
-    assert str(AskedQuestion(1, 1, 1, 1, 0, (1, 1))) == "1 arbor with 1 wheel; 1 dial; nothing added"
+    assert str(RequestedQuestion(1, 1, 1, 1, 0, (1, 1))) == "1 arbor with 1 wheel; 1 dial; nothing added"
 
 
 def test_paths_are_those_found_by_hand() -> None:
@@ -55,17 +55,17 @@ def test_paths_are_those_found_by_hand() -> None:
 
 def test_the_time_is_that_of_a_part_times_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every part begins with 2 s, and all of them share 640 s of work."""
-    asked: list[TopologyTask] = []
+    requested: list[TopologyTask] = []
 
     def timed(task: TopologyTask) -> float:
-        asked.append(task)
+        requested.append(task)
         return 2 + (640 / task.parts if task.part < task.parts else 0)  # three in 4096 are half a second
 
     monkeypatch.setattr(search_tasks, "timed_part", timed)
     found = expect_cost(TOY)
     assert found.seconds[:3] == (0, 0, 0)
     assert found.seconds[3] == pytest.approx(642)
-    assert {task.added for task in asked} == {3}
+    assert {task.added for task in requested} == {3}
     assert found.parts == 4096
     shares = done_shares(TOY, found)
     assert (len(shares), shares[0], shares[-1]) == (len(topology_tasks(TOY)) + 1, 0, 1)
@@ -119,12 +119,12 @@ def test_rough_times() -> None:
     assert [rough(seconds) for seconds in (0, 0.9, 1, 27.4, 196, 86400)] == [0, 0, 1, 30, 200, 90000]
 
 
-def test_what_is_too_wide_is_refused_with_what_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_too_wide_is_refused_with_what_is_requested(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(path_lists, "_MOST_PATHS", 1000)
     with pytest.raises(GearTrainError) as caught:
         find_reconstructions(doubtful())
     (problem,) = caught.value.problems
     assert problem.what == "more than 1000 paths to 'metonic' would have to be looked at"
-    assert problem.why == f"asked are {AskedQuestion.of(doubtful())}"
+    assert problem.why == f"asked are {RequestedQuestion.of(doubtful())}"
     for way in ("`-k 1`", "e3 has 19, e4 has 13, m1 has 5", "leave out arbors"):
         assert way in problem.fix

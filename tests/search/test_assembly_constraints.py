@@ -115,7 +115,7 @@ def test_a_stepped_planet_of_two_rings_has_two_equations() -> None:
     assert names == ["coaxial closure: s12 + 2 p30 = r72", "coaxial closure: s12 + p30 + p28 = r70"]
 
 
-def test_equations_that_the_declared_counts_break_are_asked_for_only_on_demand() -> None:
+def test_equations_that_the_declared_counts_break_are_requested_for_only_on_demand() -> None:
     # with one module for all, as for wheels of which nothing is known
     one = "extends: freeth-2021\nname: one\nlinks: {frame: {wheels: {x49: {module: null}}}}"
     train = load(one).declaration
@@ -144,12 +144,12 @@ SHIPPED = ("ferguson-paradox", "huygens-planetarium-1682", "longcase-clock", "pr
 
 
 @pytest.mark.parametrize("name", [*SHIPPED, "planetary", "simpson-set", "zf-8hp70", "ravigneaux-set", "freeth-2008"])
-def test_shipped_trains_keep_the_rules_that_hold_without_being_asked_for(name: str) -> None:
+def test_shipped_trains_keep_the_rules_that_hold_without_being_requested_for(name: str) -> None:
     train = load(name).declaration
     counts = {wheel: declared.count or 0 for wheel, (_, declared) in train.wheels.items()}
     assert passed(rules_of(train), **counts)
-    asked = rules_of(train, coaxial=True)
-    assert passed(asked, **counts) == (name not in SHIPPED)
+    requested = rules_of(train, coaxial=True)
+    assert passed(requested, **counts) == (name not in SHIPPED)
 
 
 def test_two_wheels_of_one_axis_on_one_mate_cannot_differ() -> None:
@@ -380,7 +380,7 @@ def test_planets_declared_one_by_one_are_equal_and_counted_once() -> None:
         rules_of(data, planets=4)
 
 
-def test_planets_are_asked_for_by_carrier_and_unknown_carriers_are_refused() -> None:
+def test_planets_are_requested_for_by_carrier_and_unknown_carriers_are_refused() -> None:
     train = load("zf-8hp70").declaration
     rules = rules_of(train, planets={"OUT": 4, "IN": 3}, coaxial=False)
     assert {rule.name for rule in rules} == {
@@ -411,7 +411,7 @@ def test_planets_that_mesh_in_a_loop_are_not_judged() -> None:
 
 def test_limits_hold_for_every_free_wheel_alone() -> None:
     rules = rules_of(
-        epicyclic(*SIMPLE), ["s", "p"], coaxial=False, least=12, most_teeth=40, largest_radius=length("18")
+        epicyclic(*SIMPLE), ["s", "p"], coaxial=False, minimum=12, most_teeth=40, largest_radius=length("18")
     )
     assert all(len(rule.wheels) == 1 for rule in rules)
     for s, p in product(range(8, 45, 4), repeat=2):
@@ -431,10 +431,10 @@ def test_a_radius_is_a_length_where_modules_are() -> None:
         rules_of(reverted([None] * 4), largest_radius=length("30 mm"))
 
 
-def test_a_worm_is_asked_for_no_teeth() -> None:
+def test_a_worm_is_requested_for_no_teeth() -> None:
     train = load("worm").declaration
     worm = next(name for name, (_, wheel) in train.wheels.items() if wheel.kind == "worm")
-    rules = rules_of(train, least=12, undercut=Quantity.parse("20 deg", "angle", False))
+    rules = rules_of(train, minimum=12, undercut=Quantity.parse("20 deg", "angle", False))
     assert rules
     assert all(worm not in rule.wheels for rule in rules)
 
@@ -446,7 +446,7 @@ def test_hunting_teeth_have_no_common_divisor() -> None:
     assert rules_of(epicyclic(*SIMPLE), [], hunting=True) == ()
 
 
-def test_different_counts_are_asked_of_all_wheels_but_equal_planets() -> None:
+def test_different_counts_are_requested_of_all_wheels_but_equal_planets() -> None:
     data = epicyclic(*SIMPLE, copies=3)
     rules = rules_of(data, ["s", "p", "p-1"], different=True, coaxial=False)
     assert passed(rules, **{"s": 24, "p": 18, "p-1": 18})
@@ -475,11 +475,11 @@ def test_wheels_without_a_count_get_rules_too() -> None:
 
 def test_rules_can_be_sent_to_other_processes_and_come_cheapest_first() -> None:
     train = load("planets-in-place").declaration
-    asked = read_constraint_options(
-        planets="3", clearance="0.5", undercut="20 deg", interference="20 deg", ring_addendum="0.8", least=12,
+    requested = read_constraint_options(
+        planets="3", clearance="0.5", undercut="20 deg", interference="20 deg", ring_addendum="0.8", minimum=12,
         hunting=True, different=True, closure=True,
     )  # fmt: skip
-    rules = find_constraints(train, dict.fromkeys(train.wheels, (20, 21)), asked)
+    rules = find_constraints(train, dict.fromkeys(train.wheels, (20, 21)), requested)
     some = columns(**{wheel: [20, 24, 18] for wheel in train.wheels})
     for rule in rules:
         again = pickle.loads(pickle.dumps(rule))
@@ -493,19 +493,19 @@ def test_rules_can_be_sent_to_other_processes_and_come_cheapest_first() -> None:
     assert "phase closure" in rules[-1].name
 
 
-def test_what_is_asked_is_read_from_texts() -> None:
+def test_what_is_requested_is_read_from_texts() -> None:
     assert read_constraint_options() == ConstraintOptions()
     found = read_constraint_options(
-        planets="arm=3, inner=4", clearance="1/2", undercut="14.5 deg", largest_radius="60 mm", least=9
+        planets="arm=3, inner=4", clearance="1/2", undercut="14.5 deg", largest_radius="60 mm", minimum=9
     )
     assert found.planets == {"arm": 3, "inner": 4}
     assert found.clearance == Fraction(1, 2)
-    assert found.least == 9
+    assert found.minimum == 9
     assert read_constraint_options(planets="3").planets == 3
     plain = json.loads(json.dumps(found.to_dict()))
     assert plain == {
         "shift": 0, "planets": {"arm": 3, "inner": 4}, "clearance": "1/2", "undercut": "14.5 deg", "addendum": "1",
-        "least": 9, "largest_radius": "60 mm",
+        "minimum": 9, "largest_radius": "60 mm",
     }  # fmt: skip
 
 

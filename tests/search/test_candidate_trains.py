@@ -206,17 +206,17 @@ def declared(problem: ReconstructionProblem) -> Train:
     }
     outputs = {}
     for dial in problem.dials:
-        middle, half = (dial.least + dial.greatest) / 2, (dial.greatest - dial.least) / 2
+        middle, half = (dial.minimum + dial.maximum) / 2, (dial.maximum - dial.minimum) / 2
         said = {"expect": {"value": str(middle), "tolerance": str(half)}}
         if not dial.signed:
             share = str(half / middle)
             said = {"targets": [{"period": f"{1 / middle} d", "tolerance": share}]}
         outputs[dial.name] = {**({"of": dial.place} if dial.place else {}), **said}
     add = {"wheels": problem.additions.wheels, "on": problem.additions.on}
-    add["teeth"] = [problem.additions.least, problem.additions.greatest]
+    add["teeth"] = [problem.additions.minimum, problem.additions.maximum]
     if problem.additions.arbors is not None:
         add["arbors"] = problem.additions.arbors
-    asked = {
+    requested = {
         "add": add,
         "use": problem.use,
         "idlers": problem.idlers,
@@ -231,7 +231,7 @@ def declared(problem: ReconstructionProblem) -> Train:
             "gears": [{"pair": sorted(pair)} for pair in problem.meshes if len(pair) == 2],
             "inputs": {problem.input.name: str(problem.input_speed)},
             "outputs": outputs,
-            "reconstruct": asked,
+            "reconstruct": requested,
         }
     )
 

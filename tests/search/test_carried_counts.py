@@ -25,11 +25,11 @@ def _parameter(question: dict[str, Any]) -> Any:
 
 @pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS)])
 def test_counts_are_those_of_another_program(question: dict[str, Any]) -> None:
-    asked = read_evidence("front-planets").model_dump(mode="json", exclude_unset=True, by_alias=True)
-    asked["outputs"] = {dial: asked["outputs"][dial] for dial in question["dials"]}
+    requested = read_evidence("front-planets").model_dump(mode="json", exclude_unset=True, by_alias=True)
+    requested["outputs"] = {dial: requested["outputs"][dial] for dial in question["dials"]}
     if "venus" not in question["dials"]:
-        del asked["links"]["r1"], asked["revolutes"]
-    asked["reconstruct"]["add"] = {"wheels": len(question["counts"]) - 1, "teeth": question["added"]}
-    found = find_reconstructions(evidence_question(declare(asked)).problem, listed=0)
+        del requested["links"]["r1"], requested["revolutes"]
+    requested["reconstruct"]["add"] = {"wheels": len(question["counts"]) - 1, "teeth": question["added"]}
+    found = find_reconstructions(evidence_question(declare(requested)).problem, listed=0)
     assert found.complete
     assert [each.mechanisms for each in found.counts] == question["counts"]

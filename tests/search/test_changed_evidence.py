@@ -86,12 +86,12 @@ def test_a_fact_that_is_not_there_is_not_dropped() -> None:
 
 
 def test_the_sense_is_dropped_as_a_magnitude() -> None:
-    dial = replace(TOY.dials[0], least=Fraction(-3), greatest=Fraction(2))
+    dial = replace(TOY.dials[0], minimum=Fraction(-3), maximum=Fraction(2))
     found = {one.change: one.problem for one in without_each_fact(replace(TOY, dials=(dial,)))}
     (free,) = found["without the sense of p"].dials
-    assert (free.least, free.greatest, free.signed, free.place) == (0, 3, False, "new")
-    (back,) = without_each_fact(replace(TOY, dials=(replace(dial, greatest=Fraction(-2)),)))[0].problem.dials
-    assert (back.least, back.greatest) == (2, 3)
+    assert (free.minimum, free.maximum, free.signed, free.place) == (0, 3, False, "new")
+    (back,) = without_each_fact(replace(TOY, dials=(replace(dial, maximum=Fraction(-2)),)))[0].problem.dials
+    assert (back.minimum, back.maximum) == (2, 3)
 
 
 def test_what_each_fact_of_the_back_train_carries() -> None:
@@ -109,7 +109,7 @@ def test_counts_of_changed_questions_are_those_of_plain_growth(seed: int) -> Non
     assert list(changed_counts(changed)) == list(changed_counts(changed, search=grown))
 
 
-def test_what_cannot_be_asked_is_said() -> None:
+def test_what_cannot_be_requested_is_said() -> None:
     (one, *_) = changed_counts(without_each_fact(TOY), search=refusing)
     assert (one.mechanisms, one.refused, one.fewest, one.total) == ((), "not today", None, 0)
 
@@ -129,7 +129,7 @@ def test_why_nothing_fits(search: object) -> None:
     assert found.dials == (LoneDial("p", None), LoneDial("q", 1))
     assert [(one.change, one.mechanisms) for one in found.doubts] == [("if a1 has 30 teeth", (0, 1))]
     assert found.refused == ()
-    assert found.asked == 9 + 2 + 12  # facts and rules, dials, and two wheels by up to three teeth either way
+    assert found.requested == 9 + 2 + 12  # facts and rules, dials, and two wheels by up to three teeth either way
 
 
 def test_the_cheapest_doubt_is_first() -> None:
@@ -157,4 +157,4 @@ def test_a_search_that_refuses_is_told() -> None:
     found = explain_missing(NOTHING, search=refusing)
     assert found.dials == (LoneDial("p", None, "not today"), LoneDial("q", None, "not today"))
     assert found.doubts == ()
-    assert len(found.refused) == found.asked
+    assert len(found.refused) == found.requested

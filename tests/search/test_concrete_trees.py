@@ -17,12 +17,12 @@ from geartrain.search.reconstruct import (
 )
 
 
-def toy(wheels: dict[str, int], arbor: dict[str, int], dials: dict[str, str], least: int, greatest: int, signed: bool):
+def toy(wheels: dict[str, int], arbor: dict[str, int], dials: dict[str, str], minimum: int, maximum: int, signed: bool):
     return ReconstructionProblem(
         input=sure_arbor("in", **wheels),
         arbors=(sure_arbor("a", **arbor),),
         dials=tuple(exact_dial(name, speed, signed=signed) for name, speed in dials.items()),
-        additions=Additions(3, least, greatest),
+        additions=Additions(3, minimum, maximum),
     )
 
 

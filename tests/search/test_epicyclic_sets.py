@@ -23,8 +23,8 @@ NAMES = list(kinds())
 ALL = range(1, 121)
 
 
-def best(ratio: str, kind: str = "planetary", modes: str = "sun:carrier:ring", **asked: Any) -> EpicyclicSet:
-    return find_sets(F(ratio), kind, modes, **asked).solutions[0]
+def best(ratio: str, kind: str = "planetary", modes: str = "sun:carrier:ring", **requested: Any) -> EpicyclicSet:
+    return find_sets(F(ratio), kind, modes, **requested).solutions[0]
 
 
 def teeth(found: EpicyclicSet, *wheels: str) -> tuple[int, ...]:
@@ -48,7 +48,7 @@ def test_every_ratio_is_that_of_the_declared_train_in_every_mode(name: str) -> N
 
 
 @pytest.mark.parametrize("name", ["wolfrom", "3k-two-suns"])
-def test_three_k_sets_may_be_asked_with_their_carrier_too(name: str) -> None:
+def test_three_k_sets_may_be_requested_with_their_carrier_too(name: str) -> None:
     kind = kinds()[name]
     modes = [f"{a}:carrier:{b}" for a, b in product(kind.links[:-1], repeat=2) if a != b]
     for found in find_sets(F(4), kind, modes, range(12, 40), best=12, spaced=False).solutions:
@@ -108,9 +108,9 @@ def test_planetary_sets_are_those_of_a_loop_over_the_six_textbook_ratios(
     assert [row[:3] for row in got] == sorted(row[:3] for row in right)
 
 
-def wolfrom(most: int, least: int) -> Iterator[tuple[F, str, tuple[int, ...]]]:
+def wolfrom(most: int, minimum: int) -> Iterator[tuple[F, str, tuple[int, ...]]]:
     """Held ring 1: i = (1 + r1/s)/(1 - p2 r1/(p1 r2)); held ring 2 likewise; held sun: ring 1 over ring 2."""
-    for s, p1, p2 in product(range(least, most + 1), repeat=3):
+    for s, p1, p2 in product(range(minimum, most + 1), repeat=3):
         r1, r2 = s + 2 * p1, s + p1 + p2
         if p1 != p2 and r1 <= most and r2 <= most:
             set_, step = (s, p1, r1, p2, r2), F(p2 * r1, p1 * r2)
@@ -126,10 +126,10 @@ def test_wolfrom_sets_are_those_of_a_loop_over_closed_forms(wanted: str) -> None
     both += [(1 / i, ":".join([*reversed(m.split(":")[:2]), m.split(":")[2]]), t) for i, m, t in both]
     tolerance = F(1, 50)
     right = {(m, t) for i, m, t in both if abs(abs(i) / F(wanted) - 1) <= tolerance}
-    asked = find_sets(F(wanted), "wolfrom", "all", range(12, 51), tolerance=tolerance, best=10**6, spaced=False)
-    got = {(x.mode.key, teeth(x, "s1", "p1", "r1", "p2", "r2")) for x in asked.solutions}
+    requested = find_sets(F(wanted), "wolfrom", "all", range(12, 51), tolerance=tolerance, best=10**6, spaced=False)
+    got = {(x.mode.key, teeth(x, "s1", "p1", "r1", "p2", "r2")) for x in requested.solutions}
     assert got == right
-    assert asked.count == len(got)
+    assert requested.count == len(got)
 
 
 STEPPED = {  # (f1 - f2)/(-f2) by hand: sun in, carrier out, the other held
@@ -159,7 +159,7 @@ def test_stepped_sets_are_those_of_a_loop_over_closed_forms(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("asked", "sun", "ring", "planet", "ratio"),
+    ("requested", "sun", "ring", "planet", "ratio"),
     [
         ("5.3", 20, 86, 33, F(53, 10)),
         ("5.31", 26, 112, 43, F(69, 13)),
@@ -168,17 +168,17 @@ def test_stepped_sets_are_those_of_a_loop_over_closed_forms(name: str) -> None:
     ],
 )
 def test_these_sets_of_up_to_120_teeth_are_the_best_by_a_loop_over_all_of_them(
-    asked: str, sun: int, ring: int, planet: int, ratio: Fraction
+    requested: str, sun: int, ring: int, planet: int, ratio: Fraction
 ) -> None:
     errors = sorted(
-        (abs(1 + F(r, s) - F(asked)), s, r) for s in ALL for r in range(s + 2, 121) if (r - s) % 2 == 0
+        (abs(1 + F(r, s) - F(requested)), s, r) for s in ALL for r in range(s + 2, 121) if (r - s) % 2 == 0
     )  # fmt: skip
     assert errors[0][1:] == (sun, ring)
     assert errors[1][0] > errors[0][0]
-    found = best(asked, counts=ALL, spaced=False)
+    found = best(requested, counts=ALL, spaced=False)
     assert teeth(found, "s", "p", "r") == (sun, planet, ring)
     assert found.ratio == ratio
-    assert found.error == ratio / F(asked) - 1
+    assert found.error == ratio / F(requested) - 1
 
 
 @pytest.mark.parametrize(
@@ -310,9 +310,9 @@ def test_room_between_neighbours_is_that_of_circles_set_down_in_the_plane(name: 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "bevel"])
 def test_a_clearance_keeps_exactly_the_sets_whose_circles_stand_so_far_apart(name: str) -> None:
-    kind, asked = kinds()[name], {"counts": range(8, 30), "planets": 3, "best": 10**6}
-    everything = find_sets(F(3), kind, [kind.modes[0]], **asked, clearance=-1000)
-    kept = find_sets(F(3), kind, [kind.modes[0]], **asked, clearance=F(1, 2))
+    kind, requested = kinds()[name], {"counts": range(8, 30), "planets": 3, "best": 10**6}
+    everything = find_sets(F(3), kind, [kind.modes[0]], **requested, clearance=-1000)
+    kept = find_sets(F(3), kind, [kind.modes[0]], **requested, clearance=F(1, 2))
     rooms = {tuple(one.teeth.values()): placed(kind, dict(one.teeth), 3) for one in everything.solutions}
     if not kind.idle:  # other idle wheels stand where more room is asked
         assert {tuple(one.teeth.values()) for one in kept.solutions} == {
@@ -320,7 +320,7 @@ def test_a_clearance_keeps_exactly_the_sets_whose_circles_stand_so_far_apart(nam
         }
 
 
-def test_planets_that_stand_exactly_as_far_apart_as_is_asked_are_kept_and_none_nearer() -> None:
+def test_planets_that_stand_exactly_as_far_apart_as_is_requested_are_kept_and_none_nearer() -> None:
     """Six planets of 18 teeth about a sun of 24 stand 42 sin 30 degrees = 21 modules apart, tips 1 module."""
     one: dict[str, Any] = {"counts": {"s": (24,), "p": (18,), "r": (60,)}, "planets": 6}
     assert find_sets(F(7, 2), "planetary", "sun:carrier:ring", **one, clearance=1.0).count == 1
@@ -354,7 +354,7 @@ def test_bevel_cones_of_a_set_meet_at_one_slope_found_by_bisection() -> None:
         assert one.room == pytest.approx(radius * (between - 2 * first) - 2, rel=1e-6, abs=1e-6)
 
 
-def test_idle_wheels_take_the_least_count_that_fits() -> None:
+def test_idle_wheels_take_the_minimum_count_that_fits() -> None:
     for one in find_sets(F(3), "meshed-planets", "sun:ring:carrier", range(10, 90), best=30).solutions:
         s, p, r = teeth(one, "s", "p1", "r")
         assert teeth(one, "p2") == (p,)
@@ -477,7 +477,7 @@ def test_plain_data_says_ratio_both_ways_and_facts_of_assembly() -> None:
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "requested",
     [
         {"kind": "cycloid"},
         {"modes": "sun:carrier"},
@@ -497,9 +497,9 @@ def test_plain_data_says_ratio_both_ways_and_facts_of_assembly() -> None:
         {"clearance": float("nan")},
     ],
 )
-def test_what_cannot_be_asked_is_refused_with_what_why_and_what_to_do(asked: dict[str, Any]) -> None:
+def test_what_cannot_be_requested_is_refused_with_what_why_and_what_to_do(requested: dict[str, Any]) -> None:
     with pytest.raises(QuestionError) as caught:
-        find_sets(**({"wanted": F(4), "kind": "planetary"} | asked))
+        find_sets(**({"wanted": F(4), "kind": "planetary"} | requested))
     (problem,) = caught.value.problems
     assert problem.what
     assert problem.why

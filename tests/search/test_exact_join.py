@@ -111,7 +111,7 @@ def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalCon
     """Functions of any shape that share wheels, asked for values they have; and rules."""
     names = tuple("abcdef"[: draw(st.integers(2, 6))])
     domains = {name: tuple(sorted(draw(st.sets(st.integers(1, 9), min_size=1, max_size=3)))) for name in names}
-    asked = []
+    requested = []
     for number in range(draw(st.integers(1, 3))):
         wheels = tuple(sorted(draw(st.sets(st.sampled_from(names), min_size=1, max_size=4))))
         powers = st.tuples(*[st.integers(0, 2)] * len(wheels))
@@ -126,7 +126,7 @@ def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalCon
         intervals = draw(
             st.sampled_from([((low, high),), ((low, high), (high + 1, None)), ((None, low),), ((low, None),)])
         )
-        asked.append(IntervalConstraint(f"demand {number}", used(function), intervals, draw(st.booleans())))
+        requested.append(IntervalConstraint(f"demand {number}", used(function), intervals, draw(st.booleans())))
     rules: list[CountConstraint] = []
     if draw(st.booleans()):
         pair = draw(st.lists(st.sampled_from(names), min_size=2, max_size=3, unique=True))
@@ -135,7 +135,7 @@ def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalCon
     if draw(st.booleans()):
         pair = draw(st.lists(st.sampled_from(names), min_size=2, max_size=3, unique=True))
         rules.append(Condition("even", tuple(pair), Even(tuple(pair))))
-    return domains, asked, rules
+    return domains, requested, rules
 
 
 def merge(terms: list[tuple[int, tuple[int, ...]]]) -> Terms:
@@ -157,23 +157,23 @@ def used(function: Quotient) -> Quotient:
 
 
 def solutions(
-    domains: dict[str, tuple[int, ...]], asked: list[IntervalConstraint], rules: list[CountConstraint]
+    domains: dict[str, tuple[int, ...]], requested: list[IntervalConstraint], rules: list[CountConstraint]
 ) -> list[tuple[int, ...]]:
     found = []
     for counts in product(*domains.values()):
         teeth = dict(zip(domains, counts, strict=True))
-        if all(fits(one, teeth) for one in asked) and all(keeps(rule, teeth) for rule in rules):
+        if all(fits(one, teeth) for one in requested) and all(keeps(rule, teeth) for rule in rules):
             found.append(counts)
     return found
 
 
-def fits(asked: IntervalConstraint, teeth: dict[str, int]) -> bool:
-    speed = asked.function.value(teeth)
+def fits(requested: IntervalConstraint, teeth: dict[str, int]) -> bool:
+    speed = requested.function.value(teeth)
     if speed is None:
         return False
-    if asked.strict:
-        return any((low is None or speed > low) and (high is None or speed < high) for low, high in asked.intervals)
-    return any((low is None or speed >= low) and (high is None or speed <= high) for low, high in asked.intervals)
+    if requested.strict:
+        return any((low is None or speed > low) and (high is None or speed < high) for low, high in requested.intervals)
+    return any((low is None or speed >= low) and (high is None or speed <= high) for low, high in requested.intervals)
 
 
 def keeps(rule: CountConstraint, teeth: dict[str, int]) -> bool:
@@ -201,13 +201,13 @@ def test_a_join_of_any_functions_and_rules_finds_what_loops_find(
     guess: float,
     tasks: int,
 ) -> None:
-    domains, asked, rules = question
-    truth = solutions(domains, asked, rules)
-    chances = dict.fromkeys([one.name for one in (*asked, *rules)], guess)
+    domains, requested, rules = question
+    truth = solutions(domains, requested, rules)
+    chances = dict.fromkeys([one.name for one in (*requested, *rules)], guess)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rows, "BLOCK", block)
         patch.setattr(joining, "BLOCK", block)
-        made = find_join_problem(domains, asked, rules, chances)
+        made = find_join_problem(domains, requested, rules, chances)
         count, found, removed = answered(made, tasks)
     assert found == truth
     assert count == len(truth)
@@ -225,7 +225,7 @@ def long_joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[Interv
     names = "abc"[: draw(st.integers(1, 3))]
     domains = {name: tuple(sorted(draw(st.sets(sizes, min_size=1, max_size=4)))) for name in names}
     powers = st.tuples(*[st.integers(0, 2)] * len(names))
-    asked = []
+    requested = []
     for number in range(draw(st.integers(1, 2))):
         terms = draw(st.lists(st.tuples(coefficients, powers), min_size=1, max_size=4).map(merge).filter(bool))
         whole = Quotient(tuple(names), terms, ((1, (0,) * len(names)),))
@@ -239,8 +239,8 @@ def long_joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[Interv
             intervals = intervals[:1]
         function = used(whole)
         if function.wheels:
-            asked.append(IntervalConstraint(f"demand {number}", function, intervals, draw(st.booleans())))
-    return domains, asked
+            requested.append(IntervalConstraint(f"demand {number}", function, intervals, draw(st.booleans())))
+    return domains, requested
 
 
 # 10^16 and 10^16 + 1 are one float: the windows of both intervals hold the same count
@@ -258,9 +258,9 @@ BESIDE_THE_GAP = IntervalConstraint(
 def test_joins_are_exact_however_large_the_numbers_and_near_the_ends(
     question: tuple[dict[str, tuple[int, ...]], list[IntervalConstraint]], guess: float
 ) -> None:
-    domains, asked = question
-    truth = solutions(domains, asked, [])
-    count, found, removed = answered(find_join_problem(domains, asked, [], {one.name: guess for one in asked}))
+    domains, requested = question
+    truth = solutions(domains, requested, [])
+    count, found, removed = answered(find_join_problem(domains, requested, [], {one.name: guess for one in requested}))
     assert found == truth
     assert count == len(truth)
     assert sum(removed) + count == prod(map(len, domains.values()))
@@ -270,8 +270,8 @@ def test_numbers_of_assignments_beyond_a_machine_word_are_exact() -> None:
     names = [f"w{at}" for at in range(20)]
     domains = {name: tuple(range(11, 20)) for name in names}
     function = Quotient(tuple(names), ((1, (1,) * 10 + (0,) * 10),), ((1, (0,) * 10 + (1,) * 10),))
-    asked = [IntervalConstraint("half or more", function, ((Fraction(1), None),))]
-    question = find_join_problem(domains, asked, [], {"half or more": 0.5})
+    requested = [IntervalConstraint("half or more", function, ((Fraction(1), None),))]
+    question = find_join_problem(domains, requested, [], {"half or more": 0.5})
     join = ExactJoin(question)
     counts, removed = join.count(question.plan, join.start())
     assert question.total == 9**20 > 2**62
@@ -294,10 +294,10 @@ def test_wheels_that_all_functions_see_through_one_monomial_are_bundled() -> Non
     wheels = ("a", "b", "c", "d", "e")
     first = Quotient(wheels[:4], ((1, (1, 0, 1, 0)),), ((1, (0, 1, 0, 1)),))
     second = Quotient(("a", "b", "e"), ((1, (1, 0, 0)),), ((1, (0, 1, 1)),))
-    asked = [IntervalConstraint("first", first, ()), IntervalConstraint("second", second, ())]
-    bundles = [dict(bundle.powers) for bundle in find_wheel_monomials(wheels, asked, frozenset())]
+    requested = [IntervalConstraint("first", first, ()), IntervalConstraint("second", second, ())]
+    bundles = [dict(bundle.powers) for bundle in find_wheel_monomials(wheels, requested, frozenset())]
     assert bundles == [{"a": 1, "b": -1}, {"c": 1, "d": -1}, {"e": 1}]
-    assert [dict(one.powers) for one in find_wheel_monomials(wheels, asked, frozenset("a"))] == [
+    assert [dict(one.powers) for one in find_wheel_monomials(wheels, requested, frozenset("a"))] == [
         {"a": 1},
         {"b": 1},
         {"c": 1, "d": -1},

@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from reference_solver import solve_naively
 from sampling import few_or_many
 from shipped import every_train
-from strategies import Data, asked_trains, driven_trains, overdriven_trains
+from strategies import Data, driven_trains, overdriven_trains, requested_trains
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
@@ -392,19 +392,19 @@ def test_a_difference_of_axes_that_point_apart_has_the_signs_of_the_solver() -> 
     assert found["apart"].value(counts) != found["c"].value(counts) - 1, "the axes point apart"
 
 
-def asked_for_all(data: Data, draw: random.Random) -> tuple[Data, dict[str, tuple[int, ...]]]:
+def requested_for_all(data: Data, draw: random.Random) -> tuple[Data, dict[str, tuple[int, ...]]]:
     """Every link is an output; some wheels are free, with counts so few that loops often close."""
     data = {**data, "outputs": {link: {} for link in data["links"]}}
     wheels = [wheel for part in data["links"].values() for wheel in part["wheels"]]
-    share, least, most = draw.choice([(0.4, 8, 40), (1, 8, 40), (1, 2, 4), (1, 1, 3)])
-    return data, {wheel: tuple(range(least, most + 1)) for wheel in wheels if draw.random() < share}
+    share, minimum, most = draw.choice([(0.4, 8, 40), (1, 8, 40), (1, 2, 4), (1, 1, 3)])
+    return data, {wheel: tuple(range(minimum, most + 1)) for wheel in wheels if draw.random() < share}
 
 
 @settings(max_examples=few_or_many(40, 80))
-@given(st.one_of(asked_trains(), driven_trains(), overdriven_trains()), st.integers(0, 10**6))
+@given(st.one_of(requested_trains(), driven_trains(), overdriven_trains()), st.integers(0, 10**6))
 def test_formulas_of_any_train_agree_with_naive_elimination_and_say_when_it_turns(data: Data, seed: int) -> None:
     draw = random.Random(seed)
-    data, free = asked_for_all(data, draw)
+    data, free = requested_for_all(data, draw)
     found = find_formulas(declare(data), None, free)
     for _ in range(4):
         counts = {wheel: draw.choice(allowed) for wheel, allowed in free.items()}
@@ -553,7 +553,7 @@ def test_a_train_that_is_too_coupled_is_refused(monkeypatch: pytest.MonkeyPatch)
         formulas_of("zf-8hp70", "5")
 
 
-def test_formulas_need_no_array_library_until_columns_are_asked_for() -> None:
+def test_formulas_need_no_array_library_until_columns_are_requested_for() -> None:
     import subprocess
     import sys
 

@@ -146,8 +146,8 @@ def test_a_wheel_that_is_measured_badly_takes_the_side_of_its_mates() -> None:
         far = [(d - x) ** 2 / (0.05**2 + error**2) for error in errors[1:]]
         return (x / errors[0]) ** 2 + sum(far)
 
-    least = min(misfit(step * 1e-6) for step in range(50_000))
-    assert found == pytest.approx(math.exp(-least / 2), rel=1e-6)
+    minimum = min(misfit(step * 1e-6) for step in range(50_000))
+    assert found == pytest.approx(math.exp(-minimum / 2), rel=1e-6)
 
 
 # distances
@@ -360,7 +360,7 @@ def test_axes_of_one_place_are_one() -> None:
     assert frozenset("bc") in evidence_question(read_evidence(text)).problem.coaxial
 
 
-def test_without_being_asked_for_geometry_plays_no_part() -> None:
+def test_without_being_requested_for_geometry_backlashes_no_part() -> None:
     text = "\n".join(line for line in EVIDENCE.splitlines() if "geometry" not in line)
     question = evidence_question(read_evidence(text))
     assert question.problem.geometry == SurvivingGeometry()

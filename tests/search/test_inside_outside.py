@@ -28,12 +28,12 @@ LONG = 10**30
 @st.composite
 def weighed(draw: st.DrawFn, largest: int) -> tuple[Asked, dict[str, tuple[int, ...]]]:
     """A question, and whole weights of the counts of some wheels."""
-    asked = draw(joins())
-    some = draw(st.sets(st.sampled_from(sorted(asked[0]))))
+    requested = draw(joins())
+    some = draw(st.sets(st.sampled_from(sorted(requested[0]))))
     number = st.integers(0, 5) if largest < 10 else st.integers(1, largest)
-    weights = {wheel: tuple(draw(number) for _ in asked[0][wheel]) for wheel in sorted(some)}
+    weights = {wheel: tuple(draw(number) for _ in requested[0][wheel]) for wheel in sorted(some)}
     assume(all(map(any, weights.values())))
-    return asked, weights
+    return requested, weights
 
 
 def weight_of(counts: tuple[int, ...], domains: dict[str, tuple[int, ...]], weights: dict[str, tuple[int, ...]]) -> int:
@@ -44,14 +44,14 @@ def weight_of(counts: tuple[int, ...], domains: dict[str, tuple[int, ...]], weig
 @settings(deadline=None, max_examples=few_or_many(40, 60))
 @given(case=weighed(5), guess=st.sampled_from([1.0, 1e-6]))
 def test_a_count_with_weights_is_the_weight_of_what_fits(case: tuple[Asked, Any], guess: float) -> None:
-    (domains, asked, rules), weights = case
+    (domains, requested, rules), weights = case
     problem = find_join_problem(
-        domains, asked, rules, dict.fromkeys([one.name for one in (*asked, *rules)], guess), weights
+        domains, requested, rules, dict.fromkeys([one.name for one in (*requested, *rules)], guess), weights
     )
     assume(not problem.late)
     join = ExactJoin(problem)
     counted, removed = join.count(problem.plan, join.start())
-    truth = sum(weight_of(counts, domains, weights) for counts in solutions(domains, asked, rules))
+    truth = sum(weight_of(counts, domains, weights) for counts in solutions(domains, requested, rules))
     assert counted[0] == truth
     everything = sum(weight_of(counts, domains, weights) for counts in product(*domains.values()))
     assert problem.total == everything
@@ -64,10 +64,12 @@ def test_sums_over_a_recorded_join_are_those_of_loops(largest: int, block: int) 
     @settings(deadline=None, max_examples=few_or_many(20, 60))
     @given(case=weighed(largest), guess=st.sampled_from([1.0, 1e-6]))
     def holds(case: tuple[Asked, Any], guess: float) -> None:
-        (domains, asked, rules), some = case
-        problem = find_join_problem(domains, asked, rules, dict.fromkeys([one.name for one in (*asked, *rules)], guess))
+        (domains, requested, rules), some = case
+        problem = find_join_problem(
+            domains, requested, rules, dict.fromkeys([one.name for one in (*requested, *rules)], guess)
+        )
         assume(not problem.late)
-        truth = solutions(domains, asked, rules)
+        truth = solutions(domains, requested, rules)
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(joining, "BLOCK", block)
             root, _ = record_join(problem, np.inf, {})
@@ -102,11 +104,11 @@ def _check_covariances(sums: AssignmentSums, domains: dict[str, tuple[int, ...]]
 @settings(deadline=None, max_examples=few_or_many(40, 60))
 @given(case=joins(), wanted=st.lists(st.fractions(-3, 3, max_denominator=4), min_size=3, max_size=3))
 def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[Fraction]) -> None:
-    domains, asked, rules = case
-    graded = [IntervalConstraint(one.name, one.function, one.intervals, one.strict, graded=True) for one in asked]
+    domains, requested, rules = case
+    graded = [IntervalConstraint(one.name, one.function, one.intervals, one.strict, graded=True) for one in requested]
     problem = find_join_problem(domains, graded, rules, {})
     assume(not problem.late)
-    truth = solutions(domains, asked, rules)
+    truth = solutions(domains, requested, rules)
     ends = [float(one) for one in wanted]
     root, _ = record_join(
         problem, np.inf, {at: lambda values, end=end: (values - end) ** 2 for at, end in enumerate(ends)}
@@ -114,7 +116,7 @@ def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[F
 
     def misfit(row: tuple[int, ...]) -> float:
         teeth = dict(zip(domains, row, strict=True))
-        speeds = [one.function.value(teeth) for one in asked if isinstance(one.function, Quotient)]
+        speeds = [one.function.value(teeth) for one in requested if isinstance(one.function, Quotient)]
         return sum((float(speed or 0) - end) ** 2 for speed, end in zip(speeds, ends, strict=False))
 
     ones = {wheel: np.ones(len(counts)) for wheel, counts in domains.items()}

@@ -43,8 +43,8 @@ def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem
         return replace(arbor, wheels=tuple(wheels))
 
     def turned(dial: SearchedDial) -> SearchedDial:
-        ends = sorted((abs(dial.least), abs(dial.greatest)))
-        return replace(dial, least=ends[0] * Fraction(9, 10), greatest=ends[1], signed=False)
+        ends = sorted((abs(dial.minimum), abs(dial.maximum)))
+        return replace(dial, minimum=ends[0] * Fraction(9, 10), maximum=ends[1], signed=False)
 
     if part == 0:
         free = frozenset[frozenset[str]]()
@@ -53,7 +53,7 @@ def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem
         return replace(problem, input=misread(problem.input), arbors=tuple(map(misread, problem.arbors)))
     if part == 2:
         return replace(problem, dials=tuple(map(turned, problem.dials)), use="some")
-    limits = replace(problem.additions, arbors=None, on="any", least=problem.additions.least - 1)
+    limits = replace(problem.additions, arbors=None, on="any", minimum=problem.additions.minimum - 1)
     return replace(problem, dials=tuple(replace(dial, place=None) for dial in problem.dials), additions=limits)
 
 
@@ -103,7 +103,7 @@ def plain_prior(tree: tuple, problem: ReconstructionProblem) -> Fraction:
             if wheel in weights:
                 weight *= weights[wheel][teeth]
                 unused.discard(wheel)
-    weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** added_wheels(tree)
+    weight /= (factors.wheel * (limits.maximum - limits.minimum + 1)) ** added_wheels(tree)
     return weight / factors.unused ** len(unused)
 
 
@@ -181,7 +181,7 @@ def test_the_train_of_2006_has_another_dial_on_o() -> None:
     (speed,) = found.broken
     assert (speed.rule, speed.subject, speed.values) == ("speed", ("games",), (Fraction(-1, 76),))
     as_it_has, without = found.admitted
-    assert (len(as_it_has.wheels), as_it_has.asked, as_it_has.place) == (5, 3, None)
+    assert (len(as_it_has.wheels), as_it_has.requested, as_it_has.place) == (5, 3, None)
     assert without.changes == ("without the dial games", "without o")
     assert without.wheels == {"m3": 27, "n1": 53}
     assert without.mechanisms == (0, 0, 12)  # those of the dials without the Games dial
@@ -289,16 +289,16 @@ def plain_facts(tree: tuple) -> set[tuple]:
                     found.add(("pair", " and ".join(sorted((wheel[0], child[1][0]))), "yes"))
                 if child[0]:
                     found.add(("driver", child[0], name or "an added arbor"))
-    return found | {("greatest", "", str(max(added))), ("least", "", str(min(added)))}
+    return found | {("maximum", "", str(max(added))), ("minimum", "", str(min(added)))}
 
 
 def plainly_left(fact: tuple, facts: list[set[tuple]]) -> frozenset[int]:
     """Trains of which a fact holds."""
-    if fact[0] in ("greatest", "least"):
+    if fact[0] in ("maximum", "minimum"):
         bounds = [next(int(own[2]) for own in some if own[0] == fact[0]) for some in facts]
         limit = int(fact[2])
         return frozenset(
-            at for at, own in enumerate(bounds) if (own <= limit if fact[0] == "greatest" else own >= limit)
+            at for at, own in enumerate(bounds) if (own <= limit if fact[0] == "maximum" else own >= limit)
         )
     return frozenset(at for at, some in enumerate(facts) if fact in some)
 

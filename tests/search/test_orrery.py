@@ -105,7 +105,7 @@ def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], lis
     counts, aims, slack = question
     ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
     names = [f"p{at}" for at in range(len(aims))]
-    asked = read_period_targets(dict(zip(names, aims, strict=True)), slack)
+    requested = read_period_targets(dict(zip(names, aims, strict=True)), slack)
     for extra in range(4):
         if len(aims) + extra > (4 if len(ratios) <= 3 else 3):
             continue
@@ -115,7 +115,7 @@ def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], lis
                 if not useless(links, places):
                     expected.add(likeness([parent for parent, _ in links], periods, places))
         found = set()
-        for tree in TreeEnumeration(pair_ratios(counts), asked, extra).trees():
+        for tree in TreeEnumeration(pair_ratios(counts), requested, extra).trees():
             periods = [arbor.period for arbor in tree]
             places = tuple(next(at for at, arbor in enumerate(tree) if arbor.aim == aim) for aim in range(len(aims)))
             found.add(likeness([arbor.parent for arbor in tree[1:]], periods, places))
@@ -156,11 +156,11 @@ def test_a_small_orrery_has_the_fewest_pairs_and_wheels_of_all_trees(
             if next(shown(periods, aims, slack), None) is not None:
                 fewest[pairs] = min(fewest.get(pairs, 99), wheels_needed(links, counts))
     if fewest:
-        assert found.least_pairs <= min(fewest) <= len(found.pairs)
-        assert found.least_wheels <= min(fewest.values())
+        assert found.minimum_pairs <= min(fewest) <= len(found.pairs)
+        assert found.minimum_wheels <= min(fewest.values())
         assert found.wheels <= min(fewest.values())
     if found.complete:
-        assert found.wheels == found.least_wheels
+        assert found.wheels == found.minimum_wheels
 
 
 def checked(found: Orrery, periods: dict[str, Fraction], slack: Fraction, counts: list[int] | range) -> None:
@@ -255,8 +255,8 @@ def test_seven_periods_to_six_places_take_few_wheels() -> None:
     found = find_orrery(DAYS, range(12, 401), Fraction("1e-6"), effort=4)
     checked(found, DAYS, Fraction("1e-6"), range(12, 401))
     assert found.wheels <= 20
-    assert found.least_pairs >= 9
-    assert found.least_wheels >= 12
+    assert found.minimum_pairs >= 9
+    assert found.minimum_wheels >= 12
     assert not found.complete
 
 
@@ -301,7 +301,7 @@ def test_nothing_found_says_what_was_walked() -> None:
         ({"a": Fraction(2)}, range(1, 9000), 0, RangeError),
     ],
 )
-def test_what_cannot_be_asked_is_refused(
+def test_what_cannot_be_requested_is_refused(
     periods: dict[str, Fraction], counts: list[int], tolerance: float, kind: type[Exception]
 ) -> None:
     with pytest.raises(kind, match=r"fix:"):

@@ -51,8 +51,8 @@ def test_small_questions_with_rings_have_the_answers_of_plain_growth(start: int)
 def exact_problem(seed: int) -> ReconstructionProblem:
     """A random question whose dials are exact, with a wheel more in doubt."""
     problem, chance = random_problem(seed), random.Random(seed)
-    middles = [(dial.least + dial.greatest) / 2 for dial in problem.dials]
-    dials = tuple(replace(dial, least=at, greatest=at) for dial, at in zip(problem.dials, middles, strict=True))
+    middles = [(dial.minimum + dial.maximum) / 2 for dial in problem.dials]
+    dials = tuple(replace(dial, minimum=at, maximum=at) for dial, at in zip(problem.dials, middles, strict=True))
     if not problem.arbors:
         return replace(problem, dials=dials)
     arbors = list(problem.arbors)
@@ -114,15 +114,15 @@ def ringed(seed: int) -> ReconstructionProblem:
 
 
 @pytest.mark.parametrize(
-    ("kind", "least"), [(plain, 40), pytest.param(with_idlers, 40, marks=pytest.mark.slow), (ringed, 10)]
+    ("kind", "minimum"), [(plain, 40), pytest.param(with_idlers, 40, marks=pytest.mark.slow), (ringed, 10)]
 )
 def test_questions_of_which_meshes_were_seen_have_the_answers_of_plain_growth(
-    kind: Callable[[int], ReconstructionProblem], least: int
+    kind: Callable[[int], ReconstructionProblem], minimum: int
 ) -> None:
-    asked = 0
+    requested = 0
     for seed in range(4000, 4250):
         problem = seen(kind(seed), seed)
         if problem is not None:
-            asked += 2 * len(problem.meshes) > len(problem.arbors)
+            requested += 2 * len(problem.meshes) > len(problem.arbors)
             grown_alike(problem, seed)
-    assert asked > least
+    assert requested > minimum

@@ -26,7 +26,7 @@ from geartrain.search.constraints.assembly_constraints import (
     InRing,
     OnInvolute,
     external_terms,
-    least_teeth,
+    minimum_teeth,
     ring_terms,
     tip_rooms,
 )
@@ -188,7 +188,7 @@ def test_planets_of_a_ravigneaux_set_reach_each_other() -> None:
         assert passed(rules, a=a, ps=ps, pl=pl, b=b, r=b + 2 * pl) == fits
 
 
-def test_room_is_asked_only_where_the_number_of_spur_planets_is_known() -> None:
+def test_room_is_requested_only_where_the_number_of_spur_planets_is_known() -> None:
     with pytest.raises(QuestionError, match="how many there are"):
         rules_of(epicyclic(*SIMPLE), clearance=Fraction(0))
     with pytest.raises(QuestionError, match="bevel"):
@@ -199,16 +199,16 @@ def test_room_is_asked_only_where_the_number_of_spur_planets_is_known() -> None:
 
 
 @pytest.mark.parametrize(
-    ("degrees", "addendum", "least"),
+    ("degrees", "addendum", "minimum"),
     # 2 h / sin^2: 31.9, 17.1, 11.2, 8; with short teeth 13.7
     [("14.5", "1", 32), ("20", "1", 18), ("25", "1", 12), ("30", "1", 8), ("20", "0.8", 14), ("45", "1", 4)],
 )
-def test_a_rack_undercuts_fewer_teeth_than_textbooks_print(degrees: str, addendum: str, least: int) -> None:
-    assert least_teeth(Fraction(degrees) / 360, Fraction(addendum)) == least
+def test_a_rack_undercuts_fewer_teeth_than_textbooks_print(degrees: str, addendum: str, minimum: int) -> None:
+    assert minimum_teeth(Fraction(degrees) / 360, Fraction(addendum)) == minimum
     rules = rules_of(epicyclic(*SIMPLE), coaxial=False, undercut=angle(f"{degrees} deg"), addendum=Fraction(addendum))
     assert {rule.wheels for rule in rules} == {("s",), ("p",)}
-    assert passed(rules, s=least, p=least)
-    assert not passed(rules, s=least - 1, p=least)
+    assert passed(rules, s=minimum, p=minimum)
+    assert not passed(rules, s=minimum - 1, p=minimum)
 
 
 # -------------------------------------------------------------------------------------------------------- interference
@@ -294,16 +294,16 @@ def overlap(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
 
 
 @pytest.mark.parametrize(
-    ("h1", "h2", "ring", "least"), [(1, 1, 40, 9), (1, 1, 60, 9), (1, "0.8", 40, 8), ("0.8", "0.8", 40, 7)]
+    ("h1", "h2", "ring", "minimum"), [(1, 1, 40, 9), (1, 1, 60, 9), (1, "0.8", 40, 8), ("0.8", "0.8", 40, 7)]
 )
 def test_planets_nearly_as_large_as_their_ring_collide_as_outlines_of_teeth_do(
-    h1: Any, h2: Any, ring: int, least: int
+    h1: Any, h2: Any, ring: int, minimum: int
 ) -> None:
     # planets so large keep off the ring's flanks, so that corners alone decide
-    for less in (4, 5, 6, least - 1, least, least + 1, 12):
+    for less in (4, 5, 6, minimum - 1, minimum, minimum + 1, 12):
         test = InRing("p", ring, TWENTY, Fraction(h1), Fraction(h2))
         held = bool(test(columns(p=ring - less))[0])
-        assert held == (less >= least)
+        assert held == (less >= minimum)
         room = float(tip_rooms(ring - less, ring, math.radians(20), float(h1), float(h2)))
         if abs(room) > 5e-4:
             assert (overlap(ring - less, ring, math.radians(20), float(h1), float(h2)) < 5e-6) == held
@@ -427,7 +427,7 @@ def test_closure_without_positions_is_refused() -> None:
         rules_of(load("planetary").declaration, closure=True)
 
 
-def test_counts_outside_all_loops_are_not_asked_about() -> None:
+def test_counts_outside_all_loops_are_not_requested_about() -> None:
     data = epicyclic(*SIMPLE, 3, [(42.0, 0.0)])
     data["links"] |= {"in": {"wheels": {"drive": 20}}}
     data["links"]["Ls"]["wheels"]["driven"] = 40

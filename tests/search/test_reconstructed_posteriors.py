@@ -43,7 +43,7 @@ def declared(problem: ReconstructionProblem, root: NamedArbor) -> Train:
 
     def teeth(wheel: NamedWheel) -> dict[str, Any]:
         if wheel.added:
-            return {"value": wheel.teeth, "range": [problem.additions.least, problem.additions.greatest]}
+            return {"value": wheel.teeth, "range": [problem.additions.minimum, problem.additions.maximum]}
         counts, weights = zip(*readings[wheel.name], strict=True)
         return {"value": wheel.teeth, "choices": list(counts), "weights": [str(weight) for weight in weights]}
 
@@ -63,7 +63,7 @@ def declared(problem: ReconstructionProblem, root: NamedArbor) -> Train:
             "gears": [{"pair": [wheel.name, one.driven.name]} for _, wheel, one in root.meshes() if one.driven],
             "inputs": {root.name: str(problem.input_speed)},
             "outputs": {
-                dial.name: {"of": shown[dial.name], "targets": [_target(dial.least, dial.greatest, speed)]}
+                dial.name: {"of": shown[dial.name], "targets": [_target(dial.minimum, dial.maximum, speed)]}
                 for dial in problem.dials
                 for speed in [speeds[shown[dial.name]]]
             },
@@ -71,9 +71,9 @@ def declared(problem: ReconstructionProblem, root: NamedArbor) -> Train:
     )
 
 
-def _target(least: Fraction, greatest: Fraction, speed: Fraction) -> dict[str, str]:
-    middle = abs(least + greatest) / 2
-    share = (greatest - least) / 2 / middle
+def _target(minimum: Fraction, maximum: Fraction, speed: Fraction) -> dict[str, str]:
+    middle = abs(minimum + maximum) / 2
+    share = (maximum - minimum) / 2 / middle
     return {"speed": str(middle if speed > 0 else -middle), "tolerance": str(share)}
 
 
@@ -88,7 +88,7 @@ def _chances(found: ToothCountPosterior, wheel: str) -> dict[str, Fraction | flo
 
 @pytest.mark.parametrize("first", first_few(2, [400, 430, 460, 490]))
 def test_both_commands_give_the_same_fractions(first: int) -> None:
-    asked = compared = 0
+    requested = compared = 0
     for seed in range(first, first + 30):
         problem = replace(random_problem(seed, idlers=True), factors=NO_FACTORS)
         dials, survivors = [dial.name for dial in problem.dials], (problem.input, *problem.arbors)
@@ -118,6 +118,6 @@ def test_both_commands_give_the_same_fractions(first: int) -> None:
             for name in (wheel.name for wheel in own.values() if wheel.added and orders == 1):
                 assert _chances(found, name) == _shares(tally, Fact("added", name))
                 compared += 1
-            asked += 1
-    assert asked > 40
+            requested += 1
+    assert requested > 40
     assert compared > 60

@@ -36,15 +36,15 @@ LONG = {  # each some seconds
 QUESTIONS = json.loads((Path(__file__).parent / "reconstruction_counts.json").read_text(encoding="utf-8"))
 
 
-def asked(question: dict[str, Any]) -> ReconstructionProblem:
+def requested(question: dict[str, Any]) -> ReconstructionProblem:
     ((name, wheels),) = question["input"].items()
-    least, greatest = question["added"]
+    minimum, maximum = question["added"]
     wheels_added = len(question["counts"]) - 1
     return ReconstructionProblem(
         input=_arbor(name, wheels),
         arbors=tuple(_arbor(*each) for each in question["arbors"].items()),
         dials=tuple(map(_dial, question["dials"])),
-        additions=Additions(wheels_added, least, greatest, question.get("most_arbors"), question.get("on", "any")),
+        additions=Additions(wheels_added, minimum, maximum, question.get("most_arbors"), question.get("on", "any")),
         use=question.get("use", "wheels"),
         idlers=question.get("idlers", False),
     )
@@ -61,12 +61,12 @@ def _arbor(name: str, wheels: dict[str, int | list[int]]) -> SurvivingArbor:
 
 def _dial(given: dict[str, Any]) -> SearchedDial:
     signed = given.get("signed", True)
-    if "least" in given:
-        least, greatest = Fraction(given["least"]), Fraction(given["greatest"])
+    if "minimum" in given:
+        minimum, maximum = Fraction(given["minimum"]), Fraction(given["maximum"])
     else:
-        least = greatest = Fraction(given["speed"]) if signed else abs(Fraction(given["speed"]))
+        minimum = maximum = Fraction(given["speed"]) if signed else abs(Fraction(given["speed"]))
     place = given.get("place")
-    return SearchedDial(given["name"], least, greatest, signed, place)
+    return SearchedDial(given["name"], minimum, maximum, signed, place)
 
 
 def _parameter(question: dict[str, Any]) -> Any:
@@ -76,7 +76,7 @@ def _parameter(question: dict[str, Any]) -> Any:
 
 @pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS)])
 def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
-    found = find_reconstructions(asked(question), listed=0)
+    found = find_reconstructions(requested(question), listed=0)
     assert found.complete
     assert [[each.mechanisms, each.bags, each.classes] for each in found.counts] == question["counts"]
 
@@ -91,19 +91,19 @@ def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
         ("back-wheels-sure", "back with c d e o, Metonic+Saros+Moon+Games, counts sure"),
     ],
 )
-def test_shipped_evidence_asks_what_other_programs_were_asked(evidence: str, name: str) -> None:
+def test_shipped_evidence_asks_what_other_programs_were_requested(evidence: str, name: str) -> None:
     (question,) = (each for each in QUESTIONS if each["name"] == name)
-    assert _plain(evidence_question(read_evidence(evidence)).problem) == _plain(asked(question))
+    assert _plain(evidence_question(read_evidence(evidence)).problem) == _plain(requested(question))
 
 
-def test_back_wheels_in_doubt_ask_what_other_programs_were_asked_with_the_games_beside() -> None:
+def test_back_wheels_in_doubt_ask_what_other_programs_were_requested_with_the_games_beside() -> None:
     problem = evidence_question(read_evidence("back-wheels")).problem
     (games,) = (dial for dial in problem.dials if dial.place == "o")
-    assert (games.name, games.least, games.greatest) == ("games", Fraction(1, 4), Fraction(1, 4))
+    assert (games.name, games.minimum, games.maximum) == ("games", Fraction(1, 4), Fraction(1, 4))
     arbors = tuple(arbor for arbor in problem.arbors if arbor.name != "o")
     dials = tuple(dial for dial in problem.dials if dial != games)
     (question,) = (each for each in QUESTIONS if each["name"].startswith("back with doubts and c d e"))
-    assert _plain(replace(problem, arbors=arbors, dials=dials)) == _plain(asked(question))
+    assert _plain(replace(problem, arbors=arbors, dials=dials)) == _plain(requested(question))
 
 
 @pytest.mark.slow

@@ -173,8 +173,8 @@ def test_a_speed_of_zero_is_searched_by_difference(tolerance: str) -> None:
 
 
 def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
-    asked = ({"speed": "1/2"}, {"speed": "1/2", "tolerance": "1 %"}, {"period": "2 d", "sense": "direct"})
-    for output in ({"expect": "1/2"}, *({"targets": [target]} for target in asked)):
+    requested = ({"speed": "1/2"}, {"speed": "1/2", "tolerance": "1 %"}, {"period": "2 d", "sense": "direct"})
+    for output in ({"expect": "1/2"}, *({"targets": [target]} for target in requested)):
         data = {
             "unit": {"per": "1 d"},
             "links": {

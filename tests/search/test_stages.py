@@ -67,7 +67,7 @@ def every_solution(
             both = over + under
             if fit.different and len(set(both)) < len(both):
                 continue
-            if fit.least_total is not None and sum(both) < fit.least_total:
+            if fit.minimum_total is not None and sum(both) < fit.minimum_total:
                 continue
             if fit.most_total is not None and sum(both) > fit.most_total:
                 continue
@@ -113,7 +113,7 @@ def fits(draw: st.DrawFn, stages: int) -> StageConstraints:
         reverted=draw(st.sampled_from([False, False, True])),
         different=draw(st.sampled_from([False, False, True])),
         internal=draw(st.sampled_from([0, 0, 0, draw(st.integers(0, stages))])),
-        least_total=low if bounded else None,
+        minimum_total=low if bounded else None,
         most_total=high if bounded else None,
         largest=draw(st.sampled_from([None, None, 25, 12])),
     )
@@ -129,7 +129,7 @@ def questions(draw: st.DrawFn) -> tuple[Fraction, int, Set, Set, StageConstraint
     return draw(st.sampled_from([near, value])), stages, top, beneath, draw(fits(stages))
 
 
-def asked(value: Fraction, stages: int, top: Set, beneath: Set, **more: Any) -> StageFindings:
+def requested(value: Fraction, stages: int, top: Set, beneath: Set, **more: Any) -> StageFindings:
     """A ratio below 1 has its pinions on top."""
     wheels, pinions = (top, beneath) if value >= 1 else (beneath, top)
     return find_stages(TargetRatio(value), stages, wheels, pinions, **more)
@@ -141,7 +141,7 @@ def test_all_solutions_within_a_tolerance_are_counted_and_the_best_listed(
     question: tuple[Fraction, int, Set, Set, StageConstraints], tolerance: Fraction, by: str, best: int
 ) -> None:
     value, stages, top, beneath, fit = question
-    found = asked(value, stages, top, beneath, tolerance=tolerance, by=by, best=best, fit=fit)
+    found = requested(value, stages, top, beneath, tolerance=tolerance, by=by, best=best, fit=fit)
     expected = every_solution(value, stages, top, beneath, tolerance, fit, by)
     assert found.complete
     assert found.count == len(expected)
@@ -159,7 +159,7 @@ def test_without_a_tolerance_the_best_are_the_best_of_all(
     question: tuple[Fraction, int, Set, Set, StageConstraints], best: int
 ) -> None:
     value, stages, top, beneath, fit = question
-    found = asked(value, stages, top, beneath, best=best, fit=fit)
+    found = requested(value, stages, top, beneath, best=best, fit=fit)
     expected = every_solution(value, stages, top, beneath, None, fit, "error")
     assert listed(found) == [key[4:] for key in expected[:best]]
     assert found.count == sum(key[1] <= found.tolerance for key in expected)
@@ -173,13 +173,13 @@ def test_pieces_and_blocks_of_any_size_give_the_same(
     question: tuple[Fraction, int, Set, Set, StageConstraints], tolerance: Fraction, by: str, block: int
 ) -> None:
     value, stages, top, beneath, fit = question
-    whole = asked(value, stages, top, beneath, tolerance=tolerance, by=by, best=3, fit=fit)
-    nearest = asked(value, stages, top, beneath, best=3, fit=fit)
+    whole = requested(value, stages, top, beneath, tolerance=tolerance, by=by, best=3, fit=fit)
+    nearest = requested(value, stages, top, beneath, best=3, fit=fit)
     with pytest.MonkeyPatch.context() as patch:
         cut_into(patch, block)
-        cut = asked(value, stages, top, beneath, tolerance=tolerance, by=by, best=3, fit=fit)
+        cut = requested(value, stages, top, beneath, tolerance=tolerance, by=by, best=3, fit=fit)
         assert cut == whole
-        assert listed(asked(value, stages, top, beneath, best=3, fit=fit)) == listed(nearest)
+        assert listed(requested(value, stages, top, beneath, best=3, fit=fit)) == listed(nearest)
 
 
 @pytest.mark.parametrize("by", ORDERS)
@@ -238,15 +238,15 @@ def test_three_stages_for_the_month_have_eighty_five_solutions() -> None:
 def test_the_best_three_stages_of_all_counts_from_12_to_100_are_the_best() -> None:
     value = Fraction("13.36838")
     products = sorted({a * b * c for a, b, c in combinations_with_replacement(range(12, 101), 3)})
-    least = Fraction(1)
+    minimum = Fraction(1)
     for beneath in products:
         at = bisect_left(products, float(beneath * value))
         for over in products[max(at - 1, 0) : at + 1]:
             error = float(over) / float(beneath) / float(value) - 1
-            if abs(error) < float(least) + 1e-15:
-                least = min(least, abs(Fraction(over, beneath) / value - 1))
+            if abs(error) < float(minimum) + 1e-15:
+                minimum = min(minimum, abs(Fraction(over, beneath) / value - 1))
     found = find_stages(TargetRatio(value), 3, range(12, 101), range(12, 101))
-    assert abs(found[0].error) == least
+    assert abs(found[0].error) == minimum
     assert found[0].ratio == Fraction(37 * 59 * 71, 17 * 22 * 31)
     assert found.considered == comb(91, 3) ** 2
     assert found.count >= 20
@@ -324,7 +324,7 @@ def test_products_past_float64_are_found_exactly() -> None:
     beneath = tuple(range(10**9 + 7, 10**9 + 20))
     value = Fraction(10**18 + 3, 10**18)
     expected = every_solution(value, 2, top, beneath, Fraction(1, 10**10), StageConstraints(), "error")
-    found = asked(value, 2, top, beneath, tolerance=Fraction(1, 10**10))
+    found = requested(value, 2, top, beneath, tolerance=Fraction(1, 10**10))
     assert expected
     assert (found.count, listed(found)) == (len(expected), [key[4:] for key in expected[:20]])
     small = find_stages(TargetRatio(Fraction(10**17)), 2, top, (3, 5), best=3)
@@ -436,7 +436,7 @@ def test_an_order_that_needs_a_tolerance_says_which_was_used() -> None:
         ({"by": "beauty"}, "beauty"),
         ({"tolerance": Fraction(-1)}, "tolerance"),
         ({"fit": StageConstraints(internal=3)}, "internal"),
-        ({"fit": StageConstraints(least_total=9, most_total=8)}, "least_total"),
+        ({"fit": StageConstraints(minimum_total=9, most_total=8)}, "minimum_total"),
         ({"wheels": ()}, "no tooth counts"),
         ({"wheels": (0, 3)}, "0 teeth"),
     ],

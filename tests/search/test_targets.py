@@ -213,7 +213,7 @@ def test_runs_are_the_sequence_of_their_counts(counts: set[int]) -> None:
     plain = sorted(counts)
     runs = CountRuns.of(counts)
     assert list(runs) == plain == list(runs.as_array())
-    assert [len(runs), runs.least, runs.most] == [len(plain), plain[0], plain[-1]]
+    assert [len(runs), runs.minimum, runs.most] == [len(plain), plain[0], plain[-1]]
     assert [runs[at] for at in range(len(runs))] == plain
     assert (runs[-1], runs[1:4], runs[::-1]) == (plain[-1], tuple(plain[1:4]), tuple(plain[::-1]))
     assert runs.contiguous == (plain[-1] - plain[0] + 1 == len(plain))
@@ -235,7 +235,7 @@ def test_a_range_of_any_length_stays_a_range() -> None:
     counts = read_counts("12:1000000000")
     assert (len(counts), counts[-1], counts[10**8], 10**9 in counts) == (10**9 - 11, 10**9, 10**8 + 12, True)
     assert counts == CountRuns.of(range(12, 10**9 + 1))
-    assert counts.to_dict() == {"counts": "12:1000000000", "least": 12, "most": 10**9, "number": 10**9 - 11}
+    assert counts.to_dict() == {"counts": "12:1000000000", "minimum": 12, "most": 10**9, "number": 10**9 - 11}
     with pytest.raises(RangeError, match="999999989 tooth counts to list"):
         counts.as_array()
 

@@ -104,19 +104,19 @@ def errors_by_solving(
         if name in idle:
             continue
         result = answer.outputs[name]
-        asked = [one for one in result.targets if one.met is not None]
+        requested = [one for one in result.targets if one.met is not None]
         figures = [one.value.value for one in (result.output.expect, result.output.published) if one is not None]
-        if not result.holds or not all(one.met for one in asked):
+        if not result.holds or not all(one.met for one in requested):
             return None
-        if not asked and result.targets and (tolerance is not None or not figures):
-            asked = [result.targets[0]]
-            if asked[0].compared == "speed" and result.speed * asked[0].speed < 0:
+        if not requested and result.targets and (tolerance is not None or not figures):
+            requested = [result.targets[0]]
+            if requested[0].compared == "speed" and result.speed * requested[0].speed < 0:
                 return None  # as near as may be is on the side asked for
-            if tolerance is not None and abs(Fraction(asked[0].error)) > tolerance:
+            if tolerance is not None and abs(Fraction(requested[0].error)) > tolerance:
                 return None
         assert isinstance(result.speed, Fraction)
-        errors += [abs(Fraction(one.error)) for one in asked]
-        if not asked:
+        errors += [abs(Fraction(one.error)) for one in requested]
+        if not requested:
             errors += [abs(result.speed / value - 1) if value else abs(result.speed) for value in figures]
     return max(errors)
 
@@ -451,7 +451,7 @@ def test_every_kind_of_demand_means_what_the_solver_means(output: Data, toleranc
         assert one.outputs["B"].met
 
 
-def test_all_states_are_asked_at_once_or_one_alone() -> None:
+def test_all_states_are_requested_at_once_or_one_alone() -> None:
     data = planetary({})
     data["fixed"], data["outputs"] = [], {"sun": {}, "ring": {}}
     data["links"]["ring"] = data["links"].pop("frame")
@@ -565,11 +565,11 @@ def test_a_rule_that_leaves_nothing_is_named_with_what_there_would_be_without_it
 
 def test_a_rule_on_one_wheel_is_charged_with_all_the_counts_it_strikes() -> None:
     data = chain([(15, 40), (31, 90)], target("1/2", 0))
-    found = find(data, rules=ConstraintOptions(least=18), best=100)
+    found = find(data, rules=ConstraintOptions(minimum=18), best=100)
     assert (found.parts[0].shortfall.removed or {})["'a0' has at least 18 teeth"] == 3 * 60
     assert found.count == sum(2 * a == b for a in range(18, 41) for b in range(31, 91))
     assert tallies_add_up(found)
-    empty = find(data, rules=ConstraintOptions(least=41))
+    empty = find(data, rules=ConstraintOptions(minimum=41))
     assert empty.count == 0
     assert "without the rule \"'a0' has at least 41 teeth\" there are 20" in empty.parts[0].shortfall.advice
     assert tallies_add_up(empty)
@@ -799,11 +799,11 @@ def test_an_interrupt_at_any_time_gives_findings_that_say_so(monkeypatch: pytest
     data = chain([(15, 80)] * 2, target("254/19", "1e-4"))
     real = passes.find_join_problem
     for after in range(4):
-        asked: list[object] = []
+        requested: list[object] = []
 
-        def interrupted(*question: Any, after: int = after, asked: list[object] = asked) -> Any:
-            asked.append(question)
-            if len(asked) > after:
+        def interrupted(*question: Any, after: int = after, requested: list[object] = requested) -> Any:
+            requested.append(question)
+            if len(requested) > after:
                 raise KeyboardInterrupt
             return real(*question)
 
@@ -833,7 +833,7 @@ def test_beyond_the_limit_a_sample_is_searched_and_said_to_be_one() -> None:
 # ------------------------------------------------------------------------------------------------------ wrong questions
 
 
-def test_questions_that_cannot_be_asked_are_refused_in_words() -> None:
+def test_questions_that_cannot_be_requested_are_refused_in_words() -> None:
     plain = train([("A", "a", "B", "b")], {"a": 20, "b": {"teeth": {"value": 30, "range": [29, 31]}}}, {"B": target(1)})
     for options, said in (
         ({}, "no wheel to be found"),
@@ -892,9 +892,9 @@ def questions(draw: st.DrawFn) -> tuple[Data, Fraction | None, By, int]:
     answer = declare(data).solve()
     assume(answer.verdict)
     links = [link for link in data["links"] if link != "frame"]
-    asked = draw(st.lists(st.sampled_from(links), min_size=1, max_size=3, unique=True))
+    requested = draw(st.lists(st.sampled_from(links), min_size=1, max_size=3, unique=True))
     data = deepcopy(data)
-    data["outputs"] = {link: draw(asked_of(Fraction(answer.speeds[link]))) for link in asked}
+    data["outputs"] = {link: draw(requested_of(Fraction(answer.speeds[link]))) for link in requested}
     for link in data["links"].values():
         for wheel, teeth in link.get("wheels", {}).items():
             if wheel in bounds:
@@ -904,7 +904,7 @@ def questions(draw: st.DrawFn) -> tuple[Data, Fraction | None, By, int]:
     return data, tolerance, draw(st.sampled_from(ORDERS)), draw(st.sampled_from([1, 4, 1000]))
 
 
-def asked_of(speed: Fraction) -> st.SearchStrategy[Data]:
+def requested_of(speed: Fraction) -> st.SearchStrategy[Data]:
     if not speed:
         return st.just({"expect": 0})
     share = st.sampled_from(["0", "0.01", "0.1"])

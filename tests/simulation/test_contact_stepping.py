@@ -21,14 +21,14 @@ from geartrain.simulation.contacts.contact_model import (
     Spring,
     Stop,
 )
-from geartrain.simulation.contacts.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
+from geartrain.simulation.contacts.pair_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
 from geartrain.simulation.contacts.train_model import SlackPin
 from geartrain.simulation.steps import simulation
 from geartrain.simulation.steps.contact_solution import (
     BEARINGS,
-    BLOW_COUNT,
-    BLOWS,
     GAP,
+    IMPACT_COUNT,
+    IMPACT_LOSS,
     STEP,
     TIME_APART,
     VISCOUS,
@@ -45,9 +45,9 @@ TURN = 2 * pi
 EVEN = tabled_angle(ExactRatio(Fraction(1), TURN))
 
 
-def ahead(play: float) -> TabledFunction:
+def ahead(backlash: float) -> TabledFunction:
     """The coast flank of even teeth with some play."""
-    return tabled_angle(ConstantLag(Fraction(1), TURN, play))
+    return tabled_angle(ConstantLag(Fraction(1), TURN, backlash))
 
 
 def pair(
@@ -131,16 +131,16 @@ class BehindPin(PinToSlotTransmission):
 # ------------------------------------------------------------------------------------------------------ closed forms
 
 
-def test_two_free_bodies_share_their_momentum_by_three_blows() -> None:
+def test_two_free_bodies_share_their_momentum_by_three_impacts() -> None:
     # mu u^2 (1 - e^(2 n))/2 is lost in n blows at 0.1, 0.1 + 0.1/e, ...
     found = run(model([2, 1], [1, 0], [pair(EVEN, ahead(0.1), 0.6, start=0.1)]), 1e-3, 1.0)
     assert found.speeds[-1] == pytest.approx([0.5946666667, 0.8106666667], rel=1e-9)
-    assert found.energy[BLOWS] == pytest.approx(0.3177813333, rel=1e-9)
+    assert found.energy[IMPACT_LOSS] == pytest.approx(0.3177813333, rel=1e-9)
     assert found.impacts[:, 0] == pytest.approx([0.1, 0.266667, 0.544444], abs=5e-3)
     assert 2 * found.speeds[-1, 0] + found.speeds[-1, 1] == pytest.approx(2, rel=1e-14)
 
 
-def test_a_ball_in_a_shaken_cavity_reaches_the_closed_motion_of_two_blows_a_period() -> None:
+def test_a_ball_in_a_shaken_cavity_reaches_the_closed_motion_of_two_impacts_a_period() -> None:
     # v pi = L + 2 sin phi, cos phi = -v (1 - e)/(1 + e)
     width, e = 3.0, 0.6
     cavity = pair(tabled_angle(ShakenCavity(0.0)), tabled_angle(ShakenCavity(width)), e, start=1.0)
@@ -152,16 +152,18 @@ def test_a_ball_in_a_shaken_cavity_reaches_the_closed_motion_of_two_blows_a_peri
 
 
 def dragged(step: float, samples: int = 1, fast: bool = False) -> SimulatedRun:
-    play = pair(EVEN, ahead(0.2), 0.7)
+    backlash = pair(EVEN, ahead(0.2), 0.7)
     drag = Bearing("drag", {1: 1.0}, 0.5, 0.5)
-    return run(model([1, 1], [0, 1.5], [play], given={0: 0.0}, bearings=[drag]), step, 2.0, samples=samples, fast=fast)
+    return run(
+        model([1, 1], [0, 1.5], [backlash], given={0: 0.0}, bearings=[drag]), step, 2.0, samples=samples, fast=fast
+    )
 
 
-def test_drag_and_blows_stop_a_body_between_its_flanks() -> None:
+def test_drag_and_impacts_stop_a_body_between_its_flanks() -> None:
     found = dragged(1e-3)
-    assert found.counts[0, BLOW_COUNT] == 3
+    assert found.counts[0, IMPACT_COUNT] == 3
     assert found.energy[BEARINGS] == pytest.approx(0.34758022, abs=2e-3)
-    assert found.energy[BLOWS] == pytest.approx(0.77741978, abs=2e-3)
+    assert found.energy[IMPACT_LOSS] == pytest.approx(0.77741978, abs=2e-3)
     assert abs(found.speeds[-1, 1]) < 1e-9
 
 
@@ -177,7 +179,7 @@ def test_small_steps_give_the_closed_forms_at_their_digits() -> None:
     stopped = dragged(1e-6, samples=2000, fast=True)
     assert 0.7 * stopped.impacts[:, 2] == pytest.approx([1.0022475, 0.6278575, 0.3084809], abs=2e-6)
     assert stopped.energy[BEARINGS] == pytest.approx(0.34758022, abs=2e-6)
-    assert stopped.energy[BLOWS] == pytest.approx(0.77741978, abs=2e-6)
+    assert stopped.energy[IMPACT_LOSS] == pytest.approx(0.77741978, abs=2e-6)
     assert 1e-3 * np.argmax(abs(stopped.speeds[:, 1]) < 1e-8) == pytest.approx(1.338355, abs=1e-3)
 
 
@@ -203,7 +205,7 @@ def test_a_stopped_wheel_passes_one_pitch_a_beat() -> None:
     )
     assert found.angles[:, 0] == pytest.approx(0.1 * np.arange(1, 11), abs=1e-9)
     # ten falls through a pitch: the work of the torque is lost in blows
-    assert found.energy[BLOWS] + found.energy[STEP] == pytest.approx(10 * 0.1 * 10, rel=1e-9)
+    assert found.energy[IMPACT_LOSS] + found.energy[STEP] == pytest.approx(10 * 0.1 * 10, rel=1e-9)
 
 
 @kernel
@@ -247,7 +249,7 @@ def test_a_body_that_falls_on_its_flank_is_apart_until_its_bounces_end(e: float,
     of = model([1, 2], [0, 0], [pair(EVEN, ahead(0.5), e, start=height)], given={0: 0.0}, torque=[0, -6.0])
     found = run(of, fall / 2000, 1.3 * whole)
     assert found.counts[0, TIME_APART] * fall / 2000 == pytest.approx(whole, rel=0.02)
-    assert found.energy[BLOWS] == pytest.approx(6.0 * height, rel=0.01)
+    assert found.energy[IMPACT_LOSS] == pytest.approx(6.0 * height, rel=0.01)
 
 
 @pytest.mark.parametrize("step", [3e-2, 1e-2, 1.7e-3])
@@ -293,11 +295,11 @@ def slack_pin(rate: float, steps: int, turns: float = 1.0) -> SimulatedRun:
     return run(of, TURN / rate / steps, turns * TURN / rate)
 
 
-@pytest.mark.parametrize(("share", "least", "most"), [(0.999, 0.0, 1e-6), (1.01, 4e-5, 4e-4)])
+@pytest.mark.parametrize(("share", "minimum", "most"), [(0.999, 0.0, 1e-6), (1.01, 4e-5, 4e-4)])
 def test_a_slack_pin_leaves_its_slot_at_the_rate_at_which_the_drag_no_longer_slows_it(
-    share: float, least: float, most: float
+    share: float, minimum: float, most: float
 ) -> None:
-    assert least <= slack_pin(share * PARTS, 4000).counts[0, GAP] <= most
+    assert minimum <= slack_pin(share * PARTS, 4000).counts[0, GAP] <= most
 
 
 @pytest.mark.long
@@ -312,10 +314,10 @@ def test_beyond_that_rate_the_gap_is_that_of_an_even_fall_from_where_it_leaves(
     offset: int, parts: float, share: float, gap: float
 ) -> None:
     # q = F(S0) + w tau(S0) t - beta t^2/(2 J) less F(S0 + w t), with J w^2 tau'(S0) = -beta, at its greatest
-    law, rate = PinToSlotTransmission(10, offset), share * parts
-    slot = pair(tabled_angle(law), tabled_angle(BehindPin(10, offset)))
+    transmission, rate = PinToSlotTransmission(10, offset), share * parts
+    slot = pair(tabled_angle(transmission), tabled_angle(BehindPin(10, offset)))
     drag = Bearing("drag", {1: 1.0}, DRAG, DRAG)
-    of = model([1, J], [rate, rate * float(law.speed(0.0))], [slot], given={0: rate}, bearings=[drag])
+    of = model([1, J], [rate, rate * float(transmission.speed(0.0))], [slot], given={0: rate}, bearings=[drag])
     found = run(of, TURN / rate / 50_000, TURN / rate, fast=True)
     assert found.counts[0, GAP] == pytest.approx(gap, rel=1e-4, abs=1e-9)
 
@@ -350,13 +352,13 @@ def flight(rate: float) -> tuple[float, float, float, float]:
 
 
 def test_the_flight_of_a_slack_slot_is_that_of_an_integrator_with_events() -> None:
-    leaves, lands, gap, blow = flight(1.2 * PARTS)
-    assert (leaves, lands, gap, blow) == pytest.approx((0.403181, 3.620379, 0.0762169, -4.07532), rel=1e-5)
+    leaves, lands, gap, impact = flight(1.2 * PARTS)
+    assert (leaves, lands, gap, impact) == pytest.approx((0.403181, 3.620379, 0.0762169, -4.07532), rel=1e-5)
     found = slack_pin(1.2 * PARTS, 5000)
     assert (lands - leaves) / TURN == pytest.approx(0.5120329, abs=2e-7)
     assert found.counts[0, GAP] == pytest.approx(gap, rel=1e-3)
     assert found.counts[0, TIME_APART] / 5000 == pytest.approx((lands - leaves) / TURN, abs=3e-4)
-    assert found.impacts[0, 2] == pytest.approx(-blow, rel=1e-2)
+    assert found.impacts[0, 2] == pytest.approx(-impact, rel=1e-2)
 
 
 # ------------------------------------------------------------------------------------------------------ the solution
@@ -364,18 +366,18 @@ def test_the_flight_of_a_slack_slot_is_that_of_an_integrator_with_events() -> No
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_ratio_of_a_slack_pin_is_the_slope_of_its_angle(side: int) -> None:
-    law = SlackPin(PinToSlotTransmission(10.0, 5.0), 2.0, side)
+    transmission = SlackPin(PinToSlotTransmission(10.0, 5.0), 2.0, side)
     S, step = np.linspace(0.0, 6.0, 25), 1e-5
-    slope = (np.asarray(law.angle(S + step)) - np.asarray(law.angle(S - step))) / (2 * step)
-    assert np.allclose(law.speed(S), slope, rtol=0, atol=1e-9)
+    slope = (np.asarray(transmission.angle(S + step)) - np.asarray(transmission.angle(S - step))) / (2 * step)
+    assert np.allclose(transmission.speed(S), slope, rtol=0, atol=1e-9)
 
 
-def test_a_tabled_law_is_the_law_and_its_ratio_the_slope() -> None:
-    for law in (PIN, PinToSlotTransmission(10, 8), PinToSlotTransmission(6, 10)):
-        of: TransmissionFunction = law
-        laws = join_tables([tabled_angle(of)])
+def test_a_tabled_transmission_is_the_transmission_and_its_ratio_the_slope() -> None:
+    for transmission in (PIN, PinToSlotTransmission(10, 8), PinToSlotTransmission(6, 10)):
+        of: TransmissionFunction = transmission
+        transmissions = join_tables([tabled_angle(of)])
         for S in np.linspace(-20, 20, 101):
-            angle, ratio = value_and_slope(laws, 0, S)
+            angle, ratio = value_and_slope(transmissions, 0, S)
             assert angle == pytest.approx(float(of.angle(S)), abs=1e-8)
             assert ratio == pytest.approx(float(of.speed(S)), abs=1e-6)
 
@@ -429,9 +431,9 @@ def random_model(random: np.random.Generator, given: bool) -> ContactModel:
             # the law may be written from the other side, as long as that never stands
             ends = ends[1], ends[0]
         pairs.append(ContactPair(f"p{link}", *ends, (0.0, 0.0), EVEN, EVEN, None, 0.0, True))
-    couple = random.normal(size=(n, n)) * (random.random((n, n)) < 0.3)
+    tooth_pair = random.normal(size=(n, n)) * (random.random((n, n)) < 0.3)
     bearings = [Bearing(f"b{at}", {at: 1.0, (at + 1) % n: -0.5}, 0.3, 0.3) for at in range(0, n, 2)]
-    mass = np.diag(random.uniform(0.5, 3, n)) + couple @ couple.T
+    mass = np.diag(random.uniform(0.5, 3, n)) + tooth_pair @ tooth_pair.T
     speed = random.normal(size=n)
     return ContactModel(mass, np.zeros((n, n)), np.zeros(n), {0: 1.0} if given else {}, speed, pairs, bearings)
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain.simulation import PairStrength, TrainStrength
-from geartrain.simulation.strength.contact_pressure import least_couples
+from geartrain.simulation.strength.contact_pressure import minimum_tooth_pairs
 from geartrain.simulation.strength.iso_6336 import RackWheel, ToothLean, root_stress
 
 Z1, Z2, NORMAL, TORQUE = 20, 43, 2.0, 50.0
@@ -37,20 +37,20 @@ solve_for: b
 
 
 @given(st.floats(1.05, 2.6), st.floats(0.01, 3.5))
-def test_the_least_number_of_couples_is_that_of_many_slices(contact_ratio: float, overlap: float) -> None:
+def test_the_minimum_number_of_tooth_pairs_is_that_of_many_slices(contact_ratio: float, overlap: float) -> None:
     """Counted: a couple touches from 0 to the contact ratio, and slices lag by up to the overlap."""
     slices = np.linspace(0, overlap, 4001)
     means = []
     for phase in np.linspace(0, 1, 201):
         at = phase - slices
         means.append(float((np.floor(at) - np.ceil(at - contact_ratio) + 1).mean()))
-    assert min(means) == pytest.approx(least_couples(contact_ratio, overlap), abs=0.02 + 0.004 / overlap)
+    assert min(means) == pytest.approx(minimum_tooth_pairs(contact_ratio, overlap), abs=0.02 + 0.004 / overlap)
 
 
-def test_straight_teeth_have_as_many_couples_as_touch_at_least() -> None:
-    assert least_couples(1.64, 0.0) == 1
-    assert least_couples(2.3, 0.0) == 2
-    assert least_couples(1.64, 1.0) == least_couples(1.64, 2.0) == pytest.approx(1.64)
+def test_straight_teeth_have_as_many_tooth_pairs_as_touch_at_minimum() -> None:
+    assert minimum_tooth_pairs(1.64, 0.0) == 1
+    assert minimum_tooth_pairs(2.3, 0.0) == 2
+    assert minimum_tooth_pairs(1.64, 1.0) == minimum_tooth_pairs(1.64, 2.0) == pytest.approx(1.64)
 
 
 def test_teeth_that_hardly_lean_are_as_strong_as_straight_ones() -> None:
@@ -93,7 +93,7 @@ def test_pressure_at_the_pitch_point_is_hertz_in_space_and_that_of_the_standard(
 
 
 @pytest.mark.parametrize(("helix", "width"), [(8.0, 12.0), (15.0, 20.0), (30.0, 40.0)])
-def test_the_couples_told_are_those_that_share_the_force(helix: float, width: float) -> None:
+def test_the_tooth_pairs_told_are_those_that_share_the_force(helix: float, width: float) -> None:
     """Force across the axes times its part along the pitch circle times couples: the whole; counted by slices."""
     beta, alpha = radians(helix), radians(20)
     transverse = atan(tan(alpha) / cos(beta))
@@ -102,11 +102,11 @@ def test_the_couples_told_are_those_that_share_the_force(helix: float, width: fl
     ratio = (ends - (r1 + r2) * sin(transverse)) / (pi * NORMAL / cos(beta) * cos(transverse))
     slices = np.linspace(0, width * sin(beta) / (pi * NORMAL), 4001)
     phases = [phase - slices for phase in np.linspace(0, 1, 401)]
-    least = min(float((np.floor(at) - np.ceil(at - ratio) + 1).mean()) for at in phases)
+    minimum = min(float((np.floor(at) - np.ceil(at - ratio) + 1).mean()) for at in phases)
     found = strength(helix, width)
     for place in found.contact:
-        assert place.couples == pytest.approx(least, abs=0.005)
-        assert place.couples * place.force * cos(transverse) == pytest.approx(TORQUE * 1e3 / r1, rel=1e-9)
+        assert place.tooth_pairs == pytest.approx(minimum, abs=0.005)
+        assert place.tooth_pairs * place.force * cos(transverse) == pytest.approx(TORQUE * 1e3 / r1, rel=1e-9)
 
 
 def test_factors_are_those_of_the_standard() -> None:
@@ -233,7 +233,7 @@ def test_pressure_at_the_pitch_point_is_that_of_two_cones(z1: int, z2: int, widt
     elasticity = sqrt(206_000 / (2 * pi * (1 - 0.3**2)))
     wanted = elasticity * sqrt(force / cos(ANGLE) / width * curvature)
     place = next(each for each in pair.contact if each.where == "pitch point")
-    assert place.pressure * sqrt(place.couples) == pytest.approx(wanted, rel=1e-9)
+    assert place.pressure * sqrt(place.tooth_pairs) == pytest.approx(wanted, rel=1e-9)
 
 
 @pytest.mark.parametrize(("z1", "z2", "off"), [(36, 48, 0.004), (17, 23, 0.02), (16, 64, 0.01)])
@@ -278,7 +278,7 @@ def test_forces_and_stresses_are_of_one_radius() -> None:
 
 def test_wear_goes_on_as_the_pair_loses_on_its_sphere() -> None:
     wheels = found(36, 48).pairs["p~w"].wheels
-    volumes = [wheel.wear.volume.greatest for wheel in wheels if wheel.wear is not None]
+    volumes = [wheel.wear.volume.maximum for wheel in wheels if wheel.wear is not None]
     like = spur(45, 80, 1, 1)
     assert like.wheels[0].wear is None
     # Ohlendorf's loss of the spur pair, over the energy through 100 turns

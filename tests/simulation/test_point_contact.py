@@ -140,11 +140,11 @@ def test_contact_ends_where_tips_are_reached() -> None:
     assert wheels.bounded_by == {"tip"}
 
 
-def test_couples_are_counted_on_the_way() -> None:
+def test_tooth_pairs_are_counted_on_the_way() -> None:
     wheels = CrossedWheels((20.0, 30.0), (pi / 4, pi / 4), 2.0, ALPHA)
     back, front = wheels.ends
     places = np.linspace(-back, front, 2000, endpoint=False)
-    mean = np.mean([1 / wheels.couples(place) for place in places])
+    mean = np.mean([1 / wheels.tooth_pairs(place) for place in places])
     # each couple is met once by each: the way over the mean number is one pitch
     assert (back + front) * mean == pytest.approx(wheels.pitch, rel=2e-3)
 

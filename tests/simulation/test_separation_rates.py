@@ -14,7 +14,7 @@ from geartrain.simulation.contacts.inertial_contacts import (
     InertialContacts,
     YieldingPairs,
     find_inertial_loads,
-    least_rate,
+    minimum_rate,
 )
 from geartrain.simulation.contacts.rubbing_arms import separate_rubbing
 from geartrain.teeth.outlines.contour import Contour
@@ -83,12 +83,12 @@ def test_teeth_of_one_ratio_never_part() -> None:
     assert found.unknown == ("planet",)
 
 
-def test_the_least_rate_is_the_first_root() -> None:
+def test_the_minimum_rate_is_the_first_root() -> None:
     cases = [(1, 0, -4, 0.5), (1, 0, 4, np.inf), (0, 1, -2, 0.5), (2, 3, -5, 1), (-1, 0, 1, 0), (0, 0, 0, np.inf)]
     cases += [(0, 0, -1, 0), (0, -1, 1, 0), (0, 1, 1, np.inf), (2, -3, 1, 1), (1, -1, 1, np.inf), (3, -2, 0, 1.5)]
     cases += [(1, 2, 0, np.inf), (1, 1e9, -1, 1e9)]
     D, V, A, expected = np.array(cases, dtype=float).T
-    assert least_rate(D, V, A) == pytest.approx(expected)
+    assert minimum_rate(D, V, A) == pytest.approx(expected)
 
 
 # --------------------------------------------------------------------------------------------------- moon-triangular
@@ -109,18 +109,18 @@ def by_hand(x: np.ndarray, rubs: bool = False) -> np.ndarray:
 
     A driver whose teeth rub gives tau/eta times the torque on the driven side.
     """
-    laws = [mesh.law for mesh in load("moon-triangular").meshes]
+    transmissions = [mesh.transmission for mesh in load("moon-triangular").meshes]
     speeds, falls, accelerations, arms = [], [], [], []
     S, first, second = x, np.ones_like(x), np.zeros_like(x)
-    for law in laws:
-        slope = (law.speed(S + 1e-6) - law.speed(S - 1e-6)) / 2e-6
-        speed = law.speed(S)
+    for transmission in transmissions:
+        slope = (transmission.speed(S + 1e-6) - transmission.speed(S - 1e-6)) / 2e-6
+        speed = transmission.speed(S)
         first, second = speed * first, slope * first**2 + speed * second
         speeds.append(speed)
-        arms.append(speed / law.efficiency(S) if rubs else speed)
+        arms.append(speed / transmission.efficiency(S) if rubs else speed)
         falls.append(slope)
         accelerations.append(second)
-        S = law.angle(S) - law.angle(0.0)  # from a tooth on the line of centres
+        S = transmission.angle(S) - transmission.angle(0.0)  # from a tooth on the line of centres
     rates = []
     D = A = np.zeros_like(x)
     for at in (3, 2, 1, 0):
@@ -146,8 +146,8 @@ def test_the_moons_train_parts_first_at_its_last_pair() -> None:
     rates = {each.pair: each.rate for each in found.pairs}
     beyond = np.linspace(1e-6, 4e-6, 50)  # just after a corner: extrapolated to it, as differences need room
     here = by_hand(tau * (found.first.at + beyond))
-    at_the_corner = [np.polynomial.Polynomial.fit(beyond, each, 3)(0.0) for each in here]
-    assert at_the_corner == pytest.approx([rates[name] for name in names], rel=1e-6)
+    at_the_kink = [np.polynomial.Polynomial.fit(beyond, each, 3)(0.0) for each in here]
+    assert at_the_kink == pytest.approx([rates[name] for name in names], rel=1e-6)
 
 
 @pytest.mark.parametrize("rubs", [False, True])
@@ -285,7 +285,7 @@ TEETH = """
 links: {{frame: {{}}, a: {{wheels: {{p: 15}}}}, b: {{wheels: {{w: 60}}, inertia: 1e-5 kg m2, bearing: 1 N mm}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
 gears: [{{pair: [p, w]}}]
-tooth_form: {{form: triangular, half_angle: 30 deg, clearance: {0}}}
+tooth_form: {{form: triangular, half_angle: 30 deg, clearance_factor: {0}}}
 inputs: {{a: 1}}
 """
 
@@ -298,8 +298,8 @@ def test_teeth_whose_speed_falls_at_once_part_at_any_rate() -> None:
     assert running is not None
     assert running.rate is not None
     assert not running.leap
-    law = load(TEETH.format("1.03")).meshes[0].law
-    assert running.rate * tau == pytest.approx(sqrt(1e-3 / (1e-5 * (law.steepest_fall() or 0))), rel=1e-6)
+    transmission = load(TEETH.format("1.03")).meshes[0].transmission
+    assert running.rate * tau == pytest.approx(sqrt(1e-3 / (1e-5 * (transmission.steepest_fall() or 0))), rel=1e-6)
 
 
 def test_a_notebook_shows_from_which_rate_each_pair_parts() -> None:
@@ -309,7 +309,7 @@ def test_a_notebook_shows_from_which_rate_each_pair_parts() -> None:
     assert page.count("<tr>") == 5
 
 
-def test_what_cannot_be_asked_is_said() -> None:
+def test_what_cannot_be_requested_is_said() -> None:
     with pytest.raises(GearTrainError, match="no link of 'moon-triangular' has a moment of inertia"):
         find_separation(load("moon-triangular").mechanics)
     with pytest.raises(GearTrainError, match="has no unit"):
@@ -387,8 +387,8 @@ def test_a_disc_has_its_closed_form_wherever_it_stands() -> None:
 @pytest.mark.parametrize("sides", [3, 4, 7, 100])
 def test_a_regular_polygon_has_its_closed_form(sides: int) -> None:
     """n/2 r^2 sin(2 pi/n), and that times r^2 (2 + cos(2 pi/n))/6."""
-    corners = [(2 * cos(tau * at / sides), 2 * sin(tau * at / sides), 0.0) for at in range(sides)]
-    area, polar = Contour.of(corners).moments()
+    kinks = [(2 * cos(tau * at / sides), 2 * sin(tau * at / sides), 0.0) for at in range(sides)]
+    area, polar = Contour.of(kinks).moments()
     assert area == pytest.approx(2 * sides * sin(tau / sides), rel=1e-13)
     assert polar == pytest.approx(2 * sides * sin(tau / sides) * 4 * (2 + cos(tau / sides)) / 6, rel=1e-13)
 

@@ -148,7 +148,7 @@ def triangles(angle: str, clearance: float) -> geartrain.GearTrain:
     return geartrain.load(f"""
 links: {{frame: {{}}, a: {{wheels: {{p: {{teeth: 20, module: 2 mm}}}}}}, b: {{wheels: {{w: 40}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
-gears: [{{pair: [p, w], tooth_form: {{form: triangular, half_angle: {angle}, clearance: {clearance}}}}}]
+gears: [{{pair: [p, w], tooth_form: {{form: triangular, half_angle: {angle}, clearance_factor: {clearance}}}}}]
 inputs: {{a: 1}}
 loads: {{b: 1 N m}}
 """)
@@ -158,7 +158,7 @@ loads: {{b: 1 N m}}
 def test_triangles_push_apart_along_the_normals_of_their_flanks(angle: str, clearance: float) -> None:
     """Mean over a pitch of F sin(psi), F = T/n2, by the closure equations: a flank leans by beta1 + x or beta2 - y."""
     train = triangles(angle, clearance)
-    sizes = train.meshes[0].law.sizes
+    sizes = train.meshes[0].transmission.sizes
     pair = sorge.Pair.of(sizes)
     total = 0.0
     for part in pair.path:

@@ -17,7 +17,7 @@ import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report
 from geartrain.simulation import PairStrength, collect_strength_report, describe_strength
-from geartrain.simulation.strength.train_strength import greatest_moment
+from geartrain.simulation.strength.train_strength import maximum_moment
 
 PAIR = """
 links:
@@ -84,7 +84,7 @@ def test_safety_is_strength_over_stress() -> None:
         assert wheel.contact_safety == pytest.approx(5 / 3 * 400 / wheel.pressure)
 
 
-def test_the_weakest_part_has_the_least_safety_of_all() -> None:
+def test_the_weakest_part_has_the_minimum_safety_of_all() -> None:
     found = geartrain.load(PAIR).strength()
     safeties = [s for w in found.pairs["p~w"].wheels for s in (w.root_safety, w.contact_safety) if s is not None]
     safeties += [arbor.safety for arbor in found.arbors if arbor.safety is not None]
@@ -103,24 +103,26 @@ def test_an_arbor_is_a_round_bar_bent_in_its_middle() -> None:
 
 def bent(loads: list[tuple[float, float, float]], span: float) -> float:
     """The greatest moment of a beam on two bearings under (place, force, couple), by equilibrium at each section."""
-    right = sum(force * at + couple for at, force, couple in loads) / span
+    right = sum(force * at + tooth_pair for at, force, tooth_pair in loads) / span
     left = sum(force for _, force, _ in loads) - right
     ends = [at + side * 1e-9 for at, _, _ in loads for side in (-1, 1)]
-    return max(abs(left * x - sum(force * (x - at) - couple for at, force, couple in loads if at < x)) for x in ends)
+    return max(
+        abs(left * x - sum(force * (x - at) - tooth_pair for at, force, tooth_pair in loads if at < x)) for x in ends
+    )
 
 
 @given(st.lists(st.tuples(st.floats(0.02, 0.98), st.floats(-9, 9), st.floats(-200, 200)), min_size=1, max_size=4))
 def test_no_place_of_wheels_bends_an_arbor_more_than_its_bound(loads: list[tuple[float, float, float]]) -> None:
     span = 40.0
-    placed = [(at * span, force, couple) for at, force, couple in loads]
-    force, couple = (sum(abs(each[k]) for each in placed) for k in (1, 2))
-    assert bent(placed, span) <= greatest_moment(force, couple, span) * (1 + 1e-9) + 1e-6
+    placed = [(at * span, force, tooth_pair) for at, force, tooth_pair in loads]
+    force, tooth_pair = (sum(abs(each[k]) for each in placed) for k in (1, 2))
+    assert bent(placed, span) <= maximum_moment(force, tooth_pair, span) * (1 + 1e-9) + 1e-6
 
 
-@pytest.mark.parametrize("couple", [0.0, 100.0, 300.0, 399.0, 500.0])
-def test_one_wheel_bends_as_much_as_the_bound_at_its_worst_place(couple: float) -> None:
-    found = max(bent([(at, 10.0, couple)], 40.0) for at in np.linspace(1e-6, 40 - 1e-6, 4001))
-    assert found == pytest.approx(greatest_moment(10.0, couple, 40.0), rel=1e-3)
+@pytest.mark.parametrize("tooth_pair", [0.0, 100.0, 300.0, 399.0, 500.0])
+def test_one_wheel_bends_as_much_as_the_bound_at_its_worst_place(tooth_pair: float) -> None:
+    found = max(bent([(at, 10.0, tooth_pair)], 40.0) for at in np.linspace(1e-6, 40 - 1e-6, 4001))
+    assert found == pytest.approx(maximum_moment(10.0, tooth_pair, 40.0), rel=1e-3)
 
 
 CROSSED_ARBOR = """
@@ -178,7 +180,7 @@ loads: {c: 1 N m}
 """
 
 
-def test_the_greatest_torque_of_a_turn_bends_and_presses_and_the_mean_one_wears() -> None:
+def test_the_maximum_torque_of_a_turn_bends_and_presses_and_the_mean_one_wears() -> None:
     """A pin 10 mm from its axis drives a slot 8 mm off: where it is nearest the slot turns 10/(10 - 8) as fast."""
     train = geartrain.load(SWINGING)
     mean, most = train.strength(turns=10), train.strength(turns=10, over=2)
@@ -195,7 +197,7 @@ def test_the_greatest_torque_of_a_turn_bends_and_presses_and_the_mean_one_wears(
     assert [each.tangential for each in most.forces] == pytest.approx([5 * each.tangential for each in mean.forces])
     assert most.arbors[0].stress == pytest.approx(5 * mean.arbors[0].stress)
     parts = train.torques(turns=2).parts
-    assert parts["p~w"].greatest == pytest.approx(5)
+    assert parts["p~w"].maximum == pytest.approx(5)
 
 
 def test_what_turns_evenly_has_no_greater_torque_than_its_mean() -> None:
@@ -216,9 +218,9 @@ def test_a_safe_pair_on_crossed_axes_is_no_failure(tmp_path: Path) -> None:
 def test_worn_volume_is_coefficient_times_force_times_way_over_hardness() -> None:
     found = geartrain.load(PAIR).strength(turns=1000, wear=(1e-6, 1e-4))
     # Ohlendorf's loss over friction times the energy through the pair; 190 HV
-    law = geartrain.load(PAIR).meshes[0].path
-    assert law is not None
-    one, two = (arc / law.pitch.p for arc in law.arcs)
+    transmission = geartrain.load(PAIR).meshes[0].path
+    assert transmission is not None
+    one, two = (arc / transmission.pitch.p for arc in transmission.arcs)
     loss = pi * (1 / 17 + 1 / 51) * (1 - one - two + one**2 + two**2)
     slid = 20_000 * 2 * pi * 1000 * loss
     wear = found.pairs["p~w"].wheels[0].wear

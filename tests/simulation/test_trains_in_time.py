@@ -34,11 +34,11 @@ def moon_train(scale: float = 1.0, **more: Any) -> GearTrain:
     As in the study whose tables are tested, each driver starts where the pair before it holds it back.
     """
     links = {name: {"inertia": f"{scale * own} kg m2", "bearing": "1 N mm"} for name, own in INERTIA.items()}
-    laws = {mesh.name: mesh.law for mesh in load("moon-triangular").meshes}
-    S, gears = float(laws["a~b1"].angle(0.0)), []
+    transmissions = {mesh.name: mesh.transmission for mesh in load("moon-triangular").meshes}
+    S, gears = float(transmissions["a~b1"].angle(0.0)), []
     for name, *pair in LAGGING:
-        gears.append({"id": name, "pair": pair, "phase": repr(S / laws[name].period)})
-        S = float(laws[name].angle(S))
+        gears.append({"id": name, "pair": pair, "phase": repr(S / transmissions[name].period)})
+        S = float(transmissions[name].angle(S))
     return GearTrain.declare({"extends": "moon-triangular", "friction": 0, "links": links, "gears": gears, **more})
 
 
@@ -50,7 +50,7 @@ def shares(run: TimeRun) -> list[float]:
 
 def test_turned_slowly_a_train_moves_as_motion_says_and_is_as_heavy_as_its_drag() -> None:
     run = moon_train().dynamics(rate="0.02 turn/s", turns=0.4, skip=0, steps=4000, fast=False)
-    moon = next(lead for lead in run.leads if lead.output == "moon")
+    moon = next(each for each in run.deviations if each.output == "moon")
     # a thousandth of the Moon's ripple of 0.1 degrees in one turn; the reference says 0.0005 degrees in ten
     assert degrees(max(moon.ahead, moon.behind)) < 1e-4
     assert shares(run) == [0, 0, 0, 0]
@@ -59,13 +59,13 @@ def test_turned_slowly_a_train_moves_as_motion_says_and_is_as_heavy_as_its_drag(
     assert run.torque == pytest.approx(1e-3 * (1 / 5 + 32 / 95 + 64 / 95 + 254 / 95), rel=2e-2)
 
 
-def test_energy_closes_with_flights_blows_and_friction() -> None:
+def test_energy_closes_with_flights_impacts_and_friction() -> None:
     for friction, restitution in ((0, 0.3), (0.2, 0.0)):
         run = moon_train(friction=friction).dynamics(
             rate="1 turn/s", turns=0.2, skip=0.05, steps=3000, restitution=restitution, fast=False
         )
         assert run.energy.closure < 1e-12
-        assert run.energy.blows > 0
+        assert run.energy.impact_loss > 0
         assert (run.energy.friction > 0) is bool(friction)
         assert run.unsolved == 0
 
@@ -76,9 +76,9 @@ def test_with_friction_of_teeth_slow_turning_asks_the_torque_of_a_turn() -> None
         {"extends": "moon-triangular", "friction": 0.2, "loads": {"moon": "-1 N mm"}, "links": links}
     )
     run = train.dynamics(rate="0.02 turn/s", turns=0.25, skip=0, steps=4000, fast=False)
-    asked = train.torques(turns=0.25).to_dict()["input"]["mean"]
+    requested = train.torques(turns=0.25).to_dict()["input"]["mean"]
     # blows, which torques leave out, take a ten-thousandth
-    assert run.torque == pytest.approx(asked, rel=1e-3)
+    assert run.torque == pytest.approx(requested, rel=1e-3)
     assert run.energy.friction > 0.2 * abs(run.energy.loads)
 
 
@@ -132,23 +132,23 @@ def test_a_train_declared_to_turn_backwards_is_the_mirror_image_of_itself(name: 
 
 
 @pytest.mark.parametrize("load", ["-1 N mm", "1 N mm"])
-@pytest.mark.parametrize("play", [{}, {"clearance": "0.02 mm"}])
-def test_a_pin_rubs_whichever_side_puts_the_power_in(load: str, play: dict[str, str]) -> None:
+@pytest.mark.parametrize("backlash", [{}, {"clearance": "0.02 mm"}])
+def test_a_pin_rubs_whichever_side_puts_the_power_in(load: str, backlash: dict[str, str]) -> None:
     pin = {"kind": "pin_and_slot", "pin": "a", "slot": "b", "pin_radius": "10 mm", "offset": "5 mm", "friction": 0.3}
     train = GearTrain.declare(
         {
             "links": {"frame": {}, "a": {}, "b": {"inertia": "1e-9 kg m2"}},
             "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-            "couplings": [pin | play],
+            "couplings": [pin | backlash],
             "inputs": {"a": 1},
             "outputs": {"b": {}},
             "loads": {"b": load},
         }
     )
     run = train.dynamics(rate="0.05 turn/s", turns=1, skip=0.25, steps=2000, fast=False)
-    asked = train.torques(turns=1).mean
-    assert asked is not None
-    assert run.torque == pytest.approx(asked, rel=3e-3)
+    requested = train.torques(turns=1).mean
+    assert requested is not None
+    assert run.torque == pytest.approx(requested, rel=3e-3)
     assert run.energy.friction == pytest.approx(abs(run.energy.drive + run.energy.loads), rel=3e-3)
 
 
@@ -166,10 +166,10 @@ def test_a_load_that_drives_gives_back_what_teeth_leave_of_it(gear: dict[str, ob
         }
     )
     run = train.dynamics(rate="0.05 turn/s", turns=0.5, skip=0.25, steps=2000, fast=False)
-    asked = train.torques(turns=0.5).mean
-    assert asked is not None
-    assert asked < 0 < run.energy.friction
-    assert run.torque == pytest.approx(asked, rel=3e-3)
+    requested = train.torques(turns=0.5).mean
+    assert requested is not None
+    assert requested < 0 < run.energy.friction
+    assert run.torque == pytest.approx(requested, rel=3e-3)
 
 
 @pytest.mark.long
@@ -188,7 +188,7 @@ def test_the_moons_train_parts_as_in_the_table(
 ) -> None:
     run = moon_train(scale).dynamics(rate=f"{rate} turn/s", turns=10, steps=40000, fast=True)
     assert shares(run) == pytest.approx(apart, abs=0.3)
-    moon = next(lead for lead in run.leads if lead.output == "moon")
+    moon = next(each for each in run.deviations if each.output == "moon")
     assert degrees(moon.ahead) == pytest.approx(ahead, abs=0.04)
     assert run.torque * 1e3 == pytest.approx(torque, abs=0.01)
     assert run.energy.closure < 1e-12
@@ -205,7 +205,7 @@ def test_figures_say_how_far_a_mean_is_known_and_what_depends_on_the_step() -> N
     assert torque.interval == pytest.approx(own, rel=1e-3)
     assert all((each.interval is None) == (each.kind == "extreme") for each in run.figures)
     for each in run.figures:
-        assert not each.settled or each.kind == "extreme" or not each.unit or each.interval <= 0.05 * abs(each.fine)
+        assert not each.converged or each.kind == "extreme" or not each.unit or each.interval <= 0.05 * abs(each.fine)
 
 
 @pytest.mark.slow
@@ -229,7 +229,7 @@ def test_a_figure_that_depends_on_the_step_is_named_with_its_error_and_the_steps
 def test_with_a_restitution_teeth_part_more_and_the_moon_runs_farther_ahead() -> None:
     run = moon_train().dynamics(rate="1 turn/s", turns=20, steps=40000, restitution=0.3, fast=True)
     assert np.mean(shares(run)) == pytest.approx(34, abs=0.6)
-    moon = next(lead for lead in run.leads if lead.output == "moon")
+    moon = next(each for each in run.deviations if each.output == "moon")
     assert degrees(moon.ahead) == pytest.approx(6.5, abs=1.6)  # a single flight: chaotic
 
 
@@ -250,7 +250,7 @@ def test_impacts_take_what_carnot_says() -> None:
     torques = []
     for rate in (0.1, 0.3):
         run = moon_train().dynamics(rate=f"{rate} turn/s", turns=10, steps=40000, fast=True)
-        torques.append(1e3 * run.energy.blows / (tau * 10))
+        torques.append(1e3 * run.energy.impact_loss / (tau * 10))
     assert torques[0] == pytest.approx(0.5762 * 0.1**2, rel=0.02)
     assert torques[1] == pytest.approx(0.5762 * 0.3**2, rel=0.02)
 
@@ -275,7 +275,7 @@ def test_a_planetary_set_speeds_up_as_its_reduced_inertia_says() -> None:
     assert run.speeds["sun"][-1] == pytest.approx(1e-3 / reduced * run.time[-1], rel=1e-9)
 
 
-def test_below_the_rate_of_separation_blows_that_come_together_part_no_flanks() -> None:
+def test_below_the_rate_of_separation_impacts_that_come_together_part_no_flanks() -> None:
     # after 5.1275 turns corners of two pairs pass within two steps, and the second is moved on by the blow at the first
     train, rate = load("moon-triangular-inertia"), 0.95 * 0.4808275
     model = model_in_time(train.mechanics, None, (), tau * rate, 0.0).model
@@ -339,7 +339,7 @@ def test_a_clock_goes_by_its_beats_and_loses_the_work_of_its_weight() -> None:
     run = GearTrain.declare(CLOCK).dynamics(turns=1 / 90, skip=0, steps=180_000, samples=40, fast=False)
     escape = np.abs(run.angles["escape"])
     assert escape[-1] == pytest.approx(pi / 30 * round(run.time[-1] / 0.5), abs=1e-6)
-    assert run["escape"].blows == pytest.approx(2, rel=0.1)  # type: ignore[union-attr]
+    assert run["escape"].impact_rate == pytest.approx(2, rel=0.1)  # type: ignore[union-attr]
     assert np.diff(run.impacts.time) == pytest.approx(0.5, abs=0.01)
     fallen = abs(run.angles["barrel"][-1]) * 0.02
     assert run.energy.loads == pytest.approx(0.5 * GRAVITY * fallen, rel=1e-9)
@@ -348,9 +348,9 @@ def test_a_clock_goes_by_its_beats_and_loses_the_work_of_its_weight() -> None:
 
 def test_a_wheel_caught_within_a_step_gives_its_weights_work_to_the_escapement() -> None:
     run = load("longcase-clock").dynamics(turns=1 / 180, skip=0, steps=360_000, fast=False)
-    assert run.energy.blows == pytest.approx(run.energy.loads, rel=1e-6)
+    assert run.energy.impact_loss == pytest.approx(run.energy.loads, rel=1e-6)
     assert abs(run.energy.steps) < 1e-9 * run.energy.loads
-    assert run["escape"].blows == pytest.approx(1, rel=0.06)  # type: ignore[union-attr]
+    assert run["escape"].impact_rate == pytest.approx(1, rel=0.06)  # type: ignore[union-attr]
 
 
 def test_an_hour_of_a_clock_is_stepped_where_it_moves_and_strikes_at_the_speed_of_its_fall() -> None:
@@ -468,11 +468,11 @@ def test_beside_another_input_the_torque_is_that_of_the_link_that_is_told(name: 
     own = {link: {"inertia": "1e-5 kg m2", "bearing": "1 N mm"} for link in of.links if link != of.frame}
     train = GearTrain.declare({"extends": name, "name": "rubs", "links": own})
     run = train.dynamics(rate="1 turn/s", state=state, turns=1, fast=False)
-    asked = train.torques(state, turns=1, samples=10)
-    assert run.link == asked.link
-    assert run.torque == pytest.approx(asked.mean, rel=1e-9)
+    requested = train.torques(state, turns=1, samples=10)
+    assert run.link == requested.link
+    assert run.torque == pytest.approx(requested.mean, rel=1e-9)
     # teeth without friction pass on what they take, those of planets on opposite axes too
-    assert [name for name, part in asked.parts.items() if part.kind == "mesh" and abs(part.loss) > 1e-12] == []
+    assert [name for name, part in requested.parts.items() if part.kind == "mesh" and abs(part.loss) > 1e-12] == []
 
 
 def test_a_crank_behind_one_of_two_inputs_leaves_both_their_speeds() -> None:

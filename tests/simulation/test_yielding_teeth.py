@@ -17,7 +17,7 @@ from geartrain import GearTrain
 from geartrain.errors import QuestionError
 from geartrain.simulation import find_vibration_modes
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothYield
-from geartrain.simulation.contacts.law_tables import tabled_angle
+from geartrain.simulation.contacts.pair_tables import tabled_angle
 from geartrain.simulation.contacts.train_model import SlackPin
 from geartrain.simulation.contacts.yielding_train import damping_ratio
 from geartrain.simulation.steps.contact_solution import GAP, TIME_APART
@@ -29,13 +29,16 @@ J, DRAG = 1e-5, 1e-3  # kg m2, N m: the pin of 10 in a slot 2 off, behind a driv
 
 
 def pin_train(rate: float, clearance: float = 0.0, drag: float = DRAG) -> ContactModel:
-    law = PinToSlotTransmission(10, 2)
-    front = back = tabled_angle(law)
+    transmission = PinToSlotTransmission(10, 2)
+    front = back = tabled_angle(transmission)
     if clearance:
-        front, back = tabled_angle(SlackPin(law, clearance, -1)), tabled_angle(SlackPin(law, clearance, 1))
-    start = 0.0 if not clearance else float(SlackPin(law, clearance, -1).angle(0.0))
+        front, back = (
+            tabled_angle(SlackPin(transmission, clearance, -1)),
+            tabled_angle(SlackPin(transmission, clearance, 1)),
+        )
+    start = 0.0 if not clearance else float(SlackPin(transmission, clearance, -1).angle(0.0))
     pair = ContactPair("pin", {0: 1.0}, {1: 1.0}, (0.0, start), front, back)
-    speed = rate * float(law.speed(0.0))
+    speed = rate * float(transmission.speed(0.0))
     drags = [Bearing("slot", {1: 1.0}, drag, drag)] if drag else []
     mass, speeds = np.diag([0.0, J]), np.array([rate, speed])
     return ContactModel(mass, np.zeros((2, 2)), np.zeros(2), {0: rate}, speeds, [pair], drags, start=speeds)
@@ -103,9 +106,9 @@ class ByIda:
 def test_a_pin_that_yields_carries_what_ida_says() -> None:
     rate, k, c = 15.0, 20.0, 2.8e-3
     turn = tau / rate
-    law = PinToSlotTransmission(10, 2)
-    oracle = ByIda(rate, k, c, [law, law], two_sided=True)
-    found = oracle.at(0.3 * turn, [0.0, rate * float(law.speed(0.0))])
+    transmission = PinToSlotTransmission(10, 2)
+    oracle = ByIda(rate, k, c, [transmission, transmission], two_sided=True)
+    found = oracle.at(0.3 * turn, [0.0, rate * float(transmission.speed(0.0))])
     errors = [
         yielding(pin_train(rate), StepPlan(turn / n, 0, 3 * n // 10, 3 * n // 10), k, c).angles[-1, 1] - found[0]
         for n in (750, 1500)
@@ -121,8 +124,8 @@ def test_a_pin_that_yields_carries_what_ida_says() -> None:
 
 def test_a_pin_with_clearance_flies_and_strikes_as_ida_says() -> None:
     rate, k, c = 30.0, 20.0, 5e-3
-    law = PinToSlotTransmission(10, 2)
-    flanks = [SlackPin(law, 0.4, -1), SlackPin(law, 0.4, 1)]
+    transmission = PinToSlotTransmission(10, 2)
+    flanks = [SlackPin(transmission, 0.4, -1), SlackPin(transmission, 0.4, 1)]
     model = pin_train(rate, 0.4)
     start = [float(flanks[0].angle(0.0)), float(model.typical[1])]
     truth = ByIda(rate, k, c, flanks).at(tau / rate, start)[0] - start[0]
@@ -170,7 +173,7 @@ def kahraman_singh(speed: float, periods: int, steps: int) -> NDArray[Any]:
 @pytest.mark.parametrize(
     ("speed", "rms"), [(0.70, 0.06868), (0.72, 0.28931), (0.8, 0.22926), (1.2, 0.07578), (1.3, 0.05035)]
 )
-def test_an_oscillator_with_play_swings_as_kahraman_and_singhs(speed: float, rms: float) -> None:
+def test_an_oscillator_with_backlash_swings_as_kahraman_and_singhs(speed: float, rms: float) -> None:
     x = kahraman_singh(speed, 50, 100)
     assert np.std(x) == pytest.approx(rms, rel=3e-3)
     linear = 0.05 / sqrt((1 - speed**2) ** 2 + (0.1 * speed) ** 2) / sqrt(2)
@@ -186,10 +189,10 @@ def test_an_oscillator_with_play_swings_as_kahraman_and_singhs(speed: float, rms
 def test_stiff_teeth_part_as_rigid_ones() -> None:
     # from events: a pin of 10 in a slot 2 off at 1.2 of the speed at which it parts flies to a gap of 0.0762169
     rate = 1.2 * 20.4056115
-    law = PinToSlotTransmission(10, 2)
+    transmission = PinToSlotTransmission(10, 2)
     rigid = pin_train(rate)
     pair = rigid.pairs[0]
-    far = tabled_angle(SlackPin(law, 8.0, 1))  # a slot so wide that the other side is never reached
+    far = tabled_angle(SlackPin(transmission, 8.0, 1))  # a slot so wide that the other side is never reached
     model = replace(rigid, pairs=[ContactPair("pin", pair.driver, pair.driven, pair.start, pair.front, far)])
     errors, shares = [], []
     for k, n in ((40.0, 2000), (160.0, 4000)):
@@ -288,11 +291,11 @@ def test_a_light_train_swings_about_what_it_carries() -> None:
     assert factor == pytest.approx(1 + np.exp(-zeta * pi / sqrt(1 - zeta**2)), rel=2e-3)
     assert run.model == "compliant"
     assert run.energy.closure < 1e-12
-    assert run.energy.blows > 0
+    assert run.energy.impact_loss > 0
     assert any("taken as 0.05 of the critical" in note for note in run.assumed)
 
 
-def test_energy_closes_with_flights_play_and_friction() -> None:
+def test_energy_closes_with_flights_backlash_and_friction() -> None:
     train = GearTrain.declare({"extends": "moon-triangular-inertia", "stiffness": "50 N m/rad", "friction": 0.2})
     run = train.dynamics(
         rate="1 turn/s", turns=0.04, skip=0.0, steps=20_000, restitution=0.3, model="compliant", fast=False
@@ -300,7 +303,7 @@ def test_energy_closes_with_flights_play_and_friction() -> None:
     energy = run.energy
     assert energy.closure < 1e-12
     assert energy.friction > 0
-    assert energy.blows > 0
+    assert energy.impact_loss > 0
     assert abs(energy.steps) < 0.02 * energy.drive
     assert run.unsolved == 0
     assert max(each.apart for each in run.contacts) > 0.01
@@ -313,7 +316,7 @@ def test_steps_too_long_for_stiff_teeth_are_refused_where_they_diverge() -> None
         train.dynamics(rate="0.4 turn/s", turns=0.2, skip=0.1, steps=10_000, model="compliant", fast=False)
 
 
-def test_what_cannot_be_known_of_teeth_is_asked_for() -> None:
+def test_what_cannot_be_known_of_teeth_is_requested_for() -> None:
     train = GearTrain.declare({"extends": "moon-triangular-inertia"})
     with pytest.raises(QuestionError, match="how stiff the teeth of a~b1"):
         train.dynamics(rate="1 turn/s", turns=1, model="compliant")

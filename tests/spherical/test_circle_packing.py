@@ -299,7 +299,7 @@ def test_a_map_without_symmetry_with_closed_phases() -> None:
     check_phases(found)
 
 
-def test_closed_phases_have_the_least_variance_of_pitches_nearby() -> None:
+def test_closed_phases_have_the_minimum_variance_of_pitches_nearby() -> None:
     """Along every direction that keeps the loops closed the variance is stationary."""
     found = from_graph(faces_and_vertices(ASYM), aim="phases", teeth=ASYM_TEETH)
     z, axes = found.sizing.teeth.astype(float), found.configuration.axes
@@ -346,7 +346,7 @@ def test_on_the_other_side_none_is_found_and_that_is_said() -> None:
     assert "no axes near the packing" in str(found)
 
 
-def test_least_teeth_and_range() -> None:
+def test_minimum_teeth_and_range() -> None:
     graph = faces_and_vertices(PRISM)
     assert min(from_graph(graph, 20).configuration.teeth.values()) == 20
     narrow, wide = from_graph(graph), from_graph(graph, upto=30)

@@ -567,8 +567,8 @@ def test_no_smaller_drop_frees_a_small_set(name: str) -> None:
     # by trying all ways to colour the gears: a mesh between two of one colour must go
     found = from_polyhedron(name)
     count = len(found.names)
-    least = min(sum(colour[i] == colour[j] for i, j in found.meshes) for colour in product((1, -1), repeat=count))
-    assert least_drop(solid(name)) == least
+    minimum = min(sum(colour[i] == colour[j] for i, j in found.meshes) for colour in product((1, -1), repeat=count))
+    assert least_drop(solid(name)) == minimum
 
 
 # places that follow from the teeth ------------------------------------------------------------------------------------

@@ -223,7 +223,7 @@ def test_few_teeth_are_undercut() -> None:
     assert size_gears(quasiregular("icosidodecahedron", {"5": 30, "3": 18})).undercut == {}
 
 
-def test_a_set_without_teeth_is_asked_for_them() -> None:
+def test_a_set_without_teeth_is_requested_for_them() -> None:
     with pytest.raises(GearTrainError, match="no tooth number for 5, 3"):
         size_gears(quasiregular("icosidodecahedron"))
 
@@ -352,13 +352,13 @@ def test_uniform_antiprisms(n: int, teeth: tuple[int, int], mismatch: float) -> 
     assert abs(row.mismatch) == pytest.approx(mismatch, abs=max(5e-2 * mismatch, 1e-14))
 
 
-@pytest.mark.parametrize("least", [6, 10])
-def test_the_search_agrees_with_one_set_at_a_time(least: int) -> None:
+@pytest.mark.parametrize("minimum", [6, 10])
+def test_the_search_agrees_with_one_set_at_a_time(minimum: int) -> None:
     """Closure by the printed rules, room by measuring every pair of gears."""
     rco = from_polyhedron("rhombicuboctahedron")
-    found = suggest_tooth_counts(rco, 20, 10**6, least=least, mismatch=inf)
+    found = suggest_tooth_counts(rco, 20, 10**6, minimum=minimum, mismatch=inf)
     good = []
-    for a, b, c in product(range(least, 21), repeat=3):
+    for a, b, c in product(range(minimum, 21), repeat=3):
         if c % 3 == 0 and (a - 2 * b) % 4 == 0:
             sizing = size_gears(replace(rco, teeth={"4a": a, "4b": b, "3": c}))
             if not sizing.collisions:
@@ -366,12 +366,12 @@ def test_the_search_agrees_with_one_set_at_a_time(least: int) -> None:
     assert sorted(tuple(row.teeth.values()) for row in found) == [row[0] for row in good]
     expected = dict(good)
     assert all(abs(row.mismatch) == pytest.approx(expected[tuple(row.teeth.values())]) for row in found)  # type: ignore[index]
-    assert found.considered == (21 - least) ** 3
+    assert found.considered == (21 - minimum) ** 3
     assert sum(found.removed.values()) + len(found) == found.considered
 
 
 def test_an_empty_search_says_what_removed_how_many() -> None:
-    found = suggest_tooth_counts(quasiregular("icosidodecahedron"), 7, least=6)
+    found = suggest_tooth_counts(quasiregular("icosidodecahedron"), 7, minimum=6)
     assert len(found) == 0
     assert found.removed["loops that do not close"] == found.considered == 4
     assert "No tooth numbers meet every condition" in str(found)

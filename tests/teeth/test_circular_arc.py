@@ -131,7 +131,7 @@ def teeth_near(z: int, side: np.ndarray, root: float, count: int) -> Polygon:
 
 
 @pytest.mark.parametrize(("z1", "z2"), [(60, 8), (96, 12), (8, 60)])
-def test_polygons_touch_where_the_law_says(z1: int, z2: int) -> None:
+def test_polygons_touch_where_the_transmission_says(z1: int, z2: int) -> None:
     leaves, ratio = min(z1, z2), max(z1, z2) / min(z1, z2)
     factor = rolled_addendum(leaves, ratio)
     thin, low, round_ = (1.05, 0.67, 0.70) if leaves == 8 else (1.25, 0.625, 0.625)
@@ -140,12 +140,12 @@ def test_polygons_touch_where_the_law_says(z1: int, z2: int) -> None:
     for z in (z1, z2):
         root = z / 2 - 2  # so deep that nothing touches the bottom
         wheels.append(teeth_near(z, half_tooth(z, *sizes[z], root), root, 2))
-    law = FORM.law(z1, z2)
+    transmission = FORM.transmission(z1, z2)
     begin = (sizes[z1][0] + sizes[z2][0]) / z2  # half a tooth of both, as the driven angle counts
-    for S in np.linspace(0.02, 0.98, 7) * law.period:
+    for S in np.linspace(0.02, 0.98, 7) * transmission.period:
         driver = affinity.rotate(wheels[0], S, origin=(0, 0), use_radians=True)
         prepare(driver)
-        expected = float(law.angle(S)) + begin
+        expected = float(transmission.angle(S)) + begin
         free, overlapping = expected + 2e-3, expected - 2e-3
         for _ in range(16):  # to 6e-8
             middle = (free + overlapping) / 2
@@ -163,49 +163,49 @@ def test_polygons_touch_where_the_law_says(z1: int, z2: int) -> None:
 
 
 def test_the_ratio_holds_in_the_mean_and_the_other_flanks_are_the_mirror_image() -> None:
-    law = FORM.law(60, 8, 0.15)
-    S = np.linspace(0, law.period, 4001)
-    speed = np.trapezoid(law.speed(S), S) / law.period
+    transmission = FORM.transmission(60, 8, 0.15)
+    S = np.linspace(0, transmission.period, 4001)
+    speed = np.trapezoid(transmission.speed(S), S) / transmission.period
     assert speed == pytest.approx(7.5, rel=2e-5)  # the rule's own error at the leaps
-    coast = law.turned_back()
-    play = pi * 2 / 8 - 2 * (pi / 2 + 1.05) / 8  # of the thicknesses on the pitch circle
-    assert coast.error(-S) == pytest.approx(play - law.error(S), abs=1e-12)
-    least = float((coast.error(S) - law.error(S)).min())
-    assert law.verdict.play == pytest.approx(least, abs=1e-4)
+    coast = transmission.reversed_motion()
+    backlash = pi * 2 / 8 - 2 * (pi / 2 + 1.05) / 8  # of the thicknesses on the pitch circle
+    assert coast.error(-S) == pytest.approx(backlash - transmission.error(S), abs=1e-12)
+    minimum = float((coast.error(S) - transmission.error(S)).min())
+    assert transmission.verdict.backlash == pytest.approx(minimum, abs=1e-4)
 
 
 def test_the_next_tooth_strikes_where_the_speed_leaps() -> None:
-    law = FORM.law(60, 8)
-    leaps = [leap.size for leap in law.speed_leaps()]
-    fine = np.linspace(0, law.period, 200_001)
-    steps = np.diff(law.angle(fine)) / np.diff(fine)  # a leap of speed is one of slope
+    transmission = FORM.transmission(60, 8)
+    leaps = [leap.size for leap in transmission.speed_leaps()]
+    fine = np.linspace(0, transmission.period, 200_001)
+    steps = np.diff(transmission.angle(fine)) / np.diff(fine)  # a leap of speed is one of slope
     at = int(np.argmax(np.diff(steps)))
     assert leaps == pytest.approx([steps[at + 2] - steps[at - 1]], abs=1e-4)
-    assert law.turned_back().speed_leaps() == law.speed_leaps()
+    assert transmission.reversed_motion().speed_leaps() == transmission.speed_leaps()
 
 
 def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
-    law = FORM.law(60, 8)
-    S = np.linspace(0, law.period, 20_001)
-    falls = -np.diff(law.speed(S)) / np.diff(S)
-    assert law.steepest_fall() == pytest.approx(falls.max(), rel=1e-3)
-    assert law.turned_back().steepest_fall() == law.steepest_fall()
+    transmission = FORM.transmission(60, 8)
+    S = np.linspace(0, transmission.period, 20_001)
+    falls = -np.diff(transmission.speed(S)) / np.diff(S)
+    assert transmission.steepest_fall() == pytest.approx(falls.max(), rel=1e-3)
+    assert transmission.reversed_motion().steepest_fall() == transmission.steepest_fall()
 
 
-def test_collisions_of_any_form_cost_what_inelastic_blows_do() -> None:
-    law, inertia, rate = FORM.law(60, 8), 3e-7, 2.0
-    found = find_pair_impacts(law, PairOperation(inertia, rate, load=1e-3))
-    (leap,), omega = law.speed_leaps(), 2 * pi * rate
+def test_collisions_of_any_form_cost_what_inelastic_impacts_do() -> None:
+    transmission, inertia, rate = FORM.transmission(60, 8), 3e-7, 2.0
+    found = find_pair_impacts(transmission, PairOperation(inertia, rate, load=1e-3))
+    (leap,), omega = transmission.speed_leaps(), 2 * pi * rate
     assert found is not None
     assert found.dissipated == pytest.approx(inertia * (omega * (leap.after - leap.before)) ** 2 / 2)
     assert found.handed == pytest.approx(inertia * omega**2 * (leap.after**2 - leap.before**2) / 2)
-    assert inertia * (2 * pi * found.void) ** 2 * law.steepest_fall() == pytest.approx(1e-3)
-    assert find_pair_impacts(law, PairOperation(rate=rate)) is None
+    assert inertia * (2 * pi * found.void) ** 2 * transmission.steepest_fall() == pytest.approx(1e-3)
+    assert find_pair_impacts(transmission, PairOperation(rate=rate)) is None
 
 
 def test_friction_costs_and_no_friction_costs_nothing() -> None:
-    assert FORM.law(60, 8).efficiency_mean() == pytest.approx(1, abs=1e-12)
-    better, worse = (FORM.law(60, 8, friction).efficiency_mean() for friction in (0.05, 0.2))
+    assert FORM.transmission(60, 8).efficiency_mean() == pytest.approx(1, abs=1e-12)
+    better, worse = (FORM.transmission(60, 8, friction).efficiency_mean() for friction in (0.05, 0.2))
     assert 0.9 < worse < better < 1
 
 
@@ -221,7 +221,7 @@ def test_backlash_and_sizes_may_be_declared() -> None:
     first, second = same.teeth(40, 40)
     assert isclose(first.thickness, 1.41)
     assert first == second
-    assert same.law(40, 40).verdict
+    assert same.transmission(40, 40).verdict
 
 
 @pytest.mark.parametrize(
@@ -231,7 +231,7 @@ def test_backlash_and_sizes_may_be_declared() -> None:
 def test_arcs_that_make_no_tooth_are_refused(given: dict[str, str], said: str) -> None:
     form = CircularArc.model_validate({"form": "circular_arc", **given})
     with pytest.raises(GearTrainError, match=said):
-        form.law(60, 8)
+        form.transmission(60, 8)
 
 
 def test_thickness_and_backlash_are_not_both_given() -> None:
@@ -249,7 +249,7 @@ def test_rings_and_teeth_too_few_are_refused() -> None:
 def test_axles_too_near_jam_and_too_far_part() -> None:
     for distance, kind in ((33.4, "jam"), (36.1, "contact ratio")):
         form = CircularArc.model_validate({"form": "circular_arc", "centre_distance": str(distance)})
-        assert kind in {fault.kind for fault in form.law(60, 8).verdict.faults}
+        assert kind in {fault.kind for fault in form.transmission(60, 8).verdict.faults}
 
 
 # a train -------------------------------------------------------------------------------------------------------------
@@ -282,14 +282,14 @@ def test_what_is_cut_has_the_standards_tips(clock: GearTrain) -> None:
 
 def test_the_command_of_the_form_tells_what_its_law_does() -> None:
     data = json.loads(call("mesh", "circular_arc", "--teeth", "60", "8", "--friction", "0.15", "--json").output)
-    law = FORM.law(60, 8, 0.15)
-    low, high = law.error_range()
+    transmission = FORM.transmission(60, 8, 0.15)
+    low, high = transmission.error_range()
     assert data["form"] == "circular_arc"
     assert data["transmission_error"]["peak_to_peak"] == pytest.approx(high - low, rel=1e-12)
-    assert data["efficiency"]["mean"] == pytest.approx(law.efficiency_mean(), rel=1e-12)
+    assert data["efficiency"]["mean"] == pytest.approx(transmission.efficiency_mean(), rel=1e-12)
 
 
-def test_a_wheel_is_cut_to_scale_and_its_law_drawn(tmp_path: Path) -> None:
+def test_a_wheel_is_cut_to_scale_and_its_transmission_drawn(tmp_path: Path) -> None:
     made, plot = tmp_path / "leaf.csv", tmp_path / "law.svg"
     words = ("--teeth", "60", "8", "--module", "2mm", "--wheel", "2", "--profile", str(made), "--plot", str(plot))
     assert call("mesh", "circular_arc", *words).exit_code == 0
@@ -301,7 +301,7 @@ def test_a_wheel_is_cut_to_scale_and_its_law_drawn(tmp_path: Path) -> None:
     assert "transmission error" in plot.read_text() or plot.stat().st_size > 10_000
 
 
-def test_no_file_of_the_package_but_its_own_the_union_and_the_map_names_it() -> None:
+def test_no_file_of_the_package_but_its_own_the_registry_and_the_map_names_it() -> None:
     package = Path(geartrain.__file__).parent
     files = (path for path in package.rglob("*.py") if re.search(r"circular[_-]arc|CircularArc", path.read_text()))
     assert {path.relative_to(package).as_posix() for path in files} == {
@@ -321,11 +321,11 @@ def test_every_form_has_a_command_whose_options_are_its_fields() -> None:
 
 def test_friction_at_the_pitch_point_is_that_beside_it() -> None:
     """Where the contact crosses the line of centres its place is rounding, and a normal made from it could lock."""
-    law = load("longcase-clock-bs978").meshes[2].law
+    transmission = load("longcase-clock-bs978").meshes[2].transmission
     # of 56 that drive 7
     S = 0.08425395 + np.concatenate([np.linspace(-size, size, 10_001) for size in (1e-4, 5e-8)])
-    sliding, into, out = law.rubbing(S)
+    sliding, into, out = transmission.rubbing(S)
     assert sliding.min() < 1e-7 < sliding.max() < 2e-3
     assert np.isfinite(into).all()
     assert np.isfinite(out).all()
-    assert law.efficiency(S) == pytest.approx(1.0, abs=2e-4)
+    assert transmission.efficiency(S) == pytest.approx(1.0, abs=2e-4)

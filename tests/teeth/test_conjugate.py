@@ -16,7 +16,7 @@ from places import DATA
 from scipy.optimize import brentq
 
 from geartrain.teeth import Cycloidal, Involute, LeastFriction, UniformStress, UniformTemperature
-from geartrain.teeth.conjugate import PathCosts, PathOfContact, WheelPair, measure
+from geartrain.teeth.conjugate import PathLosses, PathOfContact, WheelPair, measure
 
 TABLES = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 Wheels = tuple[int, int, float | None]
@@ -42,7 +42,7 @@ def involute(wheels: Wheels, psi: float = 20, arcs: tuple[float, float] = (0.5, 
 
 
 @cache
-def involute_costs(pair: str) -> PathCosts:
+def involute_costs(pair: str) -> PathLosses:
     return measure(involute(wheels_of(pair))).one_pair
 
 
@@ -156,8 +156,9 @@ def test_points_of_the_profiles_are_those_of_the_table(row: list[str]) -> None:
 def test_every_path_obeys_the_fundamental_law_and_euler_savary(
     z1: int, z2: int, tilted: float, bevel: bool, shape: str
 ) -> None:
-    # with few teeth a path of uniform heat comes to a right angle before it has travelled 0.4 pitches
-    part = 0.3 if shape == "heat" and min(z1, z2) < 12 else 0.4
+    # with few teeth a path of uniform heat comes to a right angle before it has travelled 0.4 pitches, and one of
+    # minimum friction at a small angle to the end of its margin
+    part = 0.3 if (shape == "heat" and min(z1, z2) < 12) or (shape == "friction" and tilted < 18) else 0.4
     wheels, arcs, psi = (z1, z2, pi / 2 if bevel else None), (part, part), f"{tilted!r} deg"
     given = {"arcs": [repr(part)] * 2}
     found = {
@@ -237,13 +238,13 @@ def test_the_bounds_of_all_pairs_are_those_of_the_table_and_no_shape_beats_them(
     wheels = wheels_of(row[0])
     reference = involute(wheels)
     for high, printed in ((20, row[1]), (25, row[2])):
-        least = bound(reference.pitch, reference.pitch.p / 2, 0.0, radians(high))
-        assert least == pytest.approx(float(printed), abs=2e-13)
+        minimum = bound(reference.pitch, reference.pitch.p / 2, 0.0, radians(high))
+        assert minimum == pytest.approx(float(printed), abs=2e-13)
         found = path(LeastFriction, wheels, pressure_angle=f"{high} deg", margin="0.05")
-        assert least < loss(found) / loss(reference) < 1
+        assert minimum < loss(found) / loss(reference) < 1
 
 
-def test_the_least_friction_side_is_that_of_the_table_and_least_among_its_neighbours() -> None:
+def test_the_minimum_friction_side_is_that_of_the_table_and_minimum_among_its_neighbours() -> None:
     reference = loss(involute((24, 36, None), 20, (0, 0.5)))
     for psi, u, first, end, last, ratio in (
         (25, "0.15", 0.3563150801726, 1.4803921288308, 14.73543682791, 0.9725332410128),

@@ -68,5 +68,5 @@ def test_a_contact_ratio_below_one_is_named() -> None:
 
 def test_uniform_stress_is_never_undercut_where_the_involute_is() -> None:
     assert any(fault.kind == "undercut" for fault in involute(WheelPair(8, 40), 0.7, 0.5, 20).faults)
-    law = UniformStress(form="uniform_stress", arcs="0.7").law(8, 40)
-    assert not any(fault.kind == "undercut" for fault in law.verdict.faults)
+    transmission = UniformStress(form="uniform_stress", arcs="0.7").transmission(8, 40)
+    assert not any(fault.kind == "undercut" for fault in transmission.verdict.faults)

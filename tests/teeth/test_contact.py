@@ -117,14 +117,14 @@ def brute(first: GearOutline, second: GearOutline, distance: float, phi1: float,
 
 
 @pytest.mark.parametrize("distance", [30.0, 30.02, 30.2, 30.5])
-def test_an_involute_has_no_error_at_any_centre_distance_and_the_play_of_the_textbook(distance: float) -> None:
+def test_an_involute_has_no_error_at_any_centre_distance_and_the_backlash_of_the_textbook(distance: float) -> None:
     """Lag and play: 1 and 2 times (inv psi' - inv psi)(z1 + z2)/z2, the operating angle from the base circles."""
     first, second = wheels()
     phi1 = np.linspace(-0.7, 0.9, 501)
     found = solve(first, second, distance, phi1)
     lag = (inv(acos(30 * cos(TWENTY) / distance)) - inv(TWENTY)) * (Z1 + Z2) / Z2
     assert np.abs(found.front.angle - (phi1 * Z1 / Z2 - lag)).max() < 2e-15
-    assert np.abs(found.play - 2 * lag).max() < 3e-15
+    assert np.abs(found.backlash - 2 * lag).max() < 3e-15
     assert np.abs(found.front.speed - Z1 / Z2).max() < 1e-12
     assert np.abs(found.back.speed - Z1 / Z2).max() < 1e-12
 
@@ -132,8 +132,8 @@ def test_an_involute_has_no_error_at_any_centre_distance_and_the_play_of_the_tex
 def test_thick_teeth_jam_by_what_they_are_too_thick() -> None:
     """Each tooth of both wheels 0.001 rad of its own wheel too thick."""
     first, second = wheels(thin=-0.001)
-    play = solve(first, second, 30.0, np.linspace(0, 0.3, 101)).play
-    assert np.abs(play + 0.001 + 0.001 * Z1 / Z2).max() < 2e-15
+    backlash = solve(first, second, 30.0, np.linspace(0, 0.3, 101)).backlash
+    assert np.abs(backlash + 0.001 + 0.001 * Z1 / Z2).max() < 2e-15
 
 
 def test_as_many_pairs_share_the_load_as_the_contact_ratio_says() -> None:
@@ -154,7 +154,7 @@ def test_the_pair_in_contact_is_counted_without_end() -> None:
     assert (front.pair - front.pair[0]).tolist() == [0, -1, -Z1, Z1, -100]
 
 
-def short_law(x: float, tip: float) -> float:
+def short_transmission(x: float, tip: float) -> float:
     """The driven angle for one couple of short involute teeth at driver's angle x: flank on flank, or a tip on one."""
     base1, base2 = Z1 / 2 * cos(TWENTY), Z2 / 2 * cos(TWENTY)
     tip1, tip2 = Z1 / 2 + tip, Z2 / 2 + tip
@@ -192,12 +192,12 @@ def test_short_teeth_touch_with_their_tips_between_one_pair_and_the_next() -> No
     phi1 = np.linspace(-0.13, 0.13, 301)
     front = contact(first, second, 30.0, phi1)
     pitches = 2 * pi / Z1, 2 * pi / Z2
-    true = [max(short_law(x + j * pitches[0], tip) - j * pitches[1] for j in range(-2, 3)) for x in phi1]
+    true = [max(short_transmission(x + j * pitches[0], tip) - j * pitches[1] for j in range(-2, 3)) for x in phi1]
     assert np.abs(front.angle - true).max() < 2e-14
     assert set(front.kind.tolist()) == {0, 1, 2}
     assert (front.angle - phi1 * Z1 / Z2).min() < -1e-4  # it falls behind, by far more than rounding
-    corners = tabulate(first, second, 30.0).corners
-    assert len(corners) == 3  # flank to driver's tip, to the next driven tip, to its flank
+    kinks = tabulate(first, second, 30.0).kinks
+    assert len(kinks) == 3  # flank to driver's tip, to the next driven tip, to its flank
 
 
 def test_relieved_tips_are_what_a_scan_of_dense_points_says() -> None:
@@ -327,34 +327,34 @@ def triangles(
 
 
 @pytest.mark.parametrize(("z1", "z2", "excess"), CASES)
-def test_triangular_teeth_have_their_law_on_both_sides(z1: int, z2: int, excess: float) -> None:
+def test_triangular_teeth_have_their_transmission_on_both_sides(z1: int, z2: int, excess: float) -> None:
     sizes, first, second = triangles(z1, z2, excess)
-    law = TriangularTransmission(sizes)
+    transmission = TriangularTransmission(sizes)
     phi1 = np.linspace(-0.5, 0.6, 801)
     found = solve(first, second, sizes.D, phi1)
-    assert np.abs(found.front.angle - law.angle(phi1)).max() < 2e-15
-    assert np.abs(found.back.angle - law.turned_back().angle(phi1)).max() < 2e-15
-    assert np.abs(found.front.speed - law.speed(phi1)).max() < 1e-12
-    assert law.verdict.play - 1e-14 <= found.play.min() < law.verdict.play + 1e-6
+    assert np.abs(found.front.angle - transmission.angle(phi1)).max() < 2e-15
+    assert np.abs(found.back.angle - transmission.reversed_motion().angle(phi1)).max() < 2e-15
+    assert np.abs(found.front.speed - transmission.speed(phi1)).max() < 1e-12
+    assert transmission.verdict.backlash - 1e-14 <= found.backlash.min() < transmission.verdict.backlash + 1e-6
     assert set(found.front.kind.tolist()) <= {1, 2, 3}  # an apex always takes part
 
 
 @pytest.mark.parametrize(("z1", "z2", "excess"), CASES)
 def test_tables_of_triangular_teeth_jump_where_and_as_printed(z1: int, z2: int, excess: float) -> None:
     sizes, first, second = triangles(z1, z2, excess)
-    law, table = TriangularTransmission(sizes), tabulate(first, second, sizes.D)
+    transmission, table = TriangularTransmission(sizes), tabulate(first, second, sizes.D)
     assert table.uncertainty < 1e-13
-    before, after = table.speed(table.corners - 1e-12), table.speed(table.corners + 1e-12)
+    before, after = table.speed(table.kinks - 1e-12), table.speed(table.kinks + 1e-12)
     assert sorted(np.round(1 - before / after, 5).tolist()) == JUMPS[z1, z2, excess]
-    assert np.sort(1 - before / after) == pytest.approx(sorted(jump.value for jump in law.jumps), abs=1e-10)
-    at = np.sort(-np.array([jump.alpha1 for jump in law.jumps]) % law.period)
-    assert np.sort(table.corners % law.period) == pytest.approx(at, abs=1e-13)
-    assert table.extremes() == pytest.approx(law.error_range(), abs=1e-13)
-    assert table.speed_range() == pytest.approx(law.speed_range(), abs=1e-11)
-    assert table.moments() == pytest.approx(law.error_moments(), abs=1e-14)
+    assert np.sort(1 - before / after) == pytest.approx(sorted(jump.value for jump in transmission.jumps), abs=1e-10)
+    at = np.sort(-np.array([jump.alpha1 for jump in transmission.jumps]) % transmission.period)
+    assert np.sort(table.kinks % transmission.period) == pytest.approx(at, abs=1e-13)
+    assert table.extremes() == pytest.approx(transmission.error_range(), abs=1e-13)
+    assert table.speed_range() == pytest.approx(transmission.speed_range(), abs=1e-11)
+    assert table.moments() == pytest.approx(transmission.error_moments(), abs=1e-14)
     phi1 = np.random.default_rng(1).uniform(-7, 7, 2000)
-    assert np.abs(table.angle(phi1) - law.angle(phi1)).max() < 1e-14
-    assert np.abs(table.speed(phi1) - law.speed(phi1)).max() < 1e-10
+    assert np.abs(table.angle(phi1) - transmission.angle(phi1)).max() < 1e-14
+    assert np.abs(table.speed(phi1) - transmission.speed(phi1)).max() < 1e-10
 
 
 def test_triangular_teeth_jam_where_their_window_begins() -> None:
@@ -362,21 +362,21 @@ def test_triangular_teeth_jam_where_their_window_begins() -> None:
     phi1 = np.linspace(0, 2 * pi / 15, 201)
     for excess, jams in ((0.0147, True), (0.0148, False)):
         sizes, first, second = triangles(15, 60, excess)
-        assert (solve(first, second, sizes.D, phi1).play.min() < 0) == jams
+        assert (solve(first, second, sizes.D, phi1).backlash.min() < 0) == jams
 
 
 @settings(max_examples=15)
 @given(st.integers(8, 90), st.integers(8, 90), st.floats(0.1, 0.9), st.floats(12, 50))
-def test_triangular_teeth_of_any_number_and_aperture_have_their_law(
+def test_triangular_teeth_of_any_number_and_aperture_have_their_transmission(
     z1: int, z2: int, share: float, beta: float
 ) -> None:
     sizes = triangles(z1, z2, 0.0, radians(beta))[0]
-    sizes, first, second = triangles(z1, z2, share * sizes.greatest_excess, radians(beta))
-    law = TriangularTransmission(sizes)
-    if not law.verdict or any(sizes.lean):
+    sizes, first, second = triangles(z1, z2, share * sizes.maximum_excess, radians(beta))
+    transmission = TriangularTransmission(sizes)
+    if not transmission.verdict or any(sizes.lean):
         return
     phi1 = np.linspace(0, 2 * pi / z1, 57)
-    assert np.abs(contact(first, second, sizes.D, phi1).angle - law.angle(phi1)).max() < 1e-13
+    assert np.abs(contact(first, second, sizes.D, phi1).angle - transmission.angle(phi1)).max() < 1e-13
 
 
 # ------------------------------------------------------------------------------------------------------ conjugate teeth
@@ -410,14 +410,14 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_conjugate_teeth_have_no_error_and_no_play_at_their_distance(shape: str) -> None:
+def test_conjugate_teeth_have_no_error_and_no_backlash_at_their_distance(shape: str) -> None:
     path = SHAPES[shape]()
     first, second, distance = conjugate(path)
     ratio = path.pitch.z1 / path.pitch.z2
     phi1 = np.linspace(0.0, 1.0, 151) * 2 * pi / path.pitch.z1 + 1e-3 / path.pitch.z1
     found = solve(first, second, distance, phi1)
     assert np.abs(found.front.angle - ratio * phi1).max() < 2e-15
-    assert np.abs(found.play).max() < 4e-15
+    assert np.abs(found.backlash).max() < 4e-15
     assert np.abs(found.front.speed - ratio).max() < 1e-6  # where tips take over a contact may be off by its rounding
     assert np.median(np.abs(found.front.speed - ratio)) < 1e-12
 
@@ -495,7 +495,10 @@ def test_polygons_of_the_wheels_meet_when_the_driven_one_is_turned_back(one, two
     distance = (one[0] + two[0]) / 2 + (one[2] + two[2]) * (1 - deep)
     phi1 = share * first.pitch
     found = solve(first, second, distance, phi1)
-    if not (np.isfinite(found.front.angle) and found.play > 2e-3) or found.front.radius2 < two[0] / 2 - two[2] + 1e-6:
+    if (
+        not (np.isfinite(found.front.angle) and found.backlash > 2e-3)
+        or found.front.radius2 < two[0] / 2 - two[2] + 1e-6
+    ):
         return
     driver = rotate(polygon(first), -degrees(phi1), origin=(0, 0))
 
@@ -540,7 +543,7 @@ def test_tables_are_as_near_to_the_contact_as_they_say(one, two, deep, side) -> 
     except RangeError:
         return
     phi1 = np.random.default_rng(2).uniform(0, first.pitch, 200)
-    away = np.abs(phi1[:, None] - table.corners).min(axis=1, initial=1.0) > 1e-6 * first.pitch
+    away = np.abs(phi1[:, None] - table.kinks).min(axis=1, initial=1.0) > 1e-6 * first.pitch
     off = np.abs(table.angle(phi1) - contact(first, second, distance, phi1, side).angle)[away]
     assert np.nanmax(off, initial=0.0) <= max(table.uncertainty, 1e-13)
     assert table.to_dict()["period"] == pytest.approx(first.pitch)
@@ -585,7 +588,7 @@ def test_what_cannot_be_answered_is_refused_with_what_why_and_what_to_do() -> No
 def test_answers_keep_the_shape_of_the_question() -> None:
     first, second = wheels()
     found = solve(first, second, 30.0, np.zeros((2, 3)))
-    assert found.front.angle.shape == found.play.shape == (2, 3)
+    assert found.front.angle.shape == found.backlash.shape == (2, 3)
     assert found.front.curves.shape == (2, 2, 3)
     assert solve(first, second, 30.0, np.empty(0)).front.angle.shape == (0,)
     assert float(solve(first, second, 30.0, 0.0).front.angle) == pytest.approx(0, abs=1e-15)

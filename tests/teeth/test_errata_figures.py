@@ -46,7 +46,7 @@ def test_the_piece_astride_is_born_and_is_left_alone_where_the_page_says() -> No
     assert shares("1.011723")[::2] == (0, 0)
 
 
-def test_friction_takes_least_where_the_piece_astride_is_first_alone() -> None:
+def test_friction_takes_minimum_where_the_piece_astride_is_first_alone() -> None:
     lost = {a: float(1 - pair(a).mean_efficiency(mp.mpf("0.2"))[0]) for a in ("1.0116", "1.011725", "1.0119", "1.025")}
     assert min(lost, key=lost.__getitem__) == "1.011725"
     assert [f"{100 * lost[a]:.3f} %" for a in ("1.011725", "1.025")] == ["0.551 %", "0.841 %"]
@@ -54,7 +54,7 @@ def test_friction_takes_least_where_the_piece_astride_is_first_alone() -> None:
     assert "| printed as best | 1.025 | 0.841 % |" in PAGE
 
 
-def test_collisions_dissipate_least_near_the_clearance_of_the_page() -> None:
+def test_collisions_dissipate_minimum_near_the_clearance_of_the_page() -> None:
     spent = {
         a: float(sum((after - before) ** 2 / 2 for before, after in pair(a).jumps))
         for a in ("1.0118", "1.0190", "1.019273", "1.0196", "1.025")

@@ -18,7 +18,9 @@ ROWS = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))["per
 
 
 @pytest.mark.parametrize("arcs", [(0.5, 0.5), (0.3, 0.9), (0.0, 1.0), (-0.1, 1.1)])
-def test_the_reference_involute_has_the_arcs_asked_for_and_the_loss_of_buckingham(arcs: tuple[float, float]) -> None:
+def test_the_reference_involute_has_the_arcs_requested_for_and_the_loss_of_buckingham(
+    arcs: tuple[float, float],
+) -> None:
     found = Involute.pair_of_arcs(PAIR, arcs, {})
     first, last = (arc * pi for arc in arcs)  # a pitch is pi modules
     assert found.path.contact_ratio == pytest.approx(sum(arcs), rel=1e-15)
@@ -35,13 +37,13 @@ def test_an_involute_of_24_and_36_teeth_loses_the_percentage_printed(mu: float, 
     assert 100 * mu * loss == pytest.approx(percent, abs=5e-4)
 
 
-def test_the_reference_involute_touches_on_a_line_at_20_degrees_and_has_no_play() -> None:
+def test_the_reference_involute_touches_on_a_line_at_20_degrees_and_has_no_backlash() -> None:
     found = Involute.pair_of_arcs(PAIR, (0.5, 0.5), {})
     reach = pi / 2 * cos(radians(20))
     for gear, (R, low, high) in enumerate(((12, -reach, reach), (18, -reach, reach)), 1):
         ends = [((R * sin(radians(20)) + d) ** 2 + (R * cos(radians(20))) ** 2) ** 0.5 for d in (low, high)]
         assert found.path.radii(gear) == pytest.approx(ends, rel=1e-12)
-    assert found.play == 0
+    assert found.backlash == 0
     assert found.path.at(0.0).psi == pytest.approx(radians(20), rel=1e-14)
 
 
@@ -111,10 +113,10 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("asked", "what", "place"), REFUSED, ids=lambda value: str(value)[:40])
-def test_what_cannot_be_compared_is_refused(asked: dict[str, object], what: str, place: str) -> None:
+@pytest.mark.parametrize(("requested", "what", "place"), REFUSED, ids=lambda value: str(value)[:40])
+def test_what_cannot_be_compared_is_refused(requested: dict[str, object], what: str, place: str) -> None:
     with pytest.raises(GearTrainError) as refused:
-        compare_forms(PAIR, **asked)  # type: ignore[arg-type]
+        compare_forms(PAIR, **requested)  # type: ignore[arg-type]
     problem = refused.value.problems[0]
     assert what in problem.what
     assert problem.place == place

@@ -32,18 +32,20 @@ FT_MIN = 0.3048 / 60
 
 
 def test_buckinghams_law_has_the_three_values_that_smith_prints() -> None:
-    law = BuckinghamFriction(law="buckingham")
-    found = law.coefficient(np.array([0.0, 150.0, 2100.0]) * FT_MIN)
+    transmission = BuckinghamFriction(law="buckingham")
+    found = transmission.coefficient(np.array([0.0, 150.0, 2100.0]) * FT_MIN)
     assert [f"{value:.4f}" for value in found] == ["0.0517", "0.0112", "0.0385"]
     V = np.linspace(0, 2100, 2000) * FT_MIN
-    least = V[np.argmin(law.coefficient(V))] / FT_MIN
-    assert 50 < least < 150, "not monotone: it falls from rest and rises with the speed"
+    minimum = V[np.argmin(transmission.coefficient(V))] / FT_MIN
+    assert 50 < minimum < 150, "not monotone: it falls from rest and rises with the speed"
 
 
 def test_dokoss_law_falls_evenly_over_seven_decades_and_is_level_beyond() -> None:
-    law = DokosFriction.model_validate({"law": "dokos", "slowest": "2 mm/s"})
-    assert law.coefficient(np.array([0.0, 0.002, 2e4, 1e9])) == pytest.approx([0.53, 0.53, 0.18, 0.18], rel=1e-14)
-    decades = law.coefficient(0.002 * 10.0 ** np.arange(8))
+    transmission = DokosFriction.model_validate({"law": "dokos", "slowest": "2 mm/s"})
+    assert transmission.coefficient(np.array([0.0, 0.002, 2e4, 1e9])) == pytest.approx(
+        [0.53, 0.53, 0.18, 0.18], rel=1e-14
+    )
+    decades = transmission.coefficient(0.002 * 10.0 ** np.arange(8))
     assert np.diff(decades) == pytest.approx([-0.05] * 7, rel=1e-12)
 
 
@@ -56,16 +58,16 @@ def test_stribecks_law_is_static_at_rest_and_viscous_in_the_end() -> None:
         "exponent": "1",
         "viscous": "1/50",
     }
-    law = StribeckFriction.model_validate(given)
+    transmission = StribeckFriction.model_validate(given)
     expected = [0.2, 0.08 + 0.12 * exp(-1) + 0.0002, 0.08 + 0.02 * 5]
-    assert law.coefficient(np.array([0.0, 0.01, 5.0])) == pytest.approx(expected, rel=1e-13)
+    assert transmission.coefficient(np.array([0.0, 0.01, 5.0])) == pytest.approx(expected, rel=1e-13)
 
 
 def test_a_table_is_joined_by_straight_lines_and_level_outside() -> None:
-    law = TabulatedFriction.model_validate(
+    transmission = TabulatedFriction.model_validate(
         {"law": "table", "speeds": ["60 ft/min", "120 ft/min"], "coefficients": ["0.1", "0.05"]}
     )
-    assert law.coefficient(np.array([0.0, 90, 500]) * FT_MIN) == pytest.approx([0.1, 0.075, 0.05])
+    assert transmission.coefficient(np.array([0.0, 90, 500]) * FT_MIN) == pytest.approx([0.1, 0.075, 0.05])
 
 
 # --------------------------------------------------------------------------------------------------------------- forms
@@ -84,35 +86,35 @@ LEVEL = TabulatedFriction.model_validate(
 FALLING = StribeckFriction.model_validate({"law": "stribeck", "static": "0.2", "kinetic": "0.05", "speed": "20 mm/s"})
 
 
-def law_of(form: str, friction: float = 0.0) -> TransmissionFunction:
+def transmission_of(form: str, friction: float = 0.0) -> TransmissionFunction:
     made, (z1, z2) = FORMS[form]
-    return made.law(z1, z2, friction)
+    return made.transmission(z1, z2, friction)
 
 
 @pytest.mark.parametrize("form", FORMS)
 def test_a_law_that_is_level_loses_what_the_number_does(form: str) -> None:
-    law = law_of(form, 0.1)
-    for each in (law, law.turned_back()):
+    transmission = transmission_of(form, 0.1)
+    for each in (transmission, transmission.reversed_motion()):
         rubbed = RubbedTransmission(each, PairFriction(LEVEL, 0.3))
         assert rubbed.friction == pytest.approx(0.1, rel=1e-14)
         assert rubbed.efficiency_mean() == pytest.approx(each.efficiency_mean(), rel=1e-14)
         assert rubbed.efficiency_at_constant_load() == pytest.approx(each.efficiency_at_constant_load(), rel=1e-14)
-        assert rubbed.efficiency_least() == pytest.approx(each.efficiency_least(), abs=1e-6)
-    S = np.linspace(0.01, 0.99, 7) * law.period
-    assert RubbedTransmission(law, PairFriction(LEVEL, 1.0)).efficiency(S) == pytest.approx(
-        law.efficiency(S), rel=1e-13
+        assert rubbed.efficiency_minimum() == pytest.approx(each.efficiency_minimum(), abs=1e-6)
+    S = np.linspace(0.01, 0.99, 7) * transmission.period
+    assert RubbedTransmission(transmission, PairFriction(LEVEL, 1.0)).efficiency(S) == pytest.approx(
+        transmission.efficiency(S), rel=1e-13
     )
 
 
 @pytest.mark.parametrize("form", FORMS)
 def test_teeth_slide_as_fast_as_what_they_lose_says(form: str) -> None:
     """A normal force N takes in the power N v_n, and a little friction loses mu N v_slide of it."""
-    law = law_of(form)
+    transmission = transmission_of(form)
     made, counts = FORMS[form]
-    S = np.linspace(0.013, 0.987, 9) * law.period
+    S = np.linspace(0.013, 0.987, 9) * transmission.period
     small = 1e-6
-    lost = 1 - made.law(*counts, small).efficiency(S)
-    sliding, into, out = law.rubbing(S)
+    lost = 1 - made.transmission(*counts, small).efficiency(S)
+    sliding, into, out = transmission.rubbing(S)
     assert np.nanmean(into - out, axis=0) * small == pytest.approx(lost, rel=1e-4, abs=1e-13)
     # v_slide over v_n, the speed of the normal: that of the pitch line times cos psi, so never less than this
     assert (sliding[~np.isnan(sliding)] <= (into - out)[~np.isnan(sliding)] * 1.3).all()
@@ -121,10 +123,10 @@ def test_teeth_slide_as_fast_as_what_they_lose_says(form: str) -> None:
 
 def test_involutes_slide_with_the_distance_of_the_contact_from_the_pitch_point() -> None:
     """On the line of action, at base pitches: v = (w1 + w2) s, with s counted along the normal."""
-    law = law_of("involute")
+    transmission = transmission_of("involute")
     z1, z2, psi = 24, 36, radians(20)
-    X = law.contacts(np.linspace(0, law.period, 50))  # type: ignore[attr-defined]
-    sliding = law.rubbing(np.linspace(0, law.period, 50)).sliding
+    X = transmission.contacts(np.linspace(0, transmission.period, 50))  # type: ignore[attr-defined]
+    sliding = transmission.rubbing(np.linspace(0, transmission.period, 50)).sliding
     r1, r2 = z1 / 2, z2 / 2
     s = np.abs(X) * cos(psi)  # the contact runs along the line of action at the base circles' speed
     assert np.nan_to_num(sliding) == pytest.approx(np.nan_to_num((1 / r1 + 1 / r2) * s), abs=1e-13)
@@ -132,12 +134,12 @@ def test_involutes_slide_with_the_distance_of_the_contact_from_the_pitch_point()
 
 def test_triangular_teeth_slide_by_the_difference_of_two_velocities() -> None:
     """The velocities of both wheels at the contact, by vectors in the plane."""
-    law = Triangular.declared({"half_angle": "30 deg", "window": "0.5"}).law(24, 36)
-    sizes, couple = law.sizes, law.contact.path.couple
-    for interval in law.intervals:
+    transmission = Triangular.declared({"half_angle": "30 deg", "window": "0.5"}).transmission(24, 36)
+    sizes, tooth_pair = transmission.sizes, transmission.contact.path.tooth_pair
+    for interval in transmission.intervals:
         for share in (0.02, 0.4, 0.97):
             x = interval.start - share * interval.width
-            y, tau = couple.angle(interval.phase, x), couple.speed(interval.phase, x)
+            y, tau = tooth_pair.angle(interval.phase, x), tooth_pair.speed(interval.phase, x)
             if interval.phase == "approach":
                 point = np.array([sizes.D - sizes.R2 * cos(y), sizes.R2 * sin(y)])
             else:
@@ -147,39 +149,41 @@ def test_triangular_teeth_slide_by_the_difference_of_two_velocities() -> None:
             pitch_line = sizes.D * sizes.z1 / (sizes.z1 + sizes.z2)
             wanted = np.hypot(*(second - first)) / pitch_line
             # S = 0 has a driver's tooth on the line of centres, and its angle falls
-            found = law.rubbing(np.array([-(x - interval.couple * law.period)])).sliding[0, 0]
+            found = transmission.rubbing(np.array([-(x - interval.tooth_pair * transmission.period)])).sliding[0, 0]
             assert found == pytest.approx(wanted, rel=1e-11)
 
 
 @pytest.mark.parametrize("form", ["triangular", "involute", "cycloidal"])
 def test_the_mean_under_a_law_is_that_of_a_fine_grid(form: str) -> None:
-    law, V = law_of(form), 0.2
-    rubbed = RubbedTransmission(law, PairFriction(FALLING, V))
-    S = (np.arange(40000) + 0.5) / 40000 * law.period
-    sliding, into, out = law.rubbing(S)
+    transmission, V = transmission_of(form), 0.2
+    rubbed = RubbedTransmission(transmission, PairFriction(FALLING, V))
+    S = (np.arange(40000) + 0.5) / 40000 * transmission.period
+    sliding, into, out = transmission.rubbing(S)
     mu = 0.05 + 0.15 * np.exp(-((sliding * V / 0.02) ** 2))
     each = (1 + mu * out) / (1 + mu * into)
     eta = np.nanmean(each, axis=0)
     assert rubbed.efficiency_mean() == pytest.approx(eta.mean(), abs=1e-6)
-    speed = law.speed(S)
+    speed = transmission.speed(S)
     assert rubbed.efficiency_at_constant_load() == pytest.approx(speed.mean() / (speed / eta).mean(), abs=1e-6)
-    assert rubbed.efficiency_least() == pytest.approx(eta.min(), abs=1e-5)
+    assert rubbed.efficiency_minimum() == pytest.approx(eta.min(), abs=1e-5)
 
 
 def test_faster_teeth_lose_less_where_friction_falls_with_speed_and_tend_to_the_number_at_the_end() -> None:
-    law = law_of("involute")
-    found = [RubbedTransmission(law, PairFriction(FALLING, V)).efficiency_mean() for V in (0, 0.01, 0.1, 1, 100)]
+    transmission = transmission_of("involute")
+    found = [
+        RubbedTransmission(transmission, PairFriction(FALLING, V)).efficiency_mean() for V in (0, 0.01, 0.1, 1, 100)
+    ]
     assert found == sorted(found)
-    assert found[0] == pytest.approx(law_of("involute", 0.2).efficiency_mean(), rel=1e-14)
-    assert found[-1] == pytest.approx(law_of("involute", 0.05).efficiency_mean(), abs=1e-6)
+    assert found[0] == pytest.approx(transmission_of("involute", 0.2).efficiency_mean(), rel=1e-14)
+    assert found[-1] == pytest.approx(transmission_of("involute", 0.05).efficiency_mean(), abs=1e-6)
 
 
 def test_teeth_lock_where_the_coefficient_of_the_moment_locks_them() -> None:
-    law = Triangular.declared({"half_angle": "30 deg", "clearance": "1.01"}).law(96, 72)
-    limit = law.locking_friction
+    transmission = Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.01"}).transmission(96, 72)
+    limit = transmission.locking_friction
     given = {"law": "table", "speeds": ["0 m/s", "1 m/s"], "coefficients": [0.1, 2 * limit]}
     by = TabulatedFriction.model_validate(given)
-    slow, fast = (RubbedTransmission(law, PairFriction(by, V)) for V in (0.01, 50.0))
+    slow, fast = (RubbedTransmission(transmission, PairFriction(by, V)) for V in (0.01, 50.0))
     assert not slow.locks
     assert fast.locks
     assert np.isnan(fast.efficiency_mean())
@@ -215,7 +219,7 @@ def test_each_pair_of_a_train_loses_by_its_own_pitch_line_speed() -> None:
     product = 1.0
     for (z1, z2), V in zip(((24, 36), (20, 60)), speeds, strict=True):
         product *= RubbedTransmission(
-            Involute.declared({}).law(z1, z2), PairFriction(FALLING, V)
+            Involute.declared({}).transmission(z1, z2), PairFriction(FALLING, V)
         ).efficiency_at_constant_load()
     assert efficiency(TRAIN.replace("FRICTION", STRIBECK)) == pytest.approx(product, rel=1e-12)
 
@@ -233,8 +237,8 @@ def test_a_law_of_the_pitch_line_is_a_number_for_each_pair() -> None:
 @pytest.mark.parametrize(
     ("form", "radius"),
     [
-        ("{form: triangular, half_angle: 30 deg, clearance: 1.01}", 0.048 * 1.01),
-        ("{form: triangular, half_angle: 30 deg, clearance: 1.01, radii: [1, 2.01]}", 0.048),
+        ("{form: triangular, half_angle: 30 deg, clearance_factor: 1.01}", 0.048 * 1.01),
+        ("{form: triangular, half_angle: 30 deg, clearance_factor: 1.01, radii: [1, 2.01]}", 0.048),
         ("{form: triangular, half_angle: 30 deg, centre_distance: 145.5 mm, radii: [50 mm, 98.1 mm]}", 0.1455 / 3),
         ("{form: involute}", 0.048),
         ("{form: involute, centre_distance: 144.3 mm, addendum: [1, 1]}", 0.1443 / 3),
@@ -367,11 +371,11 @@ class Alternatives:
 @pytest.mark.parametrize("name", UNDER)
 def test_teeth_made_for_a_law_lose_least_under_it(name: str) -> None:
     form = LeastFriction.declared(UNDER[name])
-    side = form.law(24, 36).path.recess
+    side = form.transmission(24, 36).path.recess
     first, X = side.pieces[0].end, side.arc
     assert pytest.approx(pi / 2) == X
     ways = Alternatives(form)
-    least = ways.loss(ways.slow(first), X)
+    minimum = ways.loss(ways.slow(first), X)
     # a second way to the same length: not the first variation but the least of the loss itself
     lengths = first * np.linspace(0.8, 1.2, 41)
     losses = [ways.loss(ways.slow(each), X) for each in lengths]
@@ -386,21 +390,21 @@ def test_teeth_made_for_a_law_lose_least_under_it(name: str) -> None:
         more = random.uniform(0, 0.5) * (np.abs(ways.d[1:] - random.uniform(0, 1.6)) < random.uniform(0.02, 0.5))
         other = ways.loss(ways.slow(length, start, more), X)
         tried += not np.isnan(other)
-        assert not other < least * (1 - 1e-7)
+        assert not other < minimum * (1 - 1e-7)
     assert tried > 20
 
 
 def test_a_level_law_asks_for_the_usual_shape_and_one_of_the_pitch_line_is_level() -> None:
-    usual = LeastFriction.declared({}).law(24, 36).path.recess.pieces[0].end
+    usual = LeastFriction.declared({}).transmission(24, 36).path.recess.pieces[0].end
     level = {"law": "table", "speeds": ["0 m/s", "1 m/s"], "coefficients": [0.1, 0.1]}
-    for law in (level, "buckingham"):
-        form = LeastFriction.declared({"friction_law": law, "pitch_line_speed": "1 m/s"})
-        assert form.law(24, 36).path.recess.pieces[0].end == pytest.approx(usual, rel=1e-12)
+    for transmission in (level, "buckingham"):
+        form = LeastFriction.declared({"friction_law": transmission, "pitch_line_speed": "1 m/s"})
+        assert form.transmission(24, 36).path.recess.pieces[0].end == pytest.approx(usual, rel=1e-12)
 
 
 def test_a_law_under_which_faster_contacts_lose_less_is_refused() -> None:
     given = {"friction_law": "stribeck,static=0.2,kinetic=0.02,speed=10 mm/s", "pitch_line_speed": "50 mm/s"}
     with pytest.raises(GearTrainError, match="other pieces"):
-        LeastFriction.declared(given).law(24, 36)
+        LeastFriction.declared(given).transmission(24, 36)
     with pytest.raises(GearTrainError, match="one speed of the pitch line"):
         LeastFriction.declared({"friction_law": "dokos"})

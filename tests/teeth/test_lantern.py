@@ -76,8 +76,10 @@ def test_the_mate_is_the_envelope_of_the_drawn_pins(
     zp, B = (z1 if pins == 1 else z2), diameter / 2
     R, A = zp / 2, zp / 2 + off
     assume(1.9 * A * sin(pi / zp) > diameter)
-    law = lantern(pins=pins, pin_diameter=repr(diameter), pin_radius=repr(A)).law(z1, z2, internal=ring)
-    path, lost = law.path, max(-law.pair.arcs[0 if pins == 2 else 1], 0.0)
+    transmission = lantern(pins=pins, pin_diameter=repr(diameter), pin_radius=repr(A)).transmission(
+        z1, z2, internal=ring
+    )
+    path, lost = transmission.path, max(-transmission.pair.arcs[0 if pins == 2 else 1], 0.0)
     arc = path.arcs[0 if pins == 1 else 1]
     X = lost + np.linspace(1e-6, 1, 6) * (arc - lost)
     points = path.flank2(-X) if pins == 1 else path.flank1(X)
@@ -148,31 +150,33 @@ def test_pins_on_their_way_in_cut_the_foot_of_the_flank_away(z1: int, z2: int, d
     begins = R * (beta[cut & (beta > still)].max() - first)
     found = flank_start(R, R, B, Rm)
     assert found == pytest.approx(begins, abs=R * first * 2e-3)
-    law = lantern(pin_diameter=repr(diameter), arcs=[0, 1]).law(z1, z2)
-    assert bool(law.verdict) == (found <= 1e-9)
+    transmission = lantern(pin_diameter=repr(diameter), arcs=[0, 1]).transmission(z1, z2)
+    assert bool(transmission.verdict) == (found <= 1e-9)
     if found > 1e-9:
-        assert law.verdict.kind == "undercut"
-        assert f"{1 - found / pi:.6g} pitches of contact" in law.verdict.faults[0].why
-    whole = lantern(pin_diameter=repr(diameter)).law(z1, z2, 0.1)
+        assert transmission.verdict.kind == "undercut"
+        assert f"{1 - found / pi:.6g} pitches of contact" in transmission.verdict.faults[0].why
+    whole = lantern(pin_diameter=repr(diameter)).transmission(z1, z2, 0.1)
     assert whole.verdict
     assert sum(whole.pair.arcs) == pytest.approx(pi, rel=1e-9)
     assert not np.isnan(whole.efficiency(np.linspace(0, whole.period, 1000))).any()
 
 
 def test_a_lantern_loses_in_a_train_what_its_path_says() -> None:
-    law = lantern().law(60, 8, 1e-6)
-    assert (1 - law.efficiency_mean()) / 1e-6 == pytest.approx(measure(law.path).shared.loss, rel=1e-5)
+    transmission = lantern().transmission(60, 8, 1e-6)
+    assert (1 - transmission.efficiency_mean()) / 1e-6 == pytest.approx(
+        measure(transmission.path).shared.loss, rel=1e-5
+    )
 
 
 def test_a_lantern_that_drives_works_in_approach_and_one_that_is_driven_in_recess() -> None:
-    driven = lantern(pins=2).law(60, 8, 0.2)
-    drives = lantern(pins=1).law(8, 60, 0.2)
+    driven = lantern(pins=2).transmission(60, 8, 0.2)
+    drives = lantern(pins=1).transmission(8, 60, 0.2)
     assert driven.verdict
     assert driven.pair.arcs == (0, pytest.approx(pi, rel=1e-12))
     assert drives.pair.arcs == (pytest.approx(pi, rel=1e-12), 0)
     assert drives.efficiency_mean() < driven.efficiency_mean() < 1
     # the same two wheels, whichever is named first
-    other = lantern(pins=2).law(60, 8, 0.2, driver=2)
+    other = lantern(pins=2).transmission(60, 8, 0.2, driver=2)
     assert drives.ratio == other.ratio
     assert drives.efficiency_mean() == pytest.approx(other.efficiency_mean(), abs=1e-12)
     S = np.linspace(0, 2, 50)
@@ -180,9 +184,9 @@ def test_a_lantern_that_drives_works_in_approach_and_one_that_is_driven_in_reces
 
 
 def test_at_zero_a_pin_that_drives_points_at_the_other_axis() -> None:
-    law = lantern(pins=1, pin_diameter="1.6").law(36, 300, 0.1)
+    transmission = lantern(pins=1, pin_diameter="1.6").transmission(36, 300, 0.1)
     # from there the pin's flank has still to come back by its half-width to the pitch point
-    assert law.contacts(np.array([-FIRST / 18 - 1e-9]))[0] == pytest.approx(-18e-9, abs=1e-12)
+    assert transmission.contacts(np.array([-FIRST / 18 - 1e-9]))[0] == pytest.approx(-18e-9, abs=1e-12)
 
 
 def test_the_mates_addendum_ends_its_flank() -> None:
@@ -194,12 +198,12 @@ def test_the_mates_addendum_ends_its_flank() -> None:
 
 
 def test_teeth_of_the_mate_have_what_the_pins_leave_of_the_pitch() -> None:
-    law = lantern(pin_diameter="1.6", backlash="0.1").law(24, 36)
-    tooth, pin = law.pair.halves
+    transmission = lantern(pin_diameter="1.6", backlash="0.1").transmission(24, 36)
+    tooth, pin = transmission.pair.halves
     assert pin == pytest.approx(FIRST, abs=1e-12)
     assert 2 * (tooth + pin) == pytest.approx(pi - 0.1, rel=1e-12)
-    assert law.verdict.play == pytest.approx(0.1 / 18, rel=1e-12)
-    thick = lantern(pin_diameter="2.9").law(24, 36)
+    assert transmission.verdict.backlash == pytest.approx(0.1 / 18, rel=1e-12)
+    thick = lantern(pin_diameter="2.9").transmission(24, 36)
     (fault,) = thick.verdict.faults
     assert (fault.kind, fault.gear) == ("pointed", 1)
 
@@ -217,7 +221,7 @@ def test_teeth_of_the_mate_have_what_the_pins_leave_of_the_pitch() -> None:
 )
 def test_lanterns_that_do_not_fit_are_refused_with_a_reason(given: dict[str, Any], words: str) -> None:
     with pytest.raises(GearTrainError) as caught:
-        lantern(**given).law(24, 36)
+        lantern(**given).transmission(24, 36)
     (problem,) = caught.value.problems
     assert words in f"{problem.what} {problem.why}"
     assert problem.fix

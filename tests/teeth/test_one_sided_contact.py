@@ -121,7 +121,7 @@ class Drawn:
         S = np.linspace(0, 2 * pi / self.z1, 160, endpoint=False)
         touch = solve(self.wheel(0), self.wheel(1), self.distance, S)
         error = touch.front.angle - S * self.z1 / self.z2
-        return bool(np.isfinite(error).all() and np.ptp(error) < 1e-9 and touch.play.min() > 0)
+        return bool(np.isfinite(error).all() and np.ptp(error) < 1e-9 and touch.backlash.min() > 0)
 
     def whole(self) -> bool:
         """True if a rack can make these wheels: no undercut, no point, no tip in a root."""
@@ -191,19 +191,19 @@ def test_a_pair_runs_where_its_drawn_flanks_keep_the_ratio_and_nowhere_else(pair
     assume(possible(pair) and pair.whole() and abs(pair.ratio - 1) > 0.02)
     if pair.ratio <= 0:
         with pytest.raises(GearTrainError, match="do not reach each other"):
-            pair.form().law(pair.z1, pair.z2, internal=pair.ring)
+            pair.form().transmission(pair.z1, pair.z2, internal=pair.ring)
         return
-    law = pair.form().law(pair.z1, pair.z2, 1e-7, internal=pair.ring)
-    assert bool(law.verdict) == pair.runs, law.verdict.text
-    if not law.verdict:
+    transmission = pair.form().transmission(pair.z1, pair.z2, 1e-7, internal=pair.ring)
+    assert bool(transmission.verdict) == pair.runs, transmission.verdict.text
+    if not transmission.verdict:
         return
     first, last = (end / cos(pair.angle) for end in pair.ends)
-    assert law.pair.arcs == pytest.approx((-first, last), abs=1e-9)
-    assert law.path.contact_ratio == pytest.approx(pair.ratio, rel=1e-9)
-    found = measure(law.path)
+    assert transmission.pair.arcs == pytest.approx((-first, last), abs=1e-9)
+    assert transmission.path.contact_ratio == pytest.approx(pair.ratio, rel=1e-9)
+    found = measure(transmission.path)
     assert found.one_pair.loss == pytest.approx(pair.loss(False), rel=1e-4)
     assert found.shared.loss == pytest.approx(pair.loss(True), rel=1e-3)
-    for way in (law, law.reversed, law.turned_back()):
+    for way in (transmission, transmission.reversed, transmission.reversed_motion()):
         assert (1 - way.efficiency_mean()) / 1e-7 == pytest.approx(found.shared.loss, rel=1e-4)
         assert np.ptp(way.error(np.linspace(0, 9, 50))) == 0
 
@@ -226,7 +226,7 @@ def test_pressure_under_a_shared_load_is_that_of_half_the_force_where_two_touch(
     rho = pair.pitch_radius(0) * sin(ALPHA) + x
     bend = np.sqrt(long / (rho * (long - rho)) / cos(ALPHA))
     two = (x + pitch <= last) | (x - pitch >= first)
-    data = json.loads(call("mesh", "involute", "--teeth", 24, 36, "--json").output)["costs"]
+    data = json.loads(call("mesh", "involute", "--teeth", 24, 36, "--json").output)["losses_and_stresses"]
     assert data["one_pair"]["stress"] == pytest.approx(bend.max(), rel=1e-6)
     assert data["shared"]["stress"] == pytest.approx(max(bend[~two].max(), (bend[two] / sqrt(2)).max()), rel=1e-5)
     assert data["shared"]["stress"] < data["one_pair"]["stress"]
@@ -235,8 +235,8 @@ def test_pressure_under_a_shared_load_is_that_of_half_the_force_where_two_touch(
 @pytest.mark.parametrize("shift", [1.2, -1.2])
 def test_bevels_touch_on_one_side_where_their_tips_end_on_the_sphere(shift: float) -> None:
     """The arc by bisecting for the tip cone along the great circle of the path."""
-    law = Involute(form="involute", shift=[shift, -shift]).law(40, 60, shaft_angle=pi / 2)
-    assert law.verdict, law.verdict.text
+    transmission = Involute(form="involute", shift=[shift, -shift]).transmission(40, 60, shaft_angle=pi / 2)
+    assert transmission.verdict, transmission.verdict.text
     cones = np.arctan2(40, 60), np.arctan2(60, 40)
     ends = []
     for at, z in enumerate((40, 60)):
@@ -250,9 +250,9 @@ def test_bevels_touch_on_one_side_where_their_tips_end_on_the_sphere(shift: floa
             middle = (low + high) / 2
             low, high = (middle, high) if off(middle) > 0 else (low, middle)
         ends.append(low / cos(ALPHA))
-    assert law.pair.arcs == pytest.approx((ends[1], ends[0]), abs=1e-12)
-    assert min(law.pair.arcs) < 0
-    assert law.path.contact_ratio == pytest.approx(sum(ends) / (2 * pi * sin(cones[0]) / 40), rel=1e-9)
+    assert transmission.pair.arcs == pytest.approx((ends[1], ends[0]), abs=1e-12)
+    assert min(transmission.pair.arcs) < 0
+    assert transmission.path.contact_ratio == pytest.approx(sum(ends) / (2 * pi * sin(cones[0]) / 40), rel=1e-9)
 
 
 def test_the_command_takes_contact_on_one_side() -> None:
@@ -266,14 +266,14 @@ def test_the_command_takes_contact_on_one_side() -> None:
     # the flank works between its own tip and where the mate's tip meets it
     low = hypot(ISSUE.base(0), ISSUE.pitch_radius(0) * sin(ISSUE.angle) + first)
     assert data["flanks"][0] == pytest.approx([low, ISSUE.tip(0)], rel=1e-12)
-    assert data["costs"]["shared"]["loss"] == pytest.approx(ISSUE.loss(True), rel=1e-6)
+    assert data["losses_and_stresses"]["shared"]["loss"] == pytest.approx(ISSUE.loss(True), rel=1e-6)
 
 
 @pytest.mark.parametrize("pair", [ISSUE, AFTER, BEFORE], ids=["ring", "after", "before"])
 def test_whole_wheels_of_one_sided_pairs_turn_together_without_touching_elsewhere(pair: Drawn) -> None:
-    law = pair.form().law(pair.z1, pair.z2, internal=pair.ring)
+    transmission = pair.form().transmission(pair.z1, pair.z2, internal=pair.ring)
     cut = BlankSizes(module=1.0, tolerance=1e-4)
-    wheels = [outline(law.pair, gear, cut) for gear in (1, 2)]
+    wheels = [outline(transmission.pair, gear, cut) for gear in (1, 2)]
     for at, wheel in enumerate(wheels):
         assert wheel.tip_radius == pytest.approx(pair.tip(at), rel=1e-9)
     first, second = (_polygon(wheel.contours, pair.ring and wheel.gear == 2) for wheel in wheels)
@@ -329,8 +329,10 @@ def test_a_train_moves_and_loses_what_its_one_sided_teeth_say(pair: Drawn, tmp_p
     file.write_text(text, encoding="utf-8")
     (mesh,) = train.meshes
     assert not mesh.faults
-    law = mesh.law
-    assert float(law.speed_range()[0]) == float(law.speed_range()[1]) == pytest.approx(pair.z1 / pair.z2)
+    transmission = mesh.transmission
+    assert (
+        float(transmission.speed_range()[0]) == float(transmission.speed_range()[1]) == pytest.approx(pair.z1 / pair.z2)
+    )
     rigid = json.loads(call("motion", file, "--turns", 2, "--json").output)["outputs"]["b"]["transmission_error"]
     assert rigid["peak_to_peak"] == 0
     lost = 1 - float(train.torques().efficiency)

@@ -242,8 +242,8 @@ def test_two_wheels_turn_through_a_pitch_untouched_with_the_backlash_between_the
     for phi1 in pitch * np.array([0.1, 0.55]):
         here = moved(first, phi1, 0.0)
         seat = seats(z1, z2, distance, internal, phi1)
-        play = sum(free_turn(here, second, seat, sense) for sense in (1, -1))
-        assert play * R2 == pytest.approx(BACKLASH, rel=0.02)
+        backlash = sum(free_turn(here, second, seat, sense) for sense in (1, -1))
+        assert backlash * R2 == pytest.approx(BACKLASH, rel=0.02)
 
 
 def involute(z1: int, z2: int, approach: float, recess: float, psi: float, backlash: float) -> ConjugatePair:
@@ -280,7 +280,7 @@ def test_involute_wheels_of_any_arcs_have_textbook_tips_and_stand_clear(
     assert not moved(first, phi1, 0.0).intersects(moved(second, *seat))
 
 
-def test_the_root_is_rounded_by_the_fillet_asked_for(tmp_path: File) -> None:
+def test_the_root_is_rounded_by_the_fillet_requested_for(tmp_path: File) -> None:
     ezdxf = pytest.importorskip("ezdxf")
     written("involute", 1, tmp_path / "w.dxf", "--fillet", "0.3mm")
     (teeth,) = ezdxf.readfile(tmp_path / "w.dxf").modelspace()

@@ -60,10 +60,10 @@ def test_clearance_is_that_to_every_pin() -> None:
     for pin in pins_of(disc):
         assert shape.exterior.distance(pin) - disc.pin == pytest.approx(0.05, abs=1e-4)
     # turned by its play it touches, and no sooner
-    law = form.law(11, 12, driver=2)
+    transmission = form.transmission(11, 12, driver=2)
     centre = (cos(1.0) / 2, sin(1.0) / 2)
     for part, free in ((0.49, True), (0.53, False)):
-        turned = rotate(shape, np.degrees(part * law.verdict.play), origin=centre)
+        turned = rotate(shape, np.degrees(part * transmission.verdict.backlash), origin=centre)
         assert all(turned.exterior.distance(pin) > disc.pin for pin in pins_of(disc)) is free
 
 
@@ -96,15 +96,15 @@ def test_with_a_clearance_those_pins_bear_that_the_disc_reaches(
 def test_a_little_load_is_borne_by_one_pin_and_a_great_one_by_half_of_all() -> None:
     free = PinRing.declared({"clearance": "0.02"}).disc(11)
     assert free.bearing_pins == FORM.disc(11).bearing_pins == (5, 6)
-    assert free.greatest_load == FORM.disc(11).greatest_load
+    assert free.maximum_load == FORM.disc(11).maximum_load
     light, heavy = (
         PinRing.declared({"clearance": "0.02", "deflection": give}).disc(11) for give in ("0.000001", "1000")
     )
     assert light.bearing_pins == (1, 1)
-    assert light.greatest_load == pytest.approx(1, abs=0.2), "one pin with an arm near the pitch radius"
+    assert light.maximum_load == pytest.approx(1, abs=0.2), "one pin with an arm near the pitch radius"
     assert heavy.bearing_pins == (5, 6)
-    assert heavy.greatest_load == pytest.approx(free.greatest_load, rel=1e-3)
-    assert light.greatest_load > PinRing.declared({"clearance": "0.02", "deflection": "0.05"}).disc(11).greatest_load
+    assert heavy.maximum_load == pytest.approx(free.maximum_load, rel=1e-3)
+    assert light.maximum_load > PinRing.declared({"clearance": "0.02", "deflection": "0.05"}).disc(11).maximum_load
 
 
 @given(lobes, shortening, st.floats(0, 6.28))
@@ -122,11 +122,11 @@ def test_arms_are_those_of_the_normals_and_forces_balance_the_torque(z: int, par
     assert float((loads * arms).sum()) == pytest.approx(z / 2)
 
 
-def test_the_greatest_load_is_four_over_the_number_of_pins() -> None:
+def test_the_maximum_load_is_four_over_the_number_of_pins() -> None:
     """The formula of handbooks, 4 T / (e z_d z_p): of pins far out, whose normals are parallel."""
     disc = CycloidalDisc(59, 60 / 2 / 0.02, 0.1)
-    assert disc.greatest_load == pytest.approx(4 / 60, rel=2e-3)
-    assert FORM.disc(11).greatest_load == pytest.approx(4 / 12, rel=0.03)
+    assert disc.maximum_load == pytest.approx(4 / 60, rel=2e-3)
+    assert FORM.disc(11).maximum_load == pytest.approx(4 / 12, rel=0.03)
 
 
 def test_losses_are_the_work_of_friction_at_all_pins() -> None:
@@ -146,16 +146,18 @@ def test_losses_are_the_work_of_friction_at_all_pins() -> None:
     # the disc turns by 1 + 1/11 against the eccentric in a radian of this
     lost = float((loads * speed).sum()) / (11 / 2 * (1 + 1 / 11))
     assert float(disc.sliding(np.array(phase))[1]) == pytest.approx(lost, rel=1e-6)
-    assert float(FORM.law(11, 12, 0.05).efficiency_mean()) == pytest.approx(1 / (1 + 0.05 * disc.loss), rel=1e-4)
+    assert float(FORM.transmission(11, 12, 0.05).efficiency_mean()) == pytest.approx(
+        1 / (1 + 0.05 * disc.loss), rel=1e-4
+    )
 
 
-def test_law_keeps_its_ratio_and_shifts_by_its_play() -> None:
-    law = PinRing.declared({"clearance": "0.02"}).law(11, 12)
-    assert law.ratio == Fraction(11, 12)
-    assert law.error([0.0, 0.3]) == pytest.approx([0, 0])
-    assert law.turned_back().error(0.3) == pytest.approx(law.verdict.play)
-    assert law.reversed.ratio == Fraction(12, 11)
-    assert law.verdict.play == pytest.approx(4 * 0.02 / 12)
+def test_transmission_keeps_its_ratio_and_shifts_by_its_backlash() -> None:
+    transmission = PinRing.declared({"clearance": "0.02"}).transmission(11, 12)
+    assert transmission.ratio == Fraction(11, 12)
+    assert transmission.error([0.0, 0.3]) == pytest.approx([0, 0])
+    assert transmission.reversed_motion().error(0.3) == pytest.approx(transmission.verdict.backlash)
+    assert transmission.reversed.ratio == Fraction(12, 11)
+    assert transmission.verdict.backlash == pytest.approx(4 * 0.02 / 12)
 
 
 @pytest.mark.parametrize(
@@ -171,7 +173,7 @@ def test_law_keeps_its_ratio_and_shifts_by_its_play() -> None:
 )
 def test_what_cannot_be_is_refused_with_a_cure(given_: dict[str, str], z: tuple[int, int], words: str) -> None:
     with pytest.raises(GearTrainError) as caught:
-        PinRing.declared(given_).law(*z)
+        PinRing.declared(given_).transmission(*z)
     assert words in str(caught.value)
 
 
@@ -207,7 +209,7 @@ def test_reducers_have_the_ratio_of_their_makers_formula(name: str, link: str, r
 def test_torques_of_a_reducer_are_those_of_its_ratio_less_what_its_pins_lose() -> None:
     train = geartrain.load("cycloidal-reducer")
     found = train.torques()
-    loss = train.meshes[0].law.disc.loss  # type: ignore[attr-defined]
+    loss = train.meshes[0].transmission.disc.loss  # type: ignore[attr-defined]
     # of 12 times the power that passes the pins a part is lost
     assert float(found.external["shaft"]) == pytest.approx(10 / 11 * (1 + 12 * 0.05 * loss), rel=2e-3)
     assert not any("holes" in effect.where for effect in found.left_out)
@@ -270,18 +272,18 @@ def test_an_offset_that_is_not_the_eccentricity_cannot_be_built() -> None:
 
 def test_the_command_tells_of_one_pair() -> None:
     out = ended("mesh", "pin_ring", "--teeth", 11, 12, "--friction", 0.05, "--json")
-    assert '"greatest_load": 0.33' in out.stdout
+    assert '"maximum_load": 0.33' in out.stdout
 
 
-def test_the_command_takes_clearance_deflection_and_play() -> None:
+def test_the_command_takes_clearance_deflection_and_backlash() -> None:
     def row(*options: str) -> list[str]:
         done = ended("mesh", "pin_ring", "--teeth", 11, 12, *options, "-o", "-")
         assert done.returncode == 0, done.stderr
         return next(line for line in done.stdout.splitlines() if "wheel 1 -> wheel 2" in line).strip("| ").split("|")
 
-    play = np.degrees(4 * 0.01 / 11)
+    backlash = np.degrees(4 * 0.01 / 11)
     for options in (("--clearance", "0.01"), ("--backlash", "0.02")):
-        assert float(row(*options)[-3]) == pytest.approx(play * 11 / 12, rel=1e-3), "of the ring, which is driven"
+        assert float(row(*options)[-3]) == pytest.approx(backlash * 11 / 12, rel=1e-3), "of the ring, which is driven"
     assert row("--clearance", "0.01")[6].strip() == "5 to 6"
     assert row("--clearance", "0.01", "--deflection", "0.01")[6].strip() == "3 to 4"
 

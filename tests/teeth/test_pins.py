@@ -29,30 +29,30 @@ def seen_from_the_slot(r: float, e: float, angles: np.ndarray) -> np.ndarray:
 
 @given(distances)
 def test_the_slot_follows_the_direction_of_the_pin(pair: tuple[float, float]) -> None:
-    law = PinToSlotTransmission(*pair)
+    transmission = PinToSlotTransmission(*pair)
     seen = seen_from_the_slot(*pair, TURN)
     start = 0 if pair[0] > pair[1] else pi
-    assert np.allclose(law.angle(TURN) + start, seen - seen[0] + (0 if start == 0 else pi), atol=1e-9)
-    assert round((seen[-1] - seen[0]) / (2 * pi)) == law.ratio
+    assert np.allclose(transmission.angle(TURN) + start, seen - seen[0] + (0 if start == 0 else pi), atol=1e-9)
+    assert round((seen[-1] - seen[0]) / (2 * pi)) == transmission.ratio
 
 
 @given(distances)
 def test_the_speed_is_the_derivative_of_the_angle(pair: tuple[float, float]) -> None:
-    law, step = PinToSlotTransmission(*pair), 1e-6
-    slope = (law.angle(TURN + step) - law.angle(TURN - step)) / (2 * step)
-    assert np.allclose(law.speed(TURN), slope, rtol=1e-5, atol=1e-5)
-    least, most = law.speed_range()
-    speeds = law.speed(TURN)
-    assert (speeds >= least * (1 + 1e-12 * np.sign(-least))).all()
-    assert {round(float(speeds.min()), 9), round(float(speeds.max()), 9)} == {round(least, 9), round(most, 9)}
+    transmission, step = PinToSlotTransmission(*pair), 1e-6
+    slope = (transmission.angle(TURN + step) - transmission.angle(TURN - step)) / (2 * step)
+    assert np.allclose(transmission.speed(TURN), slope, rtol=1e-5, atol=1e-5)
+    minimum, most = transmission.speed_range()
+    speeds = transmission.speed(TURN)
+    assert (speeds >= minimum * (1 + 1e-12 * np.sign(-minimum))).all()
+    assert {round(float(speeds.min()), 9), round(float(speeds.max()), 9)} == {round(minimum, 9), round(most, 9)}
 
 
 @given(distances)
 def test_the_amplitude_is_the_arcsine_of_the_lesser_over_the_greater(pair: tuple[float, float]) -> None:
-    law = PinToSlotTransmission(*pair)
-    sampled = np.abs(law.error(np.linspace(0, 2 * pi, 200_001))).max()
-    assert law.amplitude == pytest.approx(asin(min(pair) / max(pair)))
-    assert sampled == pytest.approx(law.amplitude, rel=1e-5)
+    transmission = PinToSlotTransmission(*pair)
+    sampled = np.abs(transmission.error(np.linspace(0, 2 * pi, 200_001))).max()
+    assert transmission.amplitude == pytest.approx(asin(min(pair) / max(pair)))
+    assert sampled == pytest.approx(transmission.amplitude, rel=1e-5)
 
 
 @given(distances.filter(lambda pair: pair[0] > pair[1]))
@@ -85,8 +85,8 @@ def loss(r: float, e: float, angle: float, friction: float, pin_drives: bool) ->
 @pytest.mark.parametrize(("r", "e"), [(9.6, 1.1), (10.0, 6.58), (1.0, 3.0)])
 def test_friction_takes_what_the_forces_on_one_pin_say(r: float, e: float) -> None:
     angles = np.linspace(0.1, 6.2, 40)
-    law = PinToSlotTransmission(r, e, 0.15)
-    assert np.allclose(law.efficiency(angles), [loss(r, e, a, 0.15, True) for a in angles], rtol=1e-12)
+    transmission = PinToSlotTransmission(r, e, 0.15)
+    assert np.allclose(transmission.efficiency(angles), [loss(r, e, a, 0.15, True) for a in angles], rtol=1e-12)
     if r > e:
         back = SlotToPinTransmission(r, e, 0.15)
         slots = PinToSlotTransmission(r, e).angle(angles)
@@ -95,13 +95,13 @@ def test_friction_takes_what_the_forces_on_one_pin_say(r: float, e: float) -> No
 
 def test_the_lunar_pin_swings_by_the_arcsine_of_its_dimensions() -> None:
     (joint,) = load("freeth-2008").mechanics.pins
-    assert joint.law.ratio == 1
-    assert joint.law.amplitude == pytest.approx(asin(1.1 / 9.6), rel=1e-15)
-    assert joint.law.speed_range() == pytest.approx((1 / (1 + 1.1 / 9.6), 1 / (1 - 1.1 / 9.6)), rel=1e-14)
+    assert joint.transmission.ratio == 1
+    assert joint.transmission.amplitude == pytest.approx(asin(1.1 / 9.6), rel=1e-15)
+    assert joint.transmission.speed_range() == pytest.approx((1 / (1 + 1.1 / 9.6), 1 / (1 - 1.1 / 9.6)), rel=1e-14)
 
 
 def test_the_amplitudes_of_the_planets_are_those_of_their_dimensions() -> None:
-    found = {joint.coupling.name: degrees(joint.law.amplitude) for joint in load("freeth-2021").mechanics.pins}
+    found = {joint.coupling.name: degrees(joint.transmission.amplitude) for joint in load("freeth-2021").mechanics.pins}
     printed = {"mercury": 22.95, "venus": 46.04, "mars": 41.1, "jupiter": 11.08, "saturn": 5.99}
     for name, amplitude in printed.items():
         assert found[name] == pytest.approx(amplitude, abs=0.06 if name == "mars" else 0.006)
@@ -109,46 +109,50 @@ def test_the_amplitudes_of_the_planets_are_those_of_their_dimensions() -> None:
 
 
 @pytest.mark.parametrize(
-    ("planet", "least", "most"), [("mars", -0.369, 0.718), ("jupiter", -0.134, 0.232), ("saturn", -0.079, 0.125)]
+    ("planet", "minimum", "most"), [("mars", -0.369, 0.718), ("jupiter", -0.134, 0.232), ("saturn", -0.079, 0.125)]
 )
-def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(planet: str, least: float, most: float) -> None:
+def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(planet: str, minimum: float, most: float) -> None:
     train = load("freeth-2021")
     answer = train.solve()
     (joint,) = (joint for joint in train.mechanics.pins if joint.coupling.name == planet)
     circuit = next(circuit for circuit in train.circuits if circuit.id == planet)
     carrier, pin = float(answer[circuit.carrier]), float(answer[joint.coupling.pin])
     # a pair of equal wheels brings the slot's motion back to the pointer
-    speeds = [carrier - factor * (pin - carrier) for factor in joint.law.speed_range()]
+    speeds = [carrier - factor * (pin - carrier) for factor in joint.transmission.speed_range()]
     mean = carrier - (pin - carrier)
     assert mean == pytest.approx(float(answer[planet]))
-    assert sorted(abs(s) * np.sign(s * mean) for s in speeds) == pytest.approx([least, most], abs=6e-4)
+    assert sorted(abs(s) * np.sign(s * mean) for s in speeds) == pytest.approx([minimum, most], abs=6e-4)
 
 
-def test_the_protocol_is_that_of_all_laws() -> None:
-    law = PinToSlotTransmission(9.6, 1.1)
-    assert law.ratio == Fraction(1)
-    assert law.period == 2 * pi
-    low, high = law.error_range()
-    assert (low, high) == (-law.amplitude, law.amplitude)
-    mean, rms = law.error_moments()
-    errors = law.error(np.linspace(0, 2 * pi, 100_000, endpoint=False))
+def test_the_protocol_is_that_of_all_transmissions() -> None:
+    transmission = PinToSlotTransmission(9.6, 1.1)
+    assert transmission.ratio == Fraction(1)
+    assert transmission.period == 2 * pi
+    low, high = transmission.error_range()
+    assert (low, high) == (-transmission.amplitude, transmission.amplitude)
+    mean, rms = transmission.error_moments()
+    errors = transmission.error(np.linspace(0, 2 * pi, 100_000, endpoint=False))
     assert mean == 0
     assert abs(errors.mean()) < 1e-15
     assert rms == pytest.approx(np.sqrt(np.mean(errors**2)), rel=1e-12)
-    assert law.efficiency_mean() == 1
+    assert transmission.efficiency_mean() == 1
 
 
 @pytest.mark.parametrize("off", [-1.4e-8, -7e-9, 0, 3.3e-9, 1.1e-8])
 def test_the_mean_efficiency_keeps_its_digits_where_its_closed_form_is_nearly_0_over_0(off: float) -> None:
     # for distances 5 and 4 that is at a friction of 3/4
-    law = PinToSlotTransmission(5, 4, 0.75 * (1 + off))
+    transmission = PinToSlotTransmission(5, 4, 0.75 * (1 + off))
     x, weights = np.polynomial.legendre.leggauss(200)
-    assert law.efficiency_mean() == pytest.approx(float(weights @ law.efficiency(pi * (x + 1) / 2)) / 2, rel=2e-14)
+    assert transmission.efficiency_mean() == pytest.approx(
+        float(weights @ transmission.efficiency(pi * (x + 1) / 2)) / 2, rel=2e-14
+    )
 
 
 @pytest.mark.parametrize("r", [2.0, 1 + 1e-6, 1 + 1e-9])
-def test_the_law_of_a_slot_that_drives_is_good_to_rounding_however_near_the_pin_passes_its_axis(r: float) -> None:
-    law = SlotToPinTransmission(r, 1, 1e-6)
+def test_the_transmission_of_a_slot_that_drives_is_good_to_rounding_however_near_the_pin_passes_its_axis(
+    r: float,
+) -> None:
+    transmission = SlotToPinTransmission(r, 1, 1e-6)
     angles = np.concatenate([np.linspace(0, 3, 31), pi / 2 + np.logspace(-8, -1, 15)])
     with mpmath.workdps(40):
         exact = []
@@ -156,16 +160,20 @@ def test_the_law_of_a_slot_that_drives_is_good_to_rounding_however_near_the_pin_
             sine = mpmath.sin(angle) / mpmath.mpf(r)
             cosine = mpmath.sqrt(1 - sine**2)
             speed = 1 - mpmath.cos(angle) / (mpmath.mpf(r) * cosine)
-            exact.append([float(each) for each in (-mpmath.asin(sine), speed, 1 - law.friction * sine / cosine)])
-    found = np.stack([law.error(angles), law.speed(angles), law.efficiency(angles)], axis=1)
+            exact.append(
+                [float(each) for each in (-mpmath.asin(sine), speed, 1 - transmission.friction * sine / cosine)]
+            )
+    found = np.stack([transmission.error(angles), transmission.speed(angles), transmission.efficiency(angles)], axis=1)
     assert np.abs(found - np.array(exact)).max() < 1e-15
 
 
 @pytest.mark.parametrize("kind", [PinToSlotTransmission, SlotToPinTransmission])
 @pytest.mark.parametrize(("r", "e", "f"), [(9.6, 1.1, 0.2), (10, 5, 0.4), (3, 0, 0.3)])
-def test_the_least_efficiency_is_the_least_of_a_scan(kind: Any, r: float, e: float, f: float) -> None:
-    law = kind(r, e, f)
-    assert law.efficiency_least() == pytest.approx(law.efficiency(np.linspace(0, 2 * pi, 100_001)).min(), rel=1e-8)
+def test_the_minimum_efficiency_is_the_minimum_of_a_scan(kind: Any, r: float, e: float, f: float) -> None:
+    transmission = kind(r, e, f)
+    assert transmission.efficiency_minimum() == pytest.approx(
+        transmission.efficiency(np.linspace(0, 2 * pi, 100_001)).min(), rel=1e-8
+    )
 
 
 def test_a_pin_that_locks_has_no_efficiency_and_a_follower_none_at_a_constant_load() -> None:
@@ -182,7 +190,7 @@ def test_a_pin_that_locks_has_no_efficiency_and_a_follower_none_at_a_constant_lo
     assert follower["min"] == 0.0
     assert follower["at_constant_load"] is follower["locks_at"] is None
     assert 0 < follower["mean"] < 1
-    assert SlidingEfficiency(PinToSlotTransmission(5, 10)).least == 1.0
+    assert SlidingEfficiency(PinToSlotTransmission(5, 10)).minimum == 1.0
 
 
 def test_a_pin_and_its_slot_drive_each_other_by_one_name() -> None:
@@ -192,15 +200,15 @@ def test_a_pin_and_its_slot_drive_each_other_by_one_name() -> None:
 
 
 @pytest.mark.parametrize(
-    ("asked", "said", "place"),
+    ("requested", "said", "place"),
     [
         ((1.0, 9.0, 0.0, "slot"), "a follower cannot drive", "driver"),
         ((9.0, 8.0, 0.6, "slot"), "locks the pin in its slot", "friction"),  # sqrt(81 - 64) / 8 = 0.515
         ((9.0, 9.0, 0.0, "pin"), "through the slot's axis", ""),
     ],
 )
-def test_a_pin_that_cannot_turn_says_which_parameter_would_let_it(asked: Any, said: str, place: str) -> None:
+def test_a_pin_that_cannot_turn_says_which_parameter_would_let_it(requested: Any, said: str, place: str) -> None:
     with pytest.raises(GearTrainError) as refused:
-        pin_transmission(*asked)
+        pin_transmission(*requested)
     assert said in refused.value.problems[0].what
     assert refused.value.problems[0].place == place

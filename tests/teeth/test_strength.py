@@ -77,20 +77,20 @@ def test_shigleys_example_14_3_of_a_steel_pinion_on_cast_iron() -> None:
     psi, inch, pound = 6894.757e-6, 25.4, 4.4482216
     factor = elasticity_factor(Elasticity(30e6 * psi, 0.292), Elasticity(14.5e6 * psi, 0.211))
     assert factor / sqrt(psi) == pytest.approx(1817, abs=1)
-    law = Involute(form="involute", addendum="0.9").law(16, 50)
+    transmission = Involute(form="involute", addendum="0.9").transmission(16, 50)
     module = inch / 8
-    load = ContactLoad(law.path, module, 1.5 * inch, 1.52 * 382 * pound * 8 * module, factor)
+    load = ContactLoad(transmission.path, module, 1.5 * inch, 1.52 * 382 * pound * 8 * module, factor)
     pitch_point = next(each for each in load.places() if each.where == "pitch point")
     assert pitch_point.pressure / psi == pytest.approx(72_400, rel=2e-3)
 
 
-def test_couples_share_and_the_worst_place_is_found() -> None:
+def test_tooth_pairs_share_and_the_worst_place_is_found() -> None:
     # computed beforehand: 1362 at the start of contact, shared in halves; 796.348 at B; 719 at the pitch point
-    law = Involute(form="involute").law(17, 51)
-    load = ContactLoad(law.path, 2, 20, 20_000, elasticity_factor(STEEL, STEEL))
+    transmission = Involute(form="involute").transmission(17, 51)
+    load = ContactLoad(transmission.path, 2, 20, 20_000, elasticity_factor(STEEL, STEEL))
     places = {each.where: each for each in load.places()}
     assert places["start of contact"].pressure == pytest.approx(1362, abs=1)
-    assert places["start of contact"].couples == 2
+    assert places["start of contact"].tooth_pairs == 2
     assert places["inner single contact of gear 1"].pressure == pytest.approx(796.348, abs=0.01)
     assert places["pitch point"].pressure == pytest.approx(719.16, abs=0.01)
     assert places["worst"].pressure == pytest.approx(places["start of contact"].pressure)
@@ -98,29 +98,29 @@ def test_couples_share_and_the_worst_place_is_found() -> None:
 
 
 @given(st.floats(-0.85, 0.74))
-def test_the_forces_of_all_couples_balance_the_torque(position: float) -> None:
-    law = Involute(form="involute").law(17, 51)
-    load = ContactLoad(law.path, 2, 20, 20_000, 189.8)
-    X = position * law.path.pitch.p
+def test_the_forces_of_all_tooth_pairs_balance_the_torque(position: float) -> None:
+    transmission = Involute(form="involute").transmission(17, 51)
+    load = ContactLoad(transmission.path, 2, 20, 20_000, 189.8)
+    X = position * transmission.path.pitch.p
     (force,), (count,) = load.forces(np.array([X]))
     base = 17 * cos(TWENTY)  # mm, module 2
     assert force * count * base == pytest.approx(20_000, rel=1e-9)
-    assert len(load.couples(X)) == count
+    assert len(load.tooth_pairs(X)) == count
 
 
 @settings(max_examples=few_or_many(20, 60))
 @given(st.floats(0.5, 8), st.floats(0.1, 30))
 def test_pressure_goes_with_the_root_of_force_and_the_inverse_of_size(scale: float, more: float) -> None:
-    law = Involute(form="involute").law(20, 40)
-    one = ContactLoad(law.path, 1, 5, 100, 150.0).single_pressure()
-    assert ContactLoad(law.path, 1, 5, 100 * more, 150.0).single_pressure() == pytest.approx(one * sqrt(more))
+    transmission = Involute(form="involute").transmission(20, 40)
+    one = ContactLoad(transmission.path, 1, 5, 100, 150.0).single_pressure()
+    assert ContactLoad(transmission.path, 1, 5, 100 * more, 150.0).single_pressure() == pytest.approx(one * sqrt(more))
     # all lengths times s, forces times s^2: the same pressure
-    grown = ContactLoad(law.path, scale, 5 * scale, 100 * scale**3, 150.0)
+    grown = ContactLoad(transmission.path, scale, 5 * scale, 100 * scale**3, 150.0)
     assert grown.single_pressure() == pytest.approx(one)
 
 
 def test_cycloids_have_no_bound_at_the_pitch_point() -> None:
-    load = ContactLoad(Cycloidal(form="cycloidal").law(8, 60).path, 1, 2, 10, 150.0)
+    load = ContactLoad(Cycloidal(form="cycloidal").transmission(8, 60).path, 1, 2, 10, 150.0)
     assert load.has_cusp
     assert isinf(next(each for each in load.places() if each.where == "pitch point").pressure)
 
@@ -197,7 +197,7 @@ def test_method_b_gives_the_numbers_computed_beforehand(
     case: tuple, contact: tuple[float, ...], pinion: tuple[float, ...], wheel: tuple[float, ...]
 ) -> None:
     z1, z2, x, m, b, torque, first, second = case
-    eps = Involute(form="involute", shift=(x, -x)).law(z1, z2).path.contact_ratio
+    eps = Involute(form="involute", shift=(x, -x)).transmission(z1, z2).path.contact_ratio
     wheels = (RackWheel(z1, x, z1 / 2 + 1 + x), RackWheel(z2, -x, z2 / 2 + 1 - x))
     pair = RackPair(*wheels, TWENTY, TWENTY, eps)
     force = torque / (m * z1 / 2)
@@ -211,10 +211,10 @@ def test_method_b_gives_the_numbers_computed_beforehand(
 
 def test_inner_single_contact_by_iso_is_that_of_hertz() -> None:
     # M1 sH0/Zeps is Hertz's pressure where gear 1 begins to bear all
-    law = Involute(form="involute").law(17, 51)
-    pair = RackPair(RackWheel(17, 0, 9.5), RackWheel(51, 0, 26.5), TWENTY, TWENTY, law.path.contact_ratio)
+    transmission = Involute(form="involute").transmission(17, 51)
+    pair = RackPair(RackWheel(17, 0, 9.5), RackWheel(51, 0, 26.5), TWENTY, TWENTY, transmission.path.contact_ratio)
     found = contact_stress(pair, 189.81, 1000, 20, 2)
-    load = ContactLoad(law.path, 2, 20, 17_000, 189.81)
+    load = ContactLoad(transmission.path, 2, 20, 17_000, 189.81)
     places = {each.where: each.pressure for each in load.places()}
     assert found.M1 * found.nominal / found.Zeps == pytest.approx(places["inner single contact of gear 1"], rel=1e-6)
     assert found.M2 * found.nominal / found.Zeps == pytest.approx(places["inner single contact of gear 2"], rel=1e-6)

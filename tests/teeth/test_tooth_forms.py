@@ -53,8 +53,8 @@ EVERY = [
 ]
 
 
-def kinds(law: ConjugateTransmission) -> set[tuple[str, int]]:
-    return {(fault.kind, fault.gear) for fault in law.verdict.faults}
+def kinds(transmission: ConjugateTransmission) -> set[tuple[str, int]]:
+    return {(fault.kind, fault.gear) for fault in transmission.verdict.faults}
 
 
 def inv(angle: float) -> float:
@@ -110,12 +110,12 @@ def test_a_shifted_pair_is_that_of_a_worked_example() -> None:
     working = 2 * 3 * found.pitch.R1
     assert working == pytest.approx(37.667, abs=6e-4)
     assert form.path(12, 24).contact_ratio == pytest.approx(1.202, abs=6e-4)
-    assert found.play == pytest.approx(0, abs=7e-4)  # 4 tan 20 deg times half a digit of its shifts, 0.960
+    assert found.backlash == pytest.approx(0, abs=7e-4)  # 4 tan 20 deg times half a digit of its shifts, 0.960
 
 
 @given(st.integers(15, 40), st.integers(10, 60), shifts(-0.2, 0.5), shifts(0, 0.5), st.booleans())
 @settings(max_examples=40, deadline=None)
-def test_without_a_distance_shifted_wheels_mesh_without_play(
+def test_without_a_distance_shifted_wheels_mesh_without_backlash(
     z1: int, more: int, x1: float, x2: float, ring: bool
 ) -> None:
     """Pitch-circle thicknesses written from drawn involutes; the ring's tooth is a space of its cutter."""
@@ -131,32 +131,32 @@ def test_without_a_distance_shifted_wheels_mesh_without_play(
     R1 = found.distance * z1 / teeth
     expected = 2 * pi * R1 / z1 - R1 * thick[0] - R1 * z2 / z1 * second
     assert expected == pytest.approx(0, abs=1e-9)
-    assert found.play == pytest.approx(0, abs=1e-9)
+    assert found.backlash == pytest.approx(0, abs=1e-9)
     assert found.halves[1] == pytest.approx(R1 * z2 / z1 * second / 2, abs=1e-9)
 
 
 @pytest.mark.parametrize("internal", [False, True])
-def test_a_wider_centre_distance_only_adds_play_and_changes_no_ratio(internal: bool) -> None:
+def test_a_wider_centre_distance_only_adds_backlash_and_changes_no_ratio(internal: bool) -> None:
     z1, z2 = 20, 60
     design = ((z2 - z1) if internal else (z1 + z2)) / 2
     wide = design + (-0.2 if internal else 0.2)
-    law = shape("involute", centre_distance=str(wide)).law(z1, z2, internal=internal)
+    transmission = shape("involute", centre_distance=str(wide)).transmission(z1, z2, internal=internal)
     working, alpha = acos(design * cos(radians(20)) / wide), radians(20)
     # the textbooks' play on the working pitch circle, 2 a_w (inv a_w - inv a), over its radius
-    play = 2 * wide * (inv(working) - inv(alpha)) / (wide * z2 / (z2 - z1 if internal else z1 + z2))
-    assert law.verdict
-    assert law.verdict.play == pytest.approx(abs(play), rel=1e-9)
+    backlash = 2 * wide * (inv(working) - inv(alpha)) / (wide * z2 / (z2 - z1 if internal else z1 + z2))
+    assert transmission.verdict
+    assert transmission.verdict.backlash == pytest.approx(abs(backlash), rel=1e-9)
     S = np.linspace(0, 1, 7)
-    np.testing.assert_array_equal(law.error(S), 0)
-    np.testing.assert_allclose(law.angle(S), S / 3, rtol=1e-15)
+    np.testing.assert_array_equal(transmission.error(S), 0)
+    np.testing.assert_allclose(transmission.angle(S), S / 3, rtol=1e-15)
 
 
 def test_declared_lengths_with_a_unit_are_measured_in_the_module_of_the_wheels() -> None:
     # module 2 mm: pitch distance 60 mm
-    plain = shape("involute", centre_distance="30.1", backlash="0.05").law(24, 36)
-    real = shape("involute", centre_distance="60.2 mm", backlash="0.1 mm").law(24, 36, pitch_distance=0.06)
-    assert real.verdict.play == pytest.approx(plain.verdict.play, rel=1e-12)
-    assert real.path.contact_ratio == pytest.approx(plain.path.contact_ratio, rel=1e-12)
+    plain = shape("involute", centre_distance="30.1", backlash="0.05").transmission(24, 36)
+    real = shape("involute", centre_distance="60.2 mm", backlash="0.1 mm").transmission(24, 36, pitch_distance=0.06)
+    assert real.verdict.backlash == pytest.approx(plain.verdict.backlash, rel=1e-12)
+    assert real.path.contact_ratio == pytest.approx(plain._path.contact_ratio, rel=1e-12)
 
 
 # rings ---------------------------------------------------------------------------------------------------------------
@@ -187,7 +187,7 @@ def test_a_ring_and_its_pinion_touch_where_two_drawn_involutes_first_do() -> Non
 
 @pytest.mark.parametrize(("z1", "z2"), [(24, 30), (20, 28), (20, 30), (30, 36), (34, 45), (17, 60)])
 def test_tips_of_a_ring_clear_those_of_its_pinion_by_the_textbook(z1: int, z2: int) -> None:
-    law = shape("involute", addendum="0.8").law(z1, z2, internal=True)
+    transmission = shape("involute", addendum="0.8").transmission(z1, z2, internal=True)
     a, alpha = (z2 - z1) / 2, radians(20)
     tip1, tip2 = z1 / 2 + 0.8, z2 / 2 - 0.8
     first = acos(z1 / 2 * cos(alpha) / tip1)
@@ -195,31 +195,31 @@ def test_tips_of_a_ring_clear_those_of_its_pinion_by_the_textbook(z1: int, z2: i
     theta1 = acos((tip2**2 - tip1**2 - a**2) / (2 * a * tip1)) + inv(first) - inv(alpha)
     theta2 = acos((a**2 + tip2**2 - tip1**2) / (2 * a * tip2))
     gap = theta1 * z1 / z2 + inv(alpha) - inv(second) - theta2
-    assert (("interference", 0) in kinds(law)) == (gap < 0)
-    assert tip_gap(law.path) == pytest.approx(gap, abs=1e-13)
+    assert (("interference", 0) in kinds(transmission)) == (gap < 0)
+    assert tip_gap(transmission.path) == pytest.approx(gap, abs=1e-13)
 
 
 # undercut, interference, points, jams --------------------------------------------------------------------------------
 
 
-def corner_cuts(z: int, x: float) -> float:
+def kink_cuts(z: int, x: float) -> float:
     """Radius up to which the straight rack's corner takes the involute off: its path in the wheel, point by point."""
     r, alpha, u = z / 2, radians(20), 1 - x
     X = np.linspace(-3 * r, 0, 100_001)
-    corner = u * tan(alpha) + X + 1j * (r - u)
-    body = corner * np.exp(1j * X / r)
+    kink = u * tan(alpha) + X + 1j * (r - u)
+    body = kink * np.exp(1j * X / r)
     radius, azimuth = np.abs(body), pi / 2 - np.angle(body)
     base = r * cos(alpha)
-    far = (radius > base) & (radius < r) & (corner.real < 0)
+    far = (radius > base) & (radius < r) & (kink.real < 0)
     t = np.arccos(base / radius[far])
     gone = azimuth[far] < inv(alpha) - (np.tan(t) - t)
     return float(radius[far][gone].max(initial=0.0))
 
 
 @pytest.mark.parametrize(("z", "x"), [(8, 0.0), (10, 0.1), (12, 0.0), (14, 0.0), (16, 0.0), (17, -0.1), (9, 0.3)])
-def test_the_rack_cuts_the_involute_away_as_far_as_its_corner_goes(z: int, x: float) -> None:
+def test_the_rack_cuts_the_involute_away_as_far_as_its_kink_goes(z: int, x: float) -> None:
     wheel = Involute(form="involute", shift=[x, 0]).involutes(WheelPair(z, 60)).first
-    expected = corner_cuts(z, x)
+    expected = kink_cuts(z, x)
     assert expected > 0
     assert wheel.undercut() == pytest.approx(expected, abs=2e-4)
 
@@ -230,39 +230,39 @@ def test_from_eighteen_teeth_on_no_standard_wheel_is_undercut() -> None:
 
 
 def test_a_pinion_undercut_by_the_rack_is_named_with_the_shift_that_mends_it() -> None:
-    law = shape("involute").law(11, 100)
-    assert ("undercut", 1) in kinds(law)
-    (fault,) = (fault for fault in law.verdict.faults if fault.kind == "undercut")
+    transmission = shape("involute").transmission(11, 100)
+    assert ("undercut", 1) in kinds(transmission)
+    (fault,) = (fault for fault in transmission.verdict.faults if fault.kind == "undercut")
     # the textbook's shift, 1 - z sin^2 / 2, and the textbook's 17.1 teeth
     assert f"{1 - 11 * sin(radians(20)) ** 2 / 2:.4g} modules" in fault.fix
     assert "18 teeth" in fault.fix
-    mended = shape("involute", shift=[0.3566, -0.3566]).law(11, 100)
+    mended = shape("involute", shift=[0.3566, -0.3566]).transmission(11, 100)
     assert mended.verdict
 
 
 @given(st.integers(6, 40), st.integers(20, 150), st.floats(0.7, 1.3))
 @settings(max_examples=50, deadline=None)
 def test_tips_interfere_from_where_the_line_of_action_touches_the_base_circle(z1: int, z2: int, add: float) -> None:
-    law = shape("involute", addendum=add, dedendum=add + 0.25).law(z1, z2)
+    transmission = shape("involute", addendum=add, dedendum=add + 0.25).transmission(z1, z2)
     base, across = z2 / 2 * cos(radians(20)), (z1 + z2) / 2 * sin(radians(20))
     over = z2 / 2 + add - hypot(base, across)
     assume(abs(over) > 1e-9)
-    assert (("interference", 1) in kinds(law)) == (over > 0)
+    assert (("interference", 1) in kinds(transmission)) == (over > 0)
     if over > 0:
-        fit = shape("involute", addendum=[add, round(add - over, 9) - 1e-9], dedendum=add + 0.25).law(z1, z2)
+        fit = shape("involute", addendum=[add, round(add - over, 9) - 1e-9], dedendum=add + 0.25).transmission(z1, z2)
         assert ("interference", 1) not in kinds(fit)
 
 
 def test_teeth_that_come_to_a_point_say_where_their_arc_would_have_to_end() -> None:
     form = shape("involute", shift=[0.9, 0], addendum=[1.3, 1])
-    law = form.law(9, 40)
-    (fault,) = (fault for fault in law.verdict.faults if fault.kind == "pointed")
+    transmission = form.transmission(9, 40)
+    (fault,) = (fault for fault in transmission.verdict.faults if fault.kind == "pointed")
     assert fault.gear == 1
     # the textbook's radius of the point: inv = pi/2z + 2 x tan / z + inv 20
     pointed = bisected(lambda a: inv(a) - (pi / 18 + 2 * 0.9 * tan(radians(20)) / 9 + inv(radians(20))), 0.1, 1.4)
     radius = 4.5 * cos(radians(20)) / cos(pointed)
-    pitch = law.path.pitch
-    psi = float(law.path.at(0.0).psi)
+    pitch = transmission.path.pitch
+    psi = float(transmission.path.at(0.0).psi)
     d = sqrt(radius**2 - (pitch.R1 * cos(psi)) ** 2) - pitch.R1 * sin(psi)
     assert f"{d / cos(psi) / pitch.p:.6g} pitches" in fault.fix
 
@@ -277,7 +277,7 @@ def test_teeth_that_come_to_a_point_say_where_their_arc_would_have_to_end() -> N
     ],
 )
 def test_a_misfit_of_involute_wheels_has_a_name_and_a_remedy(given: dict[str, str], kind: str, words: str) -> None:
-    verdict = shape("involute", **given).law(24, 36).verdict
+    verdict = shape("involute", **given).transmission(24, 36).verdict
     assert verdict.kind == kind
     assert bool(verdict) == (kind == "runs")
     assert words in " ".join(fault.fix for fault in verdict.faults)
@@ -364,25 +364,25 @@ def test_the_literal_extremal_is_that_of_the_table(row: str) -> None:
 
 
 @pytest.mark.parametrize("angle", [None, RIGHT])
-def test_the_literal_extremal_rubs_least_and_makes_no_pair(angle: float | None) -> None:
-    law = shape("least_friction", literal=True).law(24, 36, shaft_angle=angle)
-    assert ("pointed", 1) in kinds(law)
-    assert law.path.contact_ratio == pytest.approx(1, rel=1e-12)
-    c = law.path.at(np.linspace(0.1, 0.9, 5) * law.path.arcs[1])
-    D = law.path.pitch.S(c.d) / c.cos_psi
+def test_the_literal_extremal_rubs_minimum_and_makes_no_pair(angle: float | None) -> None:
+    transmission = shape("least_friction", literal=True).transmission(24, 36, shaft_angle=angle)
+    assert ("pointed", 1) in kinds(transmission)
+    assert transmission.path.contact_ratio == pytest.approx(1, rel=1e-12)
+    c = transmission.path.at(np.linspace(0.1, 0.9, 5) * transmission.path.arcs[1])
+    D = transmission.path.pitch.S(c.d) / c.cos_psi
     np.testing.assert_allclose(D, D[0], rtol=1e-12)
 
 
 @pytest.mark.parametrize("margin", ["0.01", "0.15", "0.3", "0.35", "0.355", "0.362"])
 @pytest.mark.parametrize("wheels", [{}, {"internal": True}, {"shaft_angle": RIGHT}])
-def test_least_friction_keeps_its_greatest_angle_and_its_margin(margin: str, wheels: dict[str, Any]) -> None:
+def test_minimum_friction_keeps_its_maximum_angle_and_its_margin(margin: str, wheels: dict[str, Any]) -> None:
     path = shape("least_friction", margin=margin).path(24, 36, **wheels)
     c = path.at(np.linspace(-path.arcs[0], path.arcs[1], 2001))
     assert degrees(float(c.psi.max())) <= 25 + 1e-9
     assert float(np.minimum(c.U1, c.U2).min()) >= float(margin) - 1e-12
 
 
-def test_the_margin_that_leaves_least_friction_no_path_is_the_one_of_its_lowest_path() -> None:
+def test_the_margin_that_leaves_minimum_friction_no_path_is_the_one_of_its_lowest_path() -> None:
     # eta = u d + d^2 / 2 R, at the greatest angle where d = 2 R (sin psi - u); 1 / cos psi taken along it
     u, R, most = 0.363, 12, sin(radians(25))
     d = (np.arange(200_000) + 0.5) / 200_000 * 2 * R * (most - u)
@@ -396,12 +396,12 @@ def test_the_margin_that_leaves_least_friction_no_path_is_the_one_of_its_lowest_
         path(1.01)
 
 
-def test_teeth_without_backlash_have_no_play_left_by_rounding() -> None:
-    assert shape("involute", pressure_angle="14.5 deg", addendum="0.8").law(24, 36).pair.play == 0
+def test_teeth_without_backlash_have_no_backlash_left_by_rounding() -> None:
+    assert shape("involute", pressure_angle="14.5 deg", addendum="0.8").transmission(24, 36).pair.backlash == 0
 
 
 def test_teeth_that_backlash_leaves_no_thickness_are_told_to_have_less_of_it() -> None:
-    found = shape("involute", backlash="5").law(24, 36).verdict.faults
+    found = shape("involute", backlash="5").transmission(24, 36).verdict.faults
     assert {fault.gear for fault in found} == {1, 2}
     assert all("less backlash" in fault.fix for fault in found)
 
@@ -409,7 +409,7 @@ def test_teeth_that_backlash_leaves_no_thickness_are_told_to_have_less_of_it() -
 # the optimal forms against the tables --------------------------------------------------------------------------------
 
 
-def test_uniform_temperature_has_the_depth_it_is_asked_for() -> None:
+def test_uniform_temperature_has_the_depth_it_is_requested_for() -> None:
     for reading in "abc":
         for wheels in ({}, {"internal": True}, {"shaft_angle": RIGHT}):
             path = shape("uniform_temperature", reading=reading, depth="0.9").path(20, 50, **wheels)
@@ -497,71 +497,73 @@ def test_the_efficiency_of_a_contact_is_that_of_its_forces_on_turning_bodies(
 @settings(max_examples=40, deadline=None)
 def test_the_mean_loss_of_an_involute_is_that_of_the_textbooks(z1: int, z2: int, add1: float, add2: float) -> None:
     """pi (1/z1 + 1/z2) (1 - e + e1^2 + e2^2), two pairs taking half each while there are two."""
-    law = shape("involute", addendum=[add1, add2]).law(z1, z2, 1e-7)
-    p = law.path.pitch.p
-    e2, e1 = (arc / p for arc in law.path.arcs)
+    transmission = shape("involute", addendum=[add1, add2]).transmission(z1, z2, 1e-7)
+    p = transmission.path.pitch.p
+    e2, e1 = (arc / p for arc in transmission.path.arcs)
     assume(e1 + e2 > 1 and max(e1, e2) < 1)
     expected = pi * (1 / z1 + 1 / z2) * (1 - e1 - e2 + e1**2 + e2**2)
-    assert (1 - law.efficiency_mean()) / 1e-7 == pytest.approx(expected, rel=1e-6)
+    assert (1 - transmission.efficiency_mean()) / 1e-7 == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("wheels", [{}, {"internal": True}, {"shaft_angle": RIGHT}])
 def test_the_mean_is_that_of_ten_thousand_instants(wheels: dict[str, Any]) -> None:
     for form in EVERY:
-        law = form.law(19, 47, 0.15, **wheels)
-        S = (np.arange(10_000) + 0.5) / 10_000 * law.period
-        each = law.efficiency(S)
-        assert law.efficiency_mean() == pytest.approx(each.mean(), abs=2e-6)
-        assert law.efficiency_at_constant_load() == pytest.approx(1 / (1 / each).mean(), abs=2e-6)
-        assert law.efficiency_least() == pytest.approx(each.min(), abs=1e-4)
-        again = law.efficiency(S[:100] + 7 * law.period)
+        transmission = form.transmission(19, 47, 0.15, **wheels)
+        S = (np.arange(10_000) + 0.5) / 10_000 * transmission.period
+        each = transmission.efficiency(S)
+        assert transmission.efficiency_mean() == pytest.approx(each.mean(), abs=2e-6)
+        assert transmission.efficiency_at_constant_load() == pytest.approx(1 / (1 / each).mean(), abs=2e-6)
+        assert transmission.efficiency_minimum() == pytest.approx(each.min(), abs=1e-4)
+        again = transmission.efficiency(S[:100] + 7 * transmission.period)
         np.testing.assert_allclose(again, each[:100], atol=1e-12)
 
 
 def test_while_two_pairs_touch_each_takes_half_the_drivers_torque() -> None:
-    law = shape("involute").law(30, 50, 0.1)
-    S = np.linspace(0, law.period, 400)
-    X = law.contacts(S)
+    transmission = shape("involute").transmission(30, 50, 0.1)
+    S = np.linspace(0, transmission.period, 400)
+    X = transmission.contacts(S)
     both = ~np.isnan(X).any(axis=0)
-    assert both.mean() == pytest.approx(law.path.contact_ratio - 1, abs=0.01)
+    assert both.mean() == pytest.approx(transmission.path.contact_ratio - 1, abs=0.01)
     assert not np.isnan(X[0]).any()
-    np.testing.assert_allclose(X[1, both] - X[0, both], law.path.pitch.p, rtol=1e-12)
-    each = efficiency(law.path.pitch, law.path.at(X[:, both]), 0.1)
-    np.testing.assert_allclose(law.efficiency(S[both]), each.mean(axis=0), rtol=1e-14)
+    np.testing.assert_allclose(X[1, both] - X[0, both], transmission.path.pitch.p, rtol=1e-12)
+    each = efficiency(transmission.path.pitch, transmission.path.at(X[:, both]), 0.1)
+    np.testing.assert_allclose(transmission.efficiency(S[both]), each.mean(axis=0), rtol=1e-14)
 
 
 @pytest.mark.parametrize("form", EVERY)
 def test_the_second_wheel_drives_as_the_first_of_the_exchanged_pair_does(form: ConjugateToothForm) -> None:
     for angle in (None, RIGHT):
-        law = form.law(21, 50, 0.1, driver=2, shaft_angle=angle)
-        other = form.law(50, 21, 0.1, shaft_angle=angle)
-        assert law.ratio == other.ratio
-        assert law.efficiency_mean() == pytest.approx(other.efficiency_mean(), abs=1e-10)
+        transmission = form.transmission(21, 50, 0.1, driver=2, shaft_angle=angle)
+        other = form.transmission(50, 21, 0.1, shaft_angle=angle)
+        assert transmission.ratio == other.ratio
+        assert transmission.efficiency_mean() == pytest.approx(other.efficiency_mean(), abs=1e-10)
         S = np.linspace(0, 1, 20)
-        np.testing.assert_allclose(law.efficiency(S), other.efficiency(S), atol=1e-9)
-        np.testing.assert_allclose(law.reversed.efficiency(S), form.law(21, 50, 0.1, shaft_angle=angle).efficiency(S))
+        np.testing.assert_allclose(transmission.efficiency(S), other.efficiency(S), atol=1e-9)
+        np.testing.assert_allclose(
+            transmission.reversed.efficiency(S), form.transmission(21, 50, 0.1, shaft_angle=angle).efficiency(S)
+        )
 
 
 @pytest.mark.parametrize("form", EVERY)
-def test_turned_back_the_law_is_its_mirror_image_and_ahead_by_the_play(form: ConjugateToothForm) -> None:
+def test_turned_back_the_transmission_is_its_mirror_image_and_ahead_by_the_backlash(form: ConjugateToothForm) -> None:
     loose = form.model_copy(update={"backlash": shape("involute", backlash="0.1").backlash})
-    law, back = loose.law(24, 36, 0.1), loose.law(24, 36, 0.1, direction=-1)
+    transmission, back = loose.transmission(24, 36, 0.1), loose.transmission(24, 36, 0.1, direction=-1)
     S = np.linspace(-0.3, 0.5, 33)
-    np.testing.assert_allclose(back.efficiency(-S), law.efficiency(S), atol=1e-12)
-    assert back.efficiency_mean() == pytest.approx(law.efficiency_mean(), abs=1e-13)
-    np.testing.assert_array_equal(law.error(S), 0)
+    np.testing.assert_allclose(back.efficiency(-S), transmission.efficiency(S), atol=1e-12)
+    assert back.efficiency_mean() == pytest.approx(transmission.efficiency_mean(), abs=1e-13)
+    np.testing.assert_array_equal(transmission.error(S), 0)
     np.testing.assert_allclose(back.error(S), 0.1 / 18, rtol=1e-9)
-    assert law.turned_back().error_range() == back.error_range()
-    assert law.error_moments() == (0, 0)
-    assert law.verdict.play == pytest.approx(0.1 / 18, rel=1e-9)
+    assert transmission.reversed_motion().error_range() == back.error_range()
+    assert transmission.error_moments() == (0, 0)
+    assert transmission.verdict.backlash == pytest.approx(0.1 / 18, rel=1e-9)
 
 
 def test_at_zero_a_tooth_of_the_driver_stands_on_the_line_of_centres() -> None:
     for driver in (1, 2):
-        law = shape("uniform_stress").law(24, 36, 0.1, driver=driver)
+        transmission = shape("uniform_stress").transmission(24, 36, 0.1, driver=driver)
         # its flank, a quarter pitch ahead, passed the pitch point a quarter pitch ago
-        S = -law.period / 4
-        X = law.contacts(np.array([S - 1e-9, S + 1e-9]))[0]
+        S = -transmission.period / 4
+        X = transmission.contacts(np.array([S - 1e-9, S + 1e-9]))[0]
         assert X[0] < 0 < X[1]
         assert X[1] < 1e-6
 
@@ -571,36 +573,36 @@ def test_at_zero_a_tooth_of_the_driver_stands_on_the_line_of_centres() -> None:
 def test_every_form_keeps_the_exact_ratio_and_never_gains(
     form: ConjugateToothForm, z1: int, z2: int, friction: float, driver: int
 ) -> None:
-    law = form.law(z1, z2, friction, driver)
-    S = np.linspace(0, 3 * law.period, 101)
-    assert float(law.ratio) == (z1 / z2 if driver == 1 else z2 / z1)
-    assert law.speed_range() == (float(law.ratio), float(law.ratio))
-    np.testing.assert_array_equal(law.error(S), 0)
-    found = law.efficiency(S)
+    transmission = form.transmission(z1, z2, friction, driver)
+    S = np.linspace(0, 3 * transmission.period, 101)
+    assert float(transmission.ratio) == (z1 / z2 if driver == 1 else z2 / z1)
+    assert transmission.speed_range() == (float(transmission.ratio), float(transmission.ratio))
+    np.testing.assert_array_equal(transmission.error(S), 0)
+    found = transmission.efficiency(S)
     assert np.all((found > 0) & (found <= 1))
-    assert found.min() - 1e-9 <= law.efficiency_mean() <= 1 + 1e-12
-    assert law.efficiency_least() <= law.efficiency_mean() + 1e-12
+    assert found.min() - 1e-9 <= transmission.efficiency_mean() <= 1 + 1e-12
+    assert transmission.efficiency_minimum() <= transmission.efficiency_mean() + 1e-12
 
 
 def test_friction_locks_where_the_driver_rubs_the_driven_tooth_inwards() -> None:
     form = shape("involute", pressure_angle="28 deg")
-    law = form.law(24, 36)
-    c = law.path.at(-law.path.arcs[0])
+    transmission = form.transmission(24, 36)
+    c = transmission.path.at(-transmission.path.arcs[0])
     # at the start of approach: cos psi = mu (sin psi + B |d|)
     expected = float(c.cos_psi / (c.sin_psi + abs(c.d) / 18))
-    assert law.locking_friction == pytest.approx(expected, rel=1e-9)
-    below, above = (form.law(24, 36, expected * part) for part in (0.999, 1.001))
+    assert transmission.locking_friction == pytest.approx(expected, rel=1e-9)
+    below, above = (form.transmission(24, 36, expected * part) for part in (0.999, 1.001))
     assert 0 < below.efficiency_mean() < 1
     assert isnan(above.efficiency_mean())
     assert np.isnan(above.efficiency(np.linspace(0, 1, 500))).any()
 
 
 def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() -> None:
-    law = shape("cycloidal", arcs=["0.3", "0.4"]).law(24, 36, 0.1)
-    assert law.verdict.kind == "contact ratio"
-    found = law.efficiency((np.arange(1000) + 0.5) / 1000 * law.period)
+    transmission = shape("cycloidal", arcs=["0.3", "0.4"]).transmission(24, 36, 0.1)
+    assert transmission.verdict.kind == "contact ratio"
+    found = transmission.efficiency((np.arange(1000) + 0.5) / 1000 * transmission.period)
     assert np.isnan(found).mean() == pytest.approx(0.3, abs=2e-3)
-    assert law.efficiency_mean() == pytest.approx(np.nanmean(found), abs=1e-5)
+    assert transmission.efficiency_mean() == pytest.approx(np.nanmean(found), abs=1e-5)
 
 
 # bad input -----------------------------------------------------------------------------------------------------------
@@ -615,7 +617,7 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
         ({"form": "uniform_stress", "pressure_angle": "45 deg"}, "outside 0 to 45"),
         ({"form": "uniform_stress", "arcs": [0, 0]}, "are none"),
         ({"form": "uniform_temperature", "heat": "0.4", "depth": "1"}, "both given"),
-        ({"form": "uniform_temperature", "least_angle": "12 deg"}, "only reading c"),
+        ({"form": "uniform_temperature", "minimum_angle": "12 deg"}, "only reading c"),
         ({"form": "least_friction", "margin": "0"}, "stand still"),
         ({"form": "least_friction", "margin": "1"}, "not below 0.422618"),
         ({"form": "least_friction", "pressure_angle": "5 deg"}, "not below 0.0871557"),
@@ -671,14 +673,14 @@ def test_wheels_that_a_form_does_not_fit_are_refused_with_a_reason(
     given: dict[str, Any], teeth: tuple[int, int], wheels: dict[str, Any], words: str
 ) -> None:
     with pytest.raises(GearTrainError) as caught:
-        shape(**given).law(*teeth, **wheels)
+        shape(**given).transmission(*teeth, **wheels)
     (problem,) = caught.value.problems
     assert words in f"{problem.what} {problem.why}"
     assert problem.fix
 
 
 def test_a_declared_design_distance_is_no_misplacement() -> None:
-    assert shape("uniform_stress", centre_distance="45").law(30, 60).verdict
+    assert shape("uniform_stress", centre_distance="45").transmission(30, 60).verdict
 
 
 # the contact of drawn outlines ----------------------------------------------------------------------------------------
@@ -689,56 +691,58 @@ def test_outlines_in_contact_keep_the_ratio_at_the_design_distance(wheels: dict[
     """First touch of the two outlines, which knows no normals: conjugate to rounding, with the phase and play told."""
     for form in (*EVERY[:2], shape("uniform_temperature", reading="a"), EVERY[-1]):
         loose = form.model_copy(update={"backlash": shape("involute", backlash="0.1").backlash})
-        pair = loose.law(24, 72, **wheels).pair
+        pair = loose.transmission(24, 72, **wheels).pair
         distance = abs(pair.path.pitch.R2) + pair.path.pitch.R1 * (-1 if wheels else 1)
         touch = solve(*pair_outlines(pair), distance, np.linspace(0, 2 * pi / 24, 24))
         expected = np.linspace(0, 2 * pi / 24, 24) / 3 + (pi / 2 - 0.05) / 36
         np.testing.assert_allclose(touch.front.angle, expected, atol=1e-12)
-        np.testing.assert_allclose(touch.play, 0.1 / 36, atol=1e-12)
+        np.testing.assert_allclose(touch.backlash, 0.1 / 36, atol=1e-12)
 
 
 @pytest.mark.parametrize(("wheels", "wide"), [({}, "35.05"), ({"internal": True}, "14.96")])
 def test_a_misplaced_involute_does_what_its_working_circles_say(wheels: dict[str, Any], wide: str) -> None:
-    at_home = shape("involute", addendum="0.8").law(20, 50, **wheels).pair
+    at_home = shape("involute", addendum="0.8").transmission(20, 50, **wheels).pair
     for driver in (1, 2):
-        working = shape("involute", addendum="0.8", centre_distance=wide).law(20, 50, 0.2, driver, **wheels)
+        working = shape("involute", addendum="0.8", centre_distance=wide).transmission(20, 50, 0.2, driver, **wheels)
         found = OffDesignTransmission(at_home, float(wide), 0.2, driver)
         low, high = found.error_range()
         assert high - low < 1e-12
-        assert low == pytest.approx(-working.verdict.play / 2, rel=1e-8)
-        assert found.verdict.play == pytest.approx(working.verdict.play, rel=1e-8)
+        assert low == pytest.approx(-working.verdict.backlash / 2, rel=1e-8)
+        assert found.verdict.backlash == pytest.approx(working.verdict.backlash, rel=1e-8)
         S = np.linspace(0, found.period, 41)
         alone = np.isnan(working.contacts(S)[1:]).all(axis=0)
         assert alone.sum() > 10
         np.testing.assert_allclose(found.efficiency(S)[alone], working.efficiency(S)[alone], rtol=1e-8)
-        back = working.turned_back()
-        assert found.turned_back().error_range()[0] == pytest.approx(low + found.verdict.play, rel=1e-8)
-        np.testing.assert_allclose(found.turned_back().efficiency(-S)[alone], back.efficiency(-S)[alone], rtol=1e-8)
+        back = working.reversed_motion()
+        assert found.reversed_motion().error_range()[0] == pytest.approx(low + found.verdict.backlash, rel=1e-8)
+        np.testing.assert_allclose(found.reversed_motion().efficiency(-S)[alone], back.efficiency(-S)[alone], rtol=1e-8)
 
 
-def test_at_a_wrong_distance_other_teeth_have_a_law_of_their_own() -> None:
-    law = shape("uniform_stress", arcs="0.6", centre_distance="30.03").law(24, 36, 0.1)
-    assert isinstance(law, OffDesignTransmission)
-    low, high = law.error_range()
+def test_at_a_wrong_distance_other_teeth_have_a_transmission_of_their_own() -> None:
+    transmission = shape("uniform_stress", arcs="0.6", centre_distance="30.03").transmission(24, 36, 0.1)
+    assert isinstance(transmission, OffDesignTransmission)
+    low, high = transmission.error_range()
     assert high - low > 1e-6
-    slow, fast = law.speed_range()
+    slow, fast = transmission.speed_range()
     assert slow < 2 / 3 < fast
-    S = np.linspace(0, law.period, 50)
-    assert np.all((law.error(S) >= low - 1e-12) & (law.error(S) <= high + 1e-12))
-    np.testing.assert_allclose((law.angle(S + 1e-6) - law.angle(S - 1e-6)) / 2e-6, law.speed(S), atol=1e-5)
-    mean, rms = law.error_moments()
-    fine = law.error((np.arange(4000) + 0.5) / 4000 * law.period)
+    S = np.linspace(0, transmission.period, 50)
+    assert np.all((transmission.error(S) >= low - 1e-12) & (transmission.error(S) <= high + 1e-12))
+    np.testing.assert_allclose(
+        (transmission.angle(S + 1e-6) - transmission.angle(S - 1e-6)) / 2e-6, transmission.speed(S), atol=1e-5
+    )
+    mean, rms = transmission.error_moments()
+    fine = transmission.error((np.arange(4000) + 0.5) / 4000 * transmission.period)
     assert (mean, rms) == (pytest.approx(fine.mean(), abs=1e-8), pytest.approx(fine.std(), rel=1e-3))
-    design = shape("uniform_stress", arcs="0.6").law(24, 36, 0.1)
-    assert law.efficiency_least() < law.efficiency_mean() < 1
-    assert law.efficiency_mean() == pytest.approx(design.efficiency_mean(), abs=2e-3)
-    assert law.efficiency_at_constant_load() == pytest.approx(law.efficiency_mean(), abs=1e-4)
+    design = shape("uniform_stress", arcs="0.6").transmission(24, 36, 0.1)
+    assert transmission.efficiency_minimum() < transmission.efficiency_mean() < 1
+    assert transmission.efficiency_mean() == pytest.approx(design.efficiency_mean(), abs=2e-3)
+    assert transmission.efficiency_at_constant_load() == pytest.approx(transmission.efficiency_mean(), abs=1e-4)
     for part, locks in ((0.999, False), (1.001, True)):
-        rubbed = OffDesignTransmission(law.pair, 30.03, part * law.locking_friction)
+        rubbed = OffDesignTransmission(transmission.pair, 30.03, part * transmission.locking_friction)
         assert isnan(rubbed.efficiency_mean()) == locks
-    assert law.verdict.play > 0
-    assert law.verdict
-    tight = shape("uniform_stress", arcs="0.6", centre_distance="29.97").law(24, 36)
+    assert transmission.verdict.backlash > 0
+    assert transmission.verdict
+    tight = shape("uniform_stress", arcs="0.6", centre_distance="29.97").transmission(24, 36)
     assert tight.verdict.kind == "jam"
 
 

@@ -15,18 +15,18 @@ from geartrain.teeth.contact import solve
 
 
 @pytest.mark.parametrize("wheels", [(60, 8), (8, 60)])
-def test_clock_teeth_leave_the_play_of_the_standard(wheels: tuple[int, int]) -> None:
+def test_clock_teeth_leave_the_backlash_of_the_standard(wheels: tuple[int, int]) -> None:
     """BS 978: wheels pi/2 and leaves 1.05 modules thick leave 0.52; so do the outlines drawn and turned."""
     sizes = [pi / 2 if z == 60 else 1.05 for z in wheels]
     form = Cycloidal(form="cycloidal", thickness=[f"{each!r}" for each in sizes])
-    law = form.law(*wheels)
-    assert law.verdict.play * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05)
+    transmission = form.transmission(*wheels)
+    assert transmission.verdict.backlash * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05)
     pair = form.pair(WheelPair(*wheels))
     found = solve(*pair_outlines(pair), sum(wheels) / 2, np.linspace(0, 2 * pi / wheels[0], 7))
-    assert found.play * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05, abs=1e-6)
+    assert found.backlash * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05, abs=1e-6)
 
 
-def test_equal_thickness_is_half_the_play_each() -> None:
+def test_equal_thickness_is_half_the_backlash_each() -> None:
     thin = Cycloidal(form="cycloidal", thickness=repr(pi / 2 - 0.05)).pair(WheelPair(12, 40))
     loose = Cycloidal(form="cycloidal", backlash="0.1").pair(WheelPair(12, 40))
     assert thin.halves == pytest.approx(loose.halves)
@@ -62,7 +62,7 @@ def test_racks_by_name_are_those_of_their_heights(name: str, heights: tuple[str,
     assert Involute.model_validate(named.model_dump(mode="json", exclude_unset=True)) == named
 
 
-def test_racks_are_asked_for_once() -> None:
+def test_racks_are_requested_for_once() -> None:
     result = call("mesh", "involute", "--teeth", "20", "40", "--proportions", "stub", "--addendum", "1")
     assert isinstance(result.exception, GearTrainError)
     assert "addendum and proportions are both given" in str(result.exception)

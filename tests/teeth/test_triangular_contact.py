@@ -14,7 +14,7 @@ from sorge import APPROACH, RECESS, Pair, drawn, mp
 
 from geartrain.teeth import Triangular
 from geartrain.teeth.triangular import TriangularSizes, equal_depth, pitch_true
-from geartrain.teeth.triangular.tooth_couple import ToothCouple
+from geartrain.teeth.triangular.tooth_pair import ToothPair
 from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 MANY = [pytest.param(200), pytest.param(4000, marks=pytest.mark.long)]
@@ -81,15 +81,15 @@ def test_both_phases_meet_where_flank_lies_on_flank() -> None:
 def test_angle_speed_and_efficiency_at_50_digits(most: float, number: int) -> None:
     angle, speed, efficiency = Worst(), Worst(), Worst()
     for sizes, pair, random in pairs(3, number, most):
-        couple = ToothCouple(sizes)
+        tooth_pair = ToothPair(sizes)
         for x, phase in positions(pair, random):
             f = random.choice([0.05, 0.2, 0.5])
-            angle.see(abs(couple.angle(phase, x) - pair.angle(x, phase)) / pair.p2, sizes, x)
+            angle.see(abs(tooth_pair.angle(phase, x) - pair.angle(x, phase)) / pair.p2, sizes, x)
             lean = float(pair.lean(x, phase))
             if lean < STEEP:
-                speed.see(relative(couple.speed(phase, x), pair.speed(x, phase)), sizes, x)
+                speed.see(relative(tooth_pair.speed(phase, x), pair.speed(x, phase)), sizes, x)
             if 1 - f * tan(lean) > 0.1 and (eta := pair.efficiency(x, f, phase)) > 0.1:
-                efficiency.see(relative(couple.efficiency(phase, x, f), eta), sizes, x, f)
+                efficiency.see(relative(tooth_pair.efficiency(phase, x, f), eta), sizes, x, f)
     assert angle.within(1e-12), angle
     assert speed.within(1e-12), speed
     assert efficiency.within(1e-12), efficiency
@@ -99,13 +99,15 @@ def test_angle_speed_and_efficiency_at_50_digits(most: float, number: int) -> No
 @pytest.mark.parametrize("most", [1e3, 1e6])
 def test_arrays_give_the_floats_one_by_one(most: float, number: int) -> None:
     for sizes, pair, random in pairs(4, number // 4, most):
-        couple = ToothCouple(sizes)
+        tooth_pair = ToothPair(sizes)
         for x, phase in positions(pair, random):
             many = np.array([x, x])
-            for what in (couple.angle, couple.speed):
+            for what in (tooth_pair.angle, tooth_pair.speed):
                 assert what(phase, many, np) == pytest.approx(what(phase, x), rel=1e-12, abs=1e-14 * sizes.p2)
-            assert couple.slope(phase, many, np) == pytest.approx(couple.slope(phase, x), rel=1e-9)
-            assert couple.efficiency(phase, many, 0.1, np) == pytest.approx(couple.efficiency(phase, x, 0.1), rel=1e-9)
+            assert tooth_pair.slope(phase, many, np) == pytest.approx(tooth_pair.slope(phase, x), rel=1e-9)
+            assert tooth_pair.efficiency(phase, many, 0.1, np) == pytest.approx(
+                tooth_pair.efficiency(phase, x, 0.1), rel=1e-9
+            )
 
 
 @pytest.mark.parametrize("number", MANY)
@@ -148,7 +150,7 @@ def test_radii_by_rule_are_those_of_the_source() -> None:
 def test_the_speed_ratio_is_the_derivative_of_the_driven_angle(phase: str) -> None:
     speed, slope = Worst(), Worst()
     for sizes, pair, random in pairs(7, 40, 1e4):
-        couple = ToothCouple(sizes)
+        tooth_pair = ToothPair(sizes)
         for x, here in positions(pair, random, 4):
             if here != phase or pair.lean(x, phase) > STEEP:
                 continue
@@ -159,8 +161,8 @@ def test_the_speed_ratio_is_the_derivative_of_the_driven_angle(phase: str) -> No
             step = pair.p1 * mp.mpf(10) ** -12
             first = (angle(x + step) - angle(x - step)) / (2 * step)
             second = (angle(x + step) - 2 * angle(mp.mpf(x)) + angle(x - step)) / step**2
-            speed.see(relative(couple.speed(phase, x), first), sizes, x)
-            slope.see(abs(couple.slope(phase, x) - second) / (abs(second) + (1 + first) ** 2), sizes, x)
+            speed.see(relative(tooth_pair.speed(phase, x), first), sizes, x)
+            slope.see(abs(tooth_pair.slope(phase, x) - second) / (abs(second) + (1 + first) ** 2), sizes, x)
     assert speed.within(1e-9), speed
     assert slope.within(1e-9), slope
 
@@ -169,9 +171,9 @@ def test_turned_back_each_wheel_finds_the_other_where_it_was() -> None:
     """f21(-f12(-x)) = x: the front flanks of one direction are the back flanks of the other."""
     worst = Worst()
     for sizes, pair, random in pairs(8, 150, 1e5):
-        back = ToothCouple(sizes.swapped())
+        back = ToothPair(sizes.swapped())
         for x, _ in positions(pair, random):
-            y = -ToothCouple(sizes).contact(-x)
+            y = -ToothPair(sizes).contact(-x)
             tau = float(pair.speed(-x))
             worst.see(abs(back.contact(y) - x) / sizes.p1 * min(1, tau / sizes.ratio), sizes, x)
     assert worst.within(1e-11), worst
@@ -193,7 +195,7 @@ def test_efficiency_is_the_balance_of_forces(phase: str, wheel: int) -> None:
     sides = set()
     for given, _, random in pairs(9, 60, 1e3):
         sizes = given if wheel == 1 else given.swapped()
-        pair, couple = Pair.of(sizes), ToothCouple(sizes)
+        pair, tooth_pair = Pair.of(sizes), ToothPair(sizes)
         for _ in range(4):
             x = near_the_pitch_point(pair, phase, random)
             f = random.uniform(0.02, 0.6)
@@ -206,7 +208,7 @@ def test_efficiency_is_the_balance_of_forces(phase: str, wheel: int) -> None:
             assert abs(eta / pair.efficiency(x, f, phase) - 1) < 1e-35, "the source's equations and its errata"
             assert eta <= 1
             if eta > 0.1:
-                worst.see(relative(couple.efficiency(phase, x, f), eta), sizes, x, f)
+                worst.see(relative(tooth_pair.efficiency(phase, x, f), eta), sizes, x, f)
             sides.add((phase == RECESS and x > 0) or (phase == APPROACH and pair.angle(x, phase) > 0))
     assert sides == {True, False}
     assert worst.within(1e-12), worst
@@ -217,7 +219,7 @@ def test_moment_arms_are_distances_of_the_force_and_the_instant_centre_is_on_the
     """Moments of the vectors over the force; the normal through the contact, where it meets the line of centres."""
     arms, centres, ratios, powers = Worst(), Worst(), Worst(), Worst()
     for sizes, pair, random in pairs(10, 40, 1e3):
-        couple = ToothCouple(sizes)
+        tooth_pair = ToothPair(sizes)
         for _ in range(4):
             x, f = near_the_pitch_point(pair, phase, random), random.uniform(0, 0.6)
             inside = abs(x) < pair.amax and (phase == APPROACH) == (x > pair.matching)
@@ -225,29 +227,38 @@ def test_moment_arms_are_distances_of_the_force_and_the_instant_centre_is_on_the
                 continue
             found = contact(pair, mp.mpf(x), phase, mp.mpf(f))
             force = mp.hypot(*found.force)
-            got = couple.moment_arms(phase, x, f)
+            got = tooth_pair.moment_arms(phase, x, f)
             for arm, moment in zip(got, found.moments, strict=True):
                 arms.see(relative(arm, moment / force), sizes, x, f)
-            centre = couple.instant_centre(phase, x)
+            centre = tooth_pair.instant_centre(phase, x)
             centres.see(relative(centre, found.centre), sizes, x)
             # no sliding there: both wheels carry it along at one speed
             ratios.see(relative(centre / (sizes.D - centre), found.tau), sizes, x)
-            powers.see(abs(couple.speed(phase, x) * got[1] / got[0] / couple.efficiency(phase, x, f) - 1), sizes, x)
+            powers.see(
+                abs(tooth_pair.speed(phase, x) * got[1] / got[0] / tooth_pair.efficiency(phase, x, f) - 1), sizes, x
+            )
     assert arms.error <= 1e-12, arms
     assert centres.error <= 1e-12, centres
     assert ratios.error <= 2e-12, ratios
     assert powers.error <= 1e-14, powers
 
 
-def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_standstill() -> None:
-    law = Triangular.declared({"half_angle": "30 deg", "clearance": "1.032"}).law(15, 60, 0.2)
-    course = contact_course(law, 3)
-    assert course.phases == ("recess",) * 3 + ("standstill",) * 3
-    assert list(course.alpha1[[0, 2, 3, 5]]) == [end for each in law.intervals for end in (each.start, each.end)]
+def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_dwell() -> None:
+    transmission = Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.032"}).transmission(15, 60, 0.2)
+    course = contact_course(transmission, 3)
+    assert course.phases == ("recess",) * 3 + ("dwell",) * 3
+    assert list(course.alpha1[[0, 2, 3, 5]]) == [
+        end for each in transmission.intervals for end in (each.start, each.end)
+    ]
     turning = slice(0, 3)
     power = course.speed_ratio * course.driven_arm / course.driver_arm
     assert power[turning] == pytest.approx(course.efficiency[turning], rel=1e-14)
     assert np.isnan([course.instant_centre[3:], course.driver_arm[3:], course.efficiency[3:]]).all()
     assert (course.speed_ratio[3:] == 0).all()
     assert course.to_dict()["driver_arm"][3:] == [None] * 3
-    assert contact_course(Triangular.declared({"half_angle": "30 deg", "clearance": "1.2"}).law(15, 60)).phases == ()
+    assert (
+        contact_course(
+            Triangular.declared({"half_angle": "30 deg", "clearance_factor": "1.2"}).transmission(15, 60)
+        ).phases
+        == ()
+    )

@@ -18,26 +18,26 @@ from sorge import (
     entry_margin,
     exit_margin,
     first_of_all,
-    least_play,
+    minimum_backlash,
     mp,
     verdict,
 )
 
 from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth, find_window, pitch_true
-from geartrain.teeth.triangular.tooth_couple import ToothCouple
+from geartrain.teeth.triangular.tooth_pair import ToothPair
 
 THIRTY = radians(30)
 TABLE = [
-    (45, 225, 1.00269, 1.0153, "standstill", 1.0196),
+    (45, 225, 1.00269, 1.0153, "dwell", 1.0196),
     (64, 38, 1.00404, 1.0433, "clash", 1.0498),
     (48, 24, 1.00809, 1.0518, "clash", 1.0685),
     (127, 32, 1.00495, 1.0237, "clash", 1.0327),
-    (48, 96, 1.00271, 1.0313, "standstill", 1.0360),
-    (15, 60, 1.01475, 1.0313, "standstill", 1.0660),
+    (48, 96, 1.00271, 1.0313, "dwell", 1.0360),
+    (15, 60, 1.01475, 1.0313, "dwell", 1.0660),
     (57, 15, 1.01494, 1.0329, "clash", 1.0685),
-    (20, 60, 1.01031, 1.0390, "standstill", 1.0622),
-    (17, 140, 1.00914, 1.0150, "standstill", 1.0331),
-    (96, 96, 1.00080, 1.0268, "standstill", 1.0273),
+    (20, 60, 1.01031, 1.0390, "dwell", 1.0622),
+    (17, 140, 1.00914, 1.0150, "dwell", 1.0331),
+    (96, 96, 1.00080, 1.0268, "dwell", 1.0273),
 ]
 
 
@@ -64,7 +64,7 @@ def few_teeth(random: Random, most: int = 12) -> TriangularSizes:
             [equal_depth(z1, z2, beta1, beta2), pitch_true(z1, z2), (1.0, z2 / z1 * random.uniform(0.7, 1.4))]
         )
         sizes = TriangularSizes(z1, z2, *radii, beta1, beta2, 0.0)
-        return sizes.at(sizes.greatest_excess * random.uniform(0.001, 0.999))
+        return sizes.at(sizes.maximum_excess * random.uniform(0.001, 0.999))
 
 
 # ------------------------------------------------------------------------------------------------------- at 50 digits
@@ -103,11 +103,11 @@ def test_switches_and_jumps_at_50_digits(most: float, number: int, of_jumps: flo
         if leans(sizes):
             continue
         number -= 1
-        pair, law = Pair.of(sizes), TriangularTransmission(sizes)
-        path = aligned(pair.path, law.intervals)
-        jumps = {jump.alpha1: jump.value for jump in law.jumps}
+        pair, transmission = Pair.of(sizes), TriangularTransmission(sizes)
+        path = aligned(pair.path, transmission.intervals)
+        jumps = {jump.alpha1: jump.value for jump in transmission.jumps}
         left = float((pair.R1 + pair.R2 - pair.D) / pair.h)
-        for at, (true, interval) in enumerate(zip(path, law.intervals, strict=True)):
+        for at, (true, interval) in enumerate(zip(path, transmission.intervals, strict=True)):
             assert (interval.held is None) == (true.held is None)
             if true.held is not None:
                 assert abs(interval.held - true.held) < 1e-12 * pair.p2
@@ -127,7 +127,7 @@ def test_switches_and_jumps_at_50_digits(most: float, number: int, of_jumps: flo
 
 @pytest.mark.parametrize("number", [pytest.param(90), pytest.param(8000, marks=pytest.mark.long)])
 @pytest.mark.parametrize("teeth", ["few", "any"])
-def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None:
+def test_the_lowest_tooth_pair_is_the_lowest_of_all(teeth: str, number: int) -> None:
     """Found among the ends and the bottom of each piece; told by a scan of every couple."""
     random = Random(12)
     for _ in range(number):
@@ -140,7 +140,7 @@ def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None
         for interval in path.envelope:
             x = interval.start - np.mod(interval.start - t, pair.p1)
             inside = x >= interval.end
-            y = [path.couple.angle(interval.phase, float(at)) for at in x[inside]]
+            y = [path.tooth_pair.angle(interval.phase, float(at)) for at in x[inside]]
             envelope[inside] = np.minimum(envelope[inside], y - np.round((x - t) / pair.p1)[inside] * pair.p2)
         for found in (lowest, envelope):
             assert (np.isfinite(found) == np.isfinite(true)).all(), sizes
@@ -148,15 +148,15 @@ def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None
             assert np.abs(found[there] - true[there]).max(initial=0) < 1e-10 * pair.p2, sizes
 
 
-def test_the_work_does_not_grow_with_the_number_of_couples() -> None:
+def test_the_work_does_not_grow_with_the_number_of_tooth_pairs() -> None:
     """A law needs about as many angles with a thousand couples in reach as with three."""
     counts, reaches = [], []
     for z in (50, 1000, 10**5, 10**6):
-        with patch.object(ToothCouple, "angle", autospec=True, side_effect=ToothCouple.angle) as angle:
-            law = TriangularTransmission(equally_deep(z, 3 * z, THIRTY, 0.2 / z), 0.2)
-            assert law.verdict.kind in ("runs", "jam")
+        with patch.object(ToothPair, "angle", autospec=True, side_effect=ToothPair.angle) as angle:
+            transmission = TriangularTransmission(equally_deep(z, 3 * z, THIRTY, 0.2 / z), 0.2)
+            assert transmission.verdict.kind in ("runs", "jam")
             counts.append(angle.call_count)
-        reaches.append(law.sizes.reach1 / law.sizes.p1)
+        reaches.append(transmission.sizes.reach1 / transmission.sizes.p1)
     assert reaches[-1] > 100 * reaches[0]
     assert max(counts) < 3 * min(counts) < 3000, counts
 
@@ -182,7 +182,7 @@ def lenses(pair: Pair, t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.nda
 
 
 @pytest.mark.parametrize("number", [pytest.param(80), pytest.param(3000, marks=pytest.mark.long)])
-def test_wheels_overlap_where_the_law_forbids_it(number: int) -> None:
+def test_wheels_overlap_where_the_transmission_forbids_it(number: int) -> None:
     """Random positions of both wheels. Free of overlap: between the back flanks and the front flanks.
 
     A pair that jams, clashes or stands still has also pockets and passages, free but beyond its law.
@@ -216,7 +216,7 @@ def test_wheels_overlap_where_the_law_forbids_it(number: int) -> None:
             assert both[sure].all()
             assert (overlapping[both] != lawful).all(), sizes
         kinds[kind] = kinds.get(kind, 0) + 150
-    assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 450, kinds
+    assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "dwell")) >= 450, kinds
 
 
 @pytest.mark.parametrize("number", [pytest.param(60), pytest.param(2000, marks=pytest.mark.long)])
@@ -255,11 +255,11 @@ def test_verdicts_are_those_of_a_scan(number: int) -> None:
         if true:
             assert kind_of(sizes) == true, sizes
             kinds[true] = kinds.get(true, 0) + 1
-    assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 5, kinds
+    assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "dwell")) >= 5, kinds
 
 
 @pytest.mark.parametrize("number", [pytest.param(40), pytest.param(3000, marks=pytest.mark.long)])
-def test_the_play_is_that_of_a_scan(number: int) -> None:
+def test_the_backlash_is_that_of_a_scan(number: int) -> None:
     random = Random(16)
     while number:
         sizes = TriangularSizes(*drawn(random, 200, "near"))
@@ -267,15 +267,15 @@ def test_the_play_is_that_of_a_scan(number: int) -> None:
         if leans(sizes) or contact.verdict.kind not in ("runs", "jam") or contact.dragged.clash:
             continue
         number -= 1
-        assert contact.play == pytest.approx(least_play(Pair.of(sizes, np)), abs=1e-9 * sizes.p2), sizes
+        assert contact.backlash == pytest.approx(minimum_backlash(Pair.of(sizes, np)), abs=1e-9 * sizes.p2), sizes
 
 
-def test_the_angle_lost_is_the_step_up_of_the_first_couple() -> None:
+def test_the_angle_lost_is_the_step_up_of_the_first_tooth_pair() -> None:
     random, number = Random(17), 30
     while number:
         sizes = TriangularSizes(*drawn(random, 200, "near"))
         contact = TriangularTransmission(sizes).contact
-        if leans(sizes) or contact.verdict.kind != "standstill" or contact.dragged.arrested:
+        if leans(sizes) or contact.verdict.kind != "dwell" or contact.dragged.arrested:
             continue
         number -= 1
         pair = Pair.of(sizes)
@@ -322,7 +322,7 @@ def test_beyond_the_reach_the_wheels_are_apart() -> None:
     random = Random(19)
     for _ in range(50):
         sizes = TriangularSizes(*drawn(random, 1e4))
-        beyond = sizes.at(sizes.greatest_excess * (1 + 1e-9))
+        beyond = sizes.at(sizes.maximum_excess * (1 + 1e-9))
         assert not Pair.of(beyond).touches
         assert kind_of(beyond) == "apart"
         assert Pair.of(sizes).touches
@@ -354,8 +354,8 @@ def test_windows_of_ancient_pairs(z1: int, z2: int, jam: float, run: float, kind
     window = find_window(sizes)
     assert (round(1 + window.jam, 5), round(1 + window.run, 4), round(1 + window.reach, 4)) == (jam, run, reach)
     assert window.run_kind == kind
-    assert window.reach == pytest.approx(float(Pair.of(sizes).h / Pair.of(sizes).least), rel=1e-14)
-    assert window.jam == pytest.approx(bisected(least_play, sizes, 1e-6, window.reach / 2), abs=1e-9)
+    assert window.reach == pytest.approx(float(Pair.of(sizes).h / Pair.of(sizes).minimum), rel=1e-14)
+    assert window.jam == pytest.approx(bisected(minimum_backlash, sizes, 1e-6, window.reach / 2), abs=1e-9)
     margin = entry_margin if kind == "clash" else exit_margin
     assert window.run == pytest.approx(bisected(margin, sizes, window.jam, window.reach * 0.9999), abs=1e-9)
 
@@ -375,7 +375,7 @@ def test_15_to_53_and_45_to_225_share_hardly_any_clearance() -> None:
 
 
 def kinds_over_the_reach(sizes: TriangularSizes, steps: int = 40) -> list[tuple[float, str]]:
-    reach = sizes.greatest_excess
+    reach = sizes.maximum_excess
     shares = (np.arange(steps) + 0.5) / steps
     return [(float(share * reach), kind_of(sizes.at(float(share * reach)))) for share in shares]
 
@@ -399,7 +399,7 @@ def test_equally_deep_teeth_of_ancient_shape_run_just_within_their_window(number
 @pytest.mark.parametrize(("z1", "z2", "beta"), [(12, 22, 60.0), (161, 161, 44.6), (20, 20, 70.0)])
 def test_teeth_that_never_jam_have_a_window_from_0(z1: int, z2: int, beta: float) -> None:
     sizes = equally_deep(z1, z2, radians(beta))
-    assert least_play(Pair.of(sizes.at(sizes.greatest_excess * 1e-6), np)) > 0
+    assert minimum_backlash(Pair.of(sizes.at(sizes.maximum_excess * 1e-6), np)) > 0
     assert agree(sizes)
 
 
@@ -425,7 +425,7 @@ def test_some_pairs_run_in_two_stretches_of_clearance(z1: int, z2: int, beta: fl
             assert kind == (verdict(Pair.of(sizes.at(excess), np)) or kind)
         if not seen or seen[-1] != kind:
             seen.append(kind)
-    assert seen[-5:] == ["jam", "runs", "standstill", "runs", "standstill"]
+    assert seen[-5:] == ["jam", "runs", "dwell", "runs", "dwell"]
 
 
 def test_a_pair_that_clashes_before_it_runs_has_a_window() -> None:
@@ -436,15 +436,16 @@ def test_a_pair_that_clashes_before_it_runs_has_a_window() -> None:
 
 
 @pytest.mark.parametrize("number", [pytest.param(6), pytest.param(200, marks=pytest.mark.long)])
-def test_play_grows_with_clearance(number: int) -> None:
+def test_backlash_grows_with_clearance(number: int) -> None:
     """So that one clearance parts the pairs that jam from those that do not."""
     random = Random(21)
     while number:
         sizes = TriangularSizes(*drawn(random, 200, "near"))
-        if leans(sizes.at(sizes.greatest_excess * 1e-3)):
+        if leans(sizes.at(sizes.maximum_excess * 1e-3)):
             continue
         number -= 1
-        plays = [
-            least_play(Pair.of(sizes.at(sizes.greatest_excess * share), np)) for share in np.linspace(0.01, 0.99, 9)
+        backlashes = [
+            minimum_backlash(Pair.of(sizes.at(sizes.maximum_excess * share), np))
+            for share in np.linspace(0.01, 0.99, 9)
         ]
-        assert (np.diff(np.array(plays)[np.isfinite(plays)]) > 0).all(), sizes
+        assert (np.diff(np.array(backlashes)[np.isfinite(backlashes)]) > 0).all(), sizes

@@ -27,13 +27,13 @@ PAIRS: dict[str, tuple[Any, ...]] = {
     "I1": ("pinion", (20, 60), 1.0, (30, 30), 0.05, (3.0000000000, 2.0952175287, 30.51447793),
         (0.010786897, 0.088924258, "clash"), ("runs", 3.371286534)),
     "I2": ("ring", (20, 60), 1.0, (30, 30), 0.05, (3.0000000000, 2.0952175287, 9.74433297),
-        (0.010786897, 0.088924258, "standstill"), ("runs", 9.914372398)),
+        (0.010786897, 0.088924258, "dwell"), ("runs", 9.914372398)),
     "I3": ("pinion", (32, 96), 1.0, (28, 28), 0.03, (3.0000000000, 2.0876372657, 29.28199214),
         (0.009794736, 0.069092742, "clash"), ("runs", 1.471181563)),
     "I4": ("ring", (32, 96), 1.0, (28, 28), 0.03, (3.0000000000, 2.0876372657, 9.38316724),
-        (0.009794736, 0.069092742, "standstill"), ("runs", 4.450806159)),
+        (0.009794736, 0.069092742, "dwell"), ("runs", 4.450806159)),
     "I5": ("pinion", (24, 48), 0.95, (30, 33), 0.06, (1.9000000000, 1.0139405731, 38.73142239),
-        (0.014321533, 0.149974555, "standstill"), ("runs", 2.840653785)),
+        (0.014321533, 0.149974555, "dwell"), ("runs", 2.840653785)),
     "I6": ("ring", (24, 48), 0.95, (30, 33), 0.06, (1.9000000000, 1.0139405731, 19.22631204),
         (0.014321533, 0.149974555, "clash"), ("runs", 5.661414913)),
     "I7": ("pinion", (18, 60), 1.0, (35, 35), 0.04, (3.3333333333, 2.4212868077, 28.67938521),
@@ -45,7 +45,7 @@ PAIRS: dict[str, tuple[Any, ...]] = {
     "I10": ("pinion", (12, 72), 1.0, (30, 30), 0.03, (6.0000000000, 5.1341064222, 32.69855991),
         (0.005111788, 0.048853793, "clash"), ("runs", 2.993838464)),
     "I11": ("ring", (12, 72), 1.0, (30, 30), 0.03, (6.0000000000, 5.1341064222, 5.16570854),
-        (0.005111788, 0.048853793, "standstill"), ("runs", 18.581293813)),
+        (0.005111788, 0.048853793, "dwell"), ("runs", 18.581293813)),
     "I12": ("pinion", (30, 33), 1.0, (30, 30), 0.35, (1.1000000000, 0.1620769746, 55.47249203),
         (0.173914694, 0.596660669, "clash"), ("runs", 5.160111732)),
     "I13": ("ring", (30, 33), 0.94, (30, 30), 0.3, (1.0340000000, 0.1283444342, 71.17862502),
@@ -53,15 +53,15 @@ PAIRS: dict[str, tuple[Any, ...]] = {
     "I14": ("pinion", (20, 21), 1.0, (30, 30), 0.5, (1.0500000000, 0.1277460677, 70.28671877),
         (0.250762024, 0.801381675, "clash"), ("runs", 8.587428917)),
     "I15": ("pinion", (100, 300), None, (30, 30), 0.012, (2.7606548033, 1.7900669078, 17.36961185),
-        (0.005646942, 0.019404935, "standstill"), ("runs", 0.237906855)),
+        (0.005646942, 0.019404935, "dwell"), ("runs", 0.237906855)),
     "I16": ("pinion", (20, 60), 1.0, (30, 30), 0.005, (3.0000000000, 2.1944646748, 43.48657258),
         (0.010786897, 0.088924258, "clash"), ("jam", -0.547580691)),
     "I17": ("pinion", (15, 60), 1.0, (30, 30), 0.072, (4.0000000000, 3.0185628809, 12.74940291),
         (0.008723285, 0.071762606, "clash"), ("clash", 5.690798341)),
     "I18": ("ring", (15, 60), 1.0, (30, 30), 0.072, (4.0000000000, 3.0185628809, 3.16271820),
-        (0.008723285, 0.071762606, "standstill"), ("standstill", 22.744666307)),
+        (0.008723285, 0.071762606, "dwell"), ("dwell", 22.744666307)),
     "I19": ("pinion", (20, 60), 0.9, (30, 30), 0.09, (2.7000000000, 1.7339978433, 18.78584908),
-        (0.004850308, 0.084268555, "standstill"), ("standstill", 4.786567875)),
+        (0.004850308, 0.084268555, "dwell"), ("dwell", 4.786567875)),
     "I20": ("pinion", (20, 60), None, (30, 30), 0.05,
         (2.0276568262, 1.1714915136, 42.07945884), None, ("jam", -4.280903999)),
 }  # fmt: skip
@@ -115,13 +115,13 @@ def pair(name: str) -> TriangularSizes:
 
 @pytest.mark.parametrize("name", PAIRS)
 def test_a_pair_with_a_ring_has_the_reference_sizes_window_and_verdict(name: str) -> None:
-    *_, lengths, window, (kind, play) = PAIRS[name]
+    *_, lengths, window, (kind, backlash) = PAIRS[name]
     sizes = pair(name)
-    law = TriangularTransmission(sizes)
+    transmission = TriangularTransmission(sizes)
     assert (max(sizes.radii) / min(sizes.radii), sizes.D) == pytest.approx(lengths[:2], abs=6e-11)
     assert degrees(sizes.reach1) == pytest.approx(lengths[2], abs=6e-9)
-    assert law.verdict.kind == kind
-    assert degrees(law.verdict.play) == pytest.approx(play, abs=6e-10)
+    assert transmission.verdict.kind == kind
+    assert degrees(transmission.verdict.backlash) == pytest.approx(backlash, abs=6e-10)
     found = find_window(sizes)
     assert bool(found) == (window is not None)
     if window:
@@ -132,19 +132,19 @@ def test_a_pair_with_a_ring_has_the_reference_sizes_window_and_verdict(name: str
 @pytest.mark.parametrize("name", FIGURES)
 def test_a_pair_with_a_ring_has_the_reference_motion_and_losses(name: str) -> None:
     intervals, speeds, peak, errors, (driver, load_), jumps = FIGURES[name]
-    law = TriangularTransmission(pair(name), 0.2)
-    assert {each.phase for each in law.intervals} == {phase for phase, _, _ in intervals}
-    for each in law.intervals:
+    transmission = TriangularTransmission(pair(name), 0.2)
+    assert {each.phase for each in transmission.intervals} == {phase for phase, _, _ in intervals}
+    for each in transmission.intervals:
         ((start, end),) = [ends for phase, *ends in intervals if phase == each.phase]
         assert (degrees(each.start), degrees(each.end)) == pytest.approx((start, end), abs=1.1e-8)
-    assert np.array(law.speed_range()) / float(law.ratio) == pytest.approx(speeds, abs=6e-11)
-    low, high = law.error_range()
+    assert np.array(transmission.speed_range()) / float(transmission.ratio) == pytest.approx(speeds, abs=6e-11)
+    low, high = transmission.error_range()
     assert degrees(high - low) == pytest.approx(peak, abs=6e-11)
-    at = np.degrees(law.error(np.array([0, 0.25, 0.5, 0.75]) * law.period))
+    at = np.degrees(transmission.error(np.array([0, 0.25, 0.5, 0.75]) * transmission.period))
     assert at == pytest.approx(errors, abs=6e-10)
-    assert law.efficiency_mean() == pytest.approx(driver, abs=6e-11)
-    assert law.efficiency_at_constant_load() == pytest.approx(load_, abs=6e-11)
-    assert sorted(jump.value for jump in law.jumps) == pytest.approx(sorted(jumps), abs=6e-10)
+    assert transmission.efficiency_mean() == pytest.approx(driver, abs=6e-11)
+    assert transmission.efficiency_at_constant_load() == pytest.approx(load_, abs=6e-11)
+    assert sorted(jump.value for jump in transmission.jumps) == pytest.approx(sorted(jumps), abs=6e-10)
 
 
 def test_figures_of_pairs_that_do_not_run() -> None:
@@ -184,13 +184,13 @@ def test_a_rack_has_the_reference_figures(name: str) -> None:
     unit = 10**9 / (2 * pi) if driver == "pinion" else 180 / pi
 
     def figures(ring: Literal[0, 2]) -> np.ndarray:
-        law = rack(driver, apart, ring)
-        low, high = law.error_range()
-        at = law.error(np.array([0, 0.25, 0.5, 0.75]) * law.period)
-        speeds = np.array(law.speed_range()) / float(law.ratio)
-        losses = law.efficiency_mean(), law.efficiency_at_constant_load()
-        angles = np.array([high - low, *at, law.verdict.play]) * unit
-        return np.array([*speeds, *angles[:5], *losses, law.jumps[0].value, angles[5]])
+        transmission = rack(driver, apart, ring)
+        low, high = transmission.error_range()
+        at = transmission.error(np.array([0, 0.25, 0.5, 0.75]) * transmission.period)
+        speeds = np.array(transmission.speed_range()) / float(transmission.ratio)
+        losses = transmission.efficiency_mean(), transmission.efficiency_at_constant_load()
+        angles = np.array([high - low, *at, transmission.verdict.backlash]) * unit
+        return np.array([*speeds, *angles[:5], *losses, transmission.jumps[0].value, angles[5]])
 
     flat = np.hstack([np.ravel(each) for each in expected])
     assert (figures(0) + figures(2)) / 2 == pytest.approx(flat, abs=2e-10)
@@ -229,12 +229,12 @@ def test_polygons_touch_where_the_transmission_function_says(driver: str) -> Non
     rng = np.random.default_rng(7)
     for drawn in random_pairs():
         sizes = drawn if driver == "pinion" else drawn.swapped()
-        law = TriangularTransmission(sizes)
+        transmission = TriangularTransmission(sizes)
         S = rng.uniform(0, 2 * pi, 6)
-        upper = -law.error(S) - sizes.ratio * S
-        lower = law.error(-S) - sizes.ratio * S - sizes.p2
+        upper = -transmission.error(S) - sizes.ratio * S
+        lower = transmission.error(-S) - sizes.ratio * S - sizes.p2
         low, high = outlines(sizes).free(-S, (upper + lower) / 2, 0.75 * sizes.p2, 100)
-        assert law.verdict.kind == "runs", sizes
+        assert transmission.verdict.kind == "runs", sizes
         assert np.abs(high - upper).max() < 1e-10, sizes
         assert np.abs(low - lower).max() < 1e-10, sizes
 
@@ -242,14 +242,16 @@ def test_polygons_touch_where_the_transmission_function_says(driver: str) -> Non
 def test_the_inverse_pair_undoes_the_pair() -> None:
     """q_rp(q_pr(S)) = S for mirrored contacts, and a loss is undone by friction of the other sign."""
     for drawn in random_pairs():
-        couple, inverse = (TriangularTransmission(each).contact.path.couple for each in (drawn, drawn.swapped()))
+        tooth_pair, inverse = (
+            TriangularTransmission(each).contact.path.tooth_pair for each in (drawn, drawn.swapped())
+        )
         for x in np.linspace(-0.8, 0.8, 5) * drawn.reach1:
-            y = couple.contact(float(x))
+            y = tooth_pair.contact(float(x))
             assert -inverse.contact(-y) == pytest.approx(x, abs=1e-13)
-            phase = "approach" if couple.approach_angle(x) <= couple.recess_angle(x) else "recess"
+            phase = "approach" if tooth_pair.approach_angle(x) <= tooth_pair.recess_angle(x) else "recess"
             back = "recess" if phase == "approach" else "approach"
-            assert couple.speed(phase, x) * inverse.speed(back, -y) == pytest.approx(1, abs=1e-11)
-            there, here = inverse.efficiency(back, -y, 0.15), couple.efficiency(phase, x, -0.15)
+            assert tooth_pair.speed(phase, x) * inverse.speed(back, -y) == pytest.approx(1, abs=1e-11)
+            there, here = inverse.efficiency(back, -y, 0.15), tooth_pair.efficiency(phase, x, -0.15)
             assert here * there == pytest.approx(1, abs=1e-10)
 
 
@@ -276,12 +278,12 @@ def test_the_force_between_the_axes_is_that_of_the_drawn_normal() -> None:
             }
         )  # fmt: skip
         (mesh,) = train.meshes
-        sizes, found = mesh.law.sizes, []
-        for x in mesh.law.alpha1((np.arange(2_000) + 0.5) / 2_000 * mesh.law.period):
-            here = tooth_pair_pose(mesh.law, float(x))
+        sizes, found = mesh.transmission.sizes, []
+        for x in mesh.transmission.alpha1((np.arange(2_000) + 0.5) / 2_000 * mesh.transmission.period):
+            here = tooth_pair_pose(mesh.transmission, float(x))
             (px, py), (nx, ny) = here.contact, here.normal
             arm = abs((px - here.axis2) * ny - py * nx)
-            centre = mesh.law.contact.path.couple.instant_centre(here.phase, float(x))
+            centre = mesh.transmission.contact.path.tooth_pair.instant_centre(here.phase, float(x))
             assert here.centre[0] == pytest.approx(centre, rel=1e-9)
             found.append(sizes.D * sizes.z2 / 40 / arm * abs(nx))
         assert mesh.separation == pytest.approx(float(np.mean(found)), rel=1e-4)
@@ -364,8 +366,8 @@ def test_a_planetary_set_has_the_reference_motion_and_efficiency(name: str) -> N
 @pytest.mark.parametrize(
     ("form", "counts", "words"),
     [
-        ({"clearance": "1.02"}, (20, 60), ["1.02", "maximum, in a ring", "below 1"]),
-        ({"clearance": "0.98"}, (20, 60, 0), ["0.98", "minimum", "above 1"]),
+        ({"clearance_factor": "1.02"}, (20, 60), ["1.02", "maximum, in a ring", "below 1"]),
+        ({"clearance_factor": "0.98"}, (20, 60, 0), ["0.98", "minimum", "above 1"]),
         ({"window": "0.5", "radii": "equal_depth"}, (20, 60), ["no clearance", "pitch_true"]),
         ({"window": "0.5"}, (60, 60), ["a ring of 60 teeth has no room for a wheel of 60"]),
         ({"excess": "0.9", "radii": "0.9"}, (20, 21), ["overlap all round"]),

@@ -36,21 +36,26 @@ def ask(text: str) -> EvidenceQuestion:
 
 
 def test_all_is_seen_from_the_carrier() -> None:
-    asked = ask(SOUND)
-    problem = asked.problem
-    assert (asked.base.name, asked.base.speed, asked.base.source, asked.base.driven) == ("b", 3, "frame", -3)
+    requested = ask(SOUND)
+    problem = requested.problem
+    assert (requested.base.name, requested.base.speed, requested.base.source, requested.base.driven) == (
+        "b",
+        3,
+        "frame",
+        -3,
+    )
     assert (problem.input.name, problem.input_speed) == ("frame", -3)
     assert [wheel.name for wheel in problem.input.wheels] == ["x"]
     assert [arbor.name for arbor in problem.arbors] == ["p", "n"]
-    assert [dial.least for dial in problem.dials] == [Fraction(-5, 93) - 3, Fraction(1, 2)]
+    assert [dial.minimum for dial in problem.dials] == [Fraction(-5, 93) - 3, Fraction(1, 2)]
     assert problem.coaxial == {frozenset(("frame", "n"))}
 
 
 def test_a_tolerance_and_a_sense_that_is_not_known() -> None:
     dial = ask(changed("1/2", "{value: 1/2, tolerance: 1/4}")).problem.dials[1]
-    assert (dial.least, dial.greatest, dial.signed) == (Fraction(1, 4), Fraction(3, 4), True)
+    assert (dial.minimum, dial.maximum, dial.signed) == (Fraction(1, 4), Fraction(3, 4), True)
     dial = ask(changed("expect: -5/93", "expect: {value: -1/2, tolerance: 1/4}")).problem.dials[0]
-    assert (dial.least, dial.greatest) == (Fraction(-15, 4), Fraction(-13, 4))
+    assert (dial.minimum, dial.maximum) == (Fraction(-15, 4), Fraction(-13, 4))
     text = changed("n: {wheels: {n1: 48}}\n", "\n").replace(", {pair: [frame, n], axis: B}", "")
     text = text.replace("  nodes: {of: n, expect: -5/93}\n", "").replace("  carrier", "  sense: free\n  carrier")
     assert not ask(text).problem.dials[0].signed
@@ -58,9 +63,13 @@ def test_a_tolerance_and_a_sense_that_is_not_known() -> None:
 
 def test_a_link_that_is_driven_besides_the_carrier() -> None:
     text = changed("frame: {wheels: {x: 51}}", "sun: {wheels: {x: 51}}").replace("{b: 3}", "{b: 3, sun: -1/2}")
-    asked = ask(text)
-    assert (asked.base.source, asked.problem.input.name, asked.problem.input_speed) == ("sun", "sun", Fraction(-7, 2))
-    assert asked.problem.coaxial == {frozenset(("sun", "n"))}
+    requested = ask(text)
+    assert (requested.base.source, requested.problem.input.name, requested.problem.input_speed) == (
+        "sun",
+        "sun",
+        Fraction(-7, 2),
+    )
+    assert requested.problem.coaxial == {frozenset(("sun", "n"))}
 
 
 MISTAKES = {
@@ -107,7 +116,7 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_what_cannot_be_asked_is_refused_with_its_line(mistake: str, tmp_path) -> None:
+def test_what_cannot_be_requested_is_refused_with_its_line(mistake: str, tmp_path) -> None:
     text, line, words = MISTAKES[mistake]
     path = tmp_path / "evidence.yaml"
     path.write_text(text, encoding="utf-8")

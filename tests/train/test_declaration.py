@@ -225,7 +225,7 @@ def test_an_output_is_a_link_or_a_link_seen_from_a_link() -> None:
     assert answer["rel"] == Fraction(-24, 18) * 5
 
 
-def test_an_output_is_asked_for_by_its_name() -> None:
+def test_an_output_is_requested_for_by_its_name() -> None:
     train = planetary("inputs: {sun: 7}\noutputs: {rel: {of: planet, relative_to: carrier}}")
     assert train.solve(output="rel")["rel"] == train.solve()["rel"]
     with pytest.raises(GearTrainError, match="no output or link 'nonsense'"):
@@ -342,7 +342,7 @@ def test_the_view_and_the_dial_never_change_a_sign() -> None:
 def test_teeth_and_loads_are_read_now_and_used_later() -> None:
     train = pair(
         """inputs: {a: 1}
-tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}
+tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}
 loads: {b: -3 N m}
 solve_for: a
 rate: 1 turn/s
@@ -360,9 +360,9 @@ errata: [{place: table 1, printed: 5, right: 6, why: arithmetic}]"""
     [
         ("{form: square}", "triangular"),
         ("{half_angle: 30 deg}", "form"),
-        ("{form: triangular, half_angle: 30, clearance: 1.01}", "no unit"),
-        ("{form: triangular, half_angle: 95 deg, clearance: 1.01}", "outside 0 to 90 deg"),
-        ("{form: triangular, half_angle: 30 deg, clearance: 1.01, window: 0.5}", "given 2 times"),
+        ("{form: triangular, half_angle: 30, clearance_factor: 1.01}", "no unit"),
+        ("{form: triangular, half_angle: 95 deg, clearance_factor: 1.01}", "outside 0 to 90 deg"),
+        ("{form: triangular, half_angle: 30 deg, clearance_factor: 1.01, window: 0.5}", "given 2 times"),
         ("{form: triangular, half_angle: 30 deg}", "given 0 times"),
     ],
 )

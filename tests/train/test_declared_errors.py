@@ -26,15 +26,15 @@ def declared(wheel: str = "", pair: str = "", rest: str = "") -> GearTrain:
 
 
 def test_a_bare_value_is_a_fixed_error_and_a_mapping_is_a_distribution() -> None:
-    train = declared("cutting: {placement: 0.5 deg, tip: {normal: 0.1 mm}}").declaration
+    train = declared("cutting: {pitch_deviation: 0.5 deg, tip: {normal: 0.1 mm}}").declaration
     cutting = train.wheels["p"][1].cutting
-    assert cutting.placement.value.base == Fraction(1, 720)
+    assert cutting.pitch_deviation.value.base == Fraction(1, 720)
     assert cutting.tip.normal.base == Fraction(1, 10000)
 
 
 def test_a_plain_number_and_a_percentage_are_fractions_of_the_nominal() -> None:
-    train = declared(rest="cutting: {placement: {normal: 4.13 %}, eccentricity: {uniform: 0.02}}").declaration
-    assert train.cutting.placement.normal.base == Fraction(413, 10000)
+    train = declared(rest="cutting: {pitch_deviation: {normal: 4.13 %}, eccentricity: {uniform: 0.02}}").declaration
+    assert train.cutting.pitch_deviation.normal.base == Fraction(413, 10000)
     assert train.cutting.eccentricity.uniform.unit is None
 
 
@@ -45,19 +45,19 @@ def test_errors_of_the_fit_stand_on_the_pair() -> None:
 
 
 def test_errors_change_no_mean_speed() -> None:
-    assert declared("cutting: {placement: 10 deg, eccentricity: 1 mm}").solve()["b"] == Fraction(-1, 15)
+    assert declared("cutting: {pitch_deviation: 10 deg, eccentricity: 1 mm}").solve()["b"] == Fraction(-1, 15)
 
 
 @pytest.mark.parametrize(
     ("wheel", "rest", "said"),
     [
         ("cutting: {measured: {tip: [0.1 mm, 0, 0]}}", "", "3 measured values of 'tip' for the 4 teeth"),
-        ("cutting: {placement: {normal: 1 deg, uniform: 2 deg}}", "", "gives normal and uniform"),
-        ("cutting: {placement: {}}", "", "gives nothing"),
+        ("cutting: {pitch_deviation: {normal: 1 deg, uniform: 2 deg}}", "", "gives normal and uniform"),
+        ("cutting: {pitch_deviation: {}}", "", "gives nothing"),
         ("cutting: {tip: {normal: -0.1 mm}}", "", "no width of a distribution"),
-        ("cutting: {placement: 3 mm}", "", "is a length"),
+        ("cutting: {pitch_deviation: 3 mm}", "", "is a length"),
         ("cutting: {eccentricity: 3 deg}", "", "is an angle"),
-        ("cutting: {placment: 1 deg}", "", "placement"),
+        ("cutting: {placment: 1 deg}", "", "pitch_deviation"),
         ("cutting: {tip: 0.1 mm, source: who}", "", "no source 'who'"),
         ("", "fitting: {centre: 0.1 mm, source: who}", "no source 'who'"),
     ],

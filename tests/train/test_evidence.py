@@ -36,14 +36,14 @@ def ask(text: str) -> EvidenceQuestion:
     return evidence_question(read_evidence(text))
 
 
-def test_what_is_asked() -> None:
+def test_what_is_requested() -> None:
     problem = ask(SOUND).problem
     assert problem.input.name == "a"
     assert [arbor.name for arbor in problem.arbors] == ["b"]
     assert problem.arbors[0].wheels[0].counts == tuple((count, Fraction(1, 3)) for count in (30, 31, 32))
     assert problem.arbors[0].wheels[1].is_sure
     dial = problem.dials[0]
-    assert (dial.name, dial.least, dial.greatest, dial.signed, dial.place) == (
+    assert (dial.name, dial.minimum, dial.maximum, dial.signed, dial.place) == (
         "sun",
         Fraction(1, 3),
         Fraction(1, 3),
@@ -102,7 +102,7 @@ gears: [{pair: [p, v]}]
 )
 def test_what_is_said_of_a_speed(said: str, limits: tuple[str, str], signed: bool) -> None:
     dial = ask("unit: {per: 1 d}\n" + changed("expect: 1/3", said)).problem.dials[0]
-    assert (dial.least, dial.greatest, dial.signed) == (Fraction(limits[0]), Fraction(limits[1]), signed)
+    assert (dial.minimum, dial.maximum, dial.signed) == (Fraction(limits[0]), Fraction(limits[1]), signed)
 
 
 def test_arbors_on_one_axis_do_not_mesh() -> None:
@@ -114,7 +114,7 @@ def test_arbors_on_one_axis_do_not_mesh() -> None:
 def test_the_sense_may_be_given_up() -> None:
     text = changed("1/3", "-1/3").replace("reconstruct:\n", "reconstruct:\n  sense: free\n")
     dial = ask(text).problem.dials[0]
-    assert (dial.least, dial.greatest, dial.signed) == (Fraction(1, 3), Fraction(1, 3), False)
+    assert (dial.minimum, dial.maximum, dial.signed) == (Fraction(1, 3), Fraction(1, 3), False)
 
 
 MISTAKES = {
@@ -171,7 +171,7 @@ def test_a_mistake_is_told_with_its_line(mistake: str, tmp_path: Path) -> None:
         assert f"evidence.yaml:{line}" in said, said
 
 
-def test_what_plays_no_part_is_told() -> None:
+def test_what_backlashes_no_part_is_told() -> None:
     text = changed("      w: 40", "      w: {teeth: 40, module: 0.5 mm}")
     text = text.replace("expect: 1/3", "expect: 1/3, targets: [{period: 3 d}], published: 0.3333")
     text = text.replace("published: 0.3333", "published: {value: 0.3333}")
@@ -183,7 +183,7 @@ def test_what_plays_no_part_is_told() -> None:
     assert "published of 'sun'" in told
 
 
-def test_the_number_of_wheels_and_idlers_may_be_asked_otherwise() -> None:
+def test_the_number_of_wheels_and_idlers_may_be_requested_otherwise() -> None:
     evidence = read_evidence(SOUND)
     assert evidence_question(evidence, wheels=0).problem.additions.wheels == 0
     assert evidence_question(evidence, idlers=True).problem.idlers
@@ -284,7 +284,7 @@ def test_a_whole_file_of_evidence() -> None:
     assert metonic.place is None
     assert saros.place == "g"
     half = Fraction(940, 4237) / 446
-    assert (saros.least, saros.greatest) == (Fraction(-940, 4237) - half, Fraction(-940, 4237) + half)
+    assert (saros.minimum, saros.maximum) == (Fraction(-940, 4237) - half, Fraction(-940, 4237) + half)
     assert problem.meshes == {frozenset(("e4", "f1"))}
     assert problem.additions.arbors == 2
     assert len(found.unused) == 2

@@ -41,8 +41,8 @@ def test_a_law_rests_at_its_value_at_no_speed() -> None:
         "{law: dokos}": 0.53,
         "{law: table, speeds: [0 m/s, 1 m/s], coefficients: [0.25, 0.1]}": 0.25,
     }
-    for law, static in at_rest.items():
-        train = declared(f"friction: {law}")
+    for transmission, static in at_rest.items():
+        train = declared(f"friction: {transmission}")
         found = train.friction_of(train.gears[0])
         assert found.sliding is None
         assert found.law is not None

@@ -42,9 +42,9 @@ def test_a_posterior_and_a_reconstruction_begin_with_the_same_chances() -> None:
     }
     joints = {"revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]}, "gears": ["p ~ q"]}
     prior = infer_counts(declare({**parts, **joints})).posteriors["q"].doubt
-    asked = evidence_question(declare({**parts, "reconstruct": {}})).problem
-    assert dict(zip(prior.counts, prior.priors, strict=True)) == dict(asked.arbors[0].wheels[0].counts)
-    assert dict(asked.arbors[0].wheels[0].counts) == {20: Fraction(4, 7), 22: Fraction(3, 7)}
+    requested = evidence_question(declare({**parts, "reconstruct": {}})).problem
+    assert dict(zip(prior.counts, prior.priors, strict=True)) == dict(requested.arbors[0].wheels[0].counts)
+    assert dict(requested.arbors[0].wheels[0].counts) == {20: Fraction(4, 7), 22: Fraction(3, 7)}
 
 
 @pytest.mark.parametrize(("weights", "fault"), [((1, -1), "one is negative"), ((0, 0), "all are 0"), ((0, 1), None)])

@@ -16,7 +16,7 @@ from geartrain.dynamics import find_torque_period
 from geartrain.report import to_markdown
 from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, describe_budget, find_budget
 from geartrain.workshop.budget.crank_load import YEAR, find_crank_load, natural_turns
-from geartrain.workshop.budget.motion_causes import equation_of_centre, least_difference
+from geartrain.workshop.budget.motion_causes import equation_of_centre, minimum_difference
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}
@@ -58,7 +58,7 @@ def test_days_are_degrees_at_the_pointers_own_speed(freeth: TrainBudget) -> None
     assert freeth["synodic month"].degrees_per_day == pytest.approx(360 * 235 / 19 / float(TROPICAL_YEAR), rel=1e-12)
 
 
-def test_the_drift_overtakes_the_greatest_other_cause_when_the_years_say(freeth: TrainBudget) -> None:
+def test_the_drift_overtakes_the_maximum_other_cause_when_the_years_say(freeth: TrainBudget) -> None:
     moon = freeth["moon"]
     years = moon.overtaken_after_years
     assert years is not None
@@ -124,7 +124,7 @@ def test_a_pointer_that_turns_against_the_crank_has_the_same_anomaly(freeth: Tra
 def test_the_true_motion_at_any_phase_leaves_nothing() -> None:
     M = np.arange(4096) * 2 * pi / 4096
     for shift in (0.0, 1.0, 4.5):
-        assert np.ptp(least_difference(equation_of_centre(M + shift, 0.0549), 0.0549)) < 1e-8
+        assert np.ptp(minimum_difference(equation_of_centre(M + shift, 0.0549), 0.0549)) < 1e-8
 
 
 # ------------------------------------------------------------------------------------------------- teeth, lost motion
@@ -155,12 +155,12 @@ def test_the_teeth_of_a_train_without_pins_ripple_as_motion_says() -> None:
     assert teeth.rms == pytest.approx(degrees(run.statistics[0].rms), rel=1e-9)
 
 
-def test_lost_motion_of_involutes_is_the_sum_of_their_play_at_the_pointer() -> None:
+def test_lost_motion_of_involutes_is_the_sum_of_their_backlash_at_the_pointer() -> None:
     form = "tooth_form: {form: involute, pressure_angle: 20 deg, backlash: 0.02}"
     train = declare(f"[{{pair: [p, q], {form}}}, {{pair: [r, s], {form}}}]")
     pointer = find_budget(train, BudgetQuestion(**SHORT))["c"]
     # play in pitches of the driven wheel: 360/60 deg a pitch, a third of it at c; and 360/54 deg
-    first, second = (mesh.play for mesh in train.meshes)
+    first, second = (mesh.backlash for mesh in train.meshes)
     assert first > 0 < second
     wanted = first * 360 / 60 / 3 + second * 360 / 54
     assert pointer["lost motion"].degrees == pytest.approx(wanted, rel=1e-9)
@@ -175,9 +175,9 @@ def test_lost_motion_of_one_triangular_pair_is_the_room_between_its_envelopes() 
     pair = Pair(sizes.z1, sizes.z2, sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.excess, np)
     # the reference from the closure equations: U(t) - L(t) with L(t) = -U(-t) - p2, over one pitch
     t = np.linspace(0.0, pair.p1, 2001)
-    play = np.degrees(first_of_all(pair, t) + first_of_all(pair, -t) + pair.p2)
-    assert lost.degrees == pytest.approx(play.max(), rel=1e-3)
-    assert lost.rms == pytest.approx(sqrt(np.mean(play**2)), rel=1e-3)
+    backlash = np.degrees(first_of_all(pair, t) + first_of_all(pair, -t) + pair.p2)
+    assert lost.degrees == pytest.approx(backlash.max(), rel=1e-3)
+    assert lost.rms == pytest.approx(sqrt(np.mean(backlash**2)), rel=1e-3)
 
 
 def test_the_ripple_of_each_pair_alone_is_its_own_range_at_the_pointer() -> None:
@@ -211,7 +211,7 @@ def test_a_train_with_teeth_on_some_pairs_says_on_how_many() -> None:
     assert teeth.note.startswith("1 of 2 pairs")
 
 
-def test_teeth_without_a_declared_backlash_have_no_known_play() -> None:
+def test_teeth_without_a_declared_backlash_have_no_known_backlash() -> None:
     form = "tooth_form: {form: involute, pressure_angle: 20 deg}"
     pointer = find_budget(declare(f"[{{pair: [p, q], {form}}}, {{pair: [r, s], {form}}}]"), BudgetQuestion(**SHORT))[
         "c"
@@ -230,8 +230,8 @@ def test_followers_whose_pins_have_no_size_are_no_perfect_pointers() -> None:
 
 
 def test_teeth_reach_a_pointer_through_a_follower_whose_mean_they_leave_alone() -> None:
-    asked = BudgetQuestion(outputs=("venus", "venus epicycle"), **SHORT)
-    budget = find_budget(geartrain.load("freeth-2021-teeth"), asked)
+    requested = BudgetQuestion(outputs=("venus", "venus epicycle"), **SHORT)
+    budget = find_budget(geartrain.load("freeth-2021-teeth"), requested)
     pointer, pin = budget["venus"]["teeth"], budget["venus epicycle"]["teeth"]
     # a small turn of a pin at radius d moves a follower whose axis is i away at most d/(i - d) times as far
     assert pin.degrees is not None is not pointer.degrees
@@ -248,18 +248,20 @@ def test_a_pointer_that_reads_no_time_has_no_days() -> None:
     assert middle.drifts[0].ppm == 0.0
 
 
-@pytest.mark.parametrize("asked", [{"span_days": 0.0}, {"samples": 1}, {"turns": 0.0}, {"span_days": float("nan")}])
-def test_questions_without_meaning_are_refused(asked: dict[str, float]) -> None:
+@pytest.mark.parametrize("requested", [{"span_days": 0.0}, {"samples": 1}, {"turns": 0.0}, {"span_days": float("nan")}])
+def test_questions_without_meaning_are_refused(requested: dict[str, float]) -> None:
     with pytest.raises(geartrain.GearTrainError):
-        BudgetQuestion(**asked)
+        BudgetQuestion(**requested)
 
 
 # ------------------------------------------------------------------------------------------------------ cutting, crank
 
 
 def cut(placement: str, trials: int = 64) -> PointerBudget:
-    asked = BudgetQuestion(outputs=("sun",), cutting=(f"placement={placement}",), trials=trials, clearances=(), **SHORT)
-    return find_budget(geartrain.load("moon-triangular"), asked)["sun"]
+    requested = BudgetQuestion(
+        outputs=("sun",), cutting=(f"pitch_deviation={placement}",), trials=trials, clearances=(), **SHORT
+    )
+    return find_budget(geartrain.load("moon-triangular"), requested)["sun"]
 
 
 def test_wheels_cut_nearly_true_add_nothing_to_the_ripple_of_even_teeth() -> None:
@@ -284,15 +286,17 @@ def test_cutting_of_one_pair_is_as_great_as_the_places_of_its_teeth() -> None:
 
 
 def test_jams_are_counted_over_clearance() -> None:
-    asked = BudgetQuestion(outputs=("sun",), cutting=("placement=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT)
-    jams = find_budget(geartrain.load("moon-triangular"), asked).jams
+    requested = BudgetQuestion(
+        outputs=("sun",), cutting=("pitch_deviation=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT
+    )
+    jams = find_budget(geartrain.load("moon-triangular"), requested).jams
     assert [each.clearance for each in jams] == [0.1, 0.9]
     assert jams[0].events["jam"].count > jams[1].events["jam"].count
 
 
-def test_cutting_that_is_asked_for_and_cannot_be_tried_is_refused() -> None:
+def test_cutting_that_is_requested_for_and_cannot_be_tried_is_refused() -> None:
     with pytest.raises(geartrain.GearTrainError, match="no triangular teeth"):
-        find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("placement=1 %",), **SHORT))
+        find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("pitch_deviation=1 %",), **SHORT))
 
 
 def test_the_cranks_torque_is_the_loads_over_the_efficiency() -> None:
@@ -324,8 +328,8 @@ def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget)
 def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
     from geartrain.workshop import budget_figure
 
-    asked = BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT)
-    budget = find_budget(geartrain.load("freeth-2021-teeth"), asked)
+    requested = BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT)
+    budget = find_budget(geartrain.load("freeth-2021-teeth"), requested)
     axes = budget_figure(budget).axes[0]
     names = [label.get_text() for label in axes.get_yticklabels()]
     assert names == sorted(names, key=lambda name: -budget[name].total)
@@ -435,7 +439,7 @@ inputs: {day: 1}
 # ---------------------------- the torque at the crank over a train's natural run, and a clock's weight against its drum
 
 
-ASKED = BudgetQuestion(turns=1, samples=20, trials=4)
+REQUESTED = BudgetQuestion(turns=1, samples=20, trials=4)
 CLOCK = """
 extends: longcase-clock
 name: clock
@@ -448,18 +452,18 @@ PULL = 5.9 * 9.80665 * 0.0127
 
 
 def test_a_weight_gives_its_torque_at_the_drum_and_the_escape_wheel_gets_what_teeth_leave() -> None:
-    weight = find_budget(geartrain.load(CLOCK), ASKED).crank.weight
+    weight = find_budget(geartrain.load(CLOCK), REQUESTED).crank.weight
     assert weight is not None
     assert (weight.link, weight.wheel, weight.needed, weight.suffices) == ("great", "escape", None, None)
     assert weight.torque == pytest.approx(PULL, rel=1e-12)
     # 720 turns of the escape wheel to one of the drum's
-    assert [weight.mean, weight.least] == pytest.approx([PULL / 720 * 0.9**3] * 2, rel=1e-12)
+    assert [weight.mean, weight.minimum] == pytest.approx([PULL / 720 * 0.9**3] * 2, rel=1e-12)
     assert weight.efficiency == pytest.approx(0.9**3, rel=1e-12)
 
 
 @pytest.mark.parametrize(("drag", "enough"), [("0.6 N mm", True), ("0.8 N mm", False)])
 def test_a_weight_is_set_against_what_the_train_needs(drag: str, enough: bool) -> None:
-    found = find_budget(geartrain.load(CLOCK + f"links: {{escape: {{bearing: {drag}}}}}"), ASKED)
+    found = find_budget(geartrain.load(CLOCK + f"links: {{escape: {{bearing: {drag}}}}}"), REQUESTED)
     weight, over_turn = found.crank.weight, found.crank.over_turn
     assert weight is not None
     assert over_turn is not None
@@ -476,4 +480,4 @@ def test_a_year_of_the_crank_stands_in_the_budget() -> None:
     crank = find_budget(train, BudgetQuestion(("saturn",), turns=1, samples=20)).crank
     assert crank.over_turn is not None
     assert (crank.link, crank.over_turn.span, crank.weight) == ("a", 1, None)
-    assert crank.over_turn.greatest_torque == pytest.approx(2.6959e-5, abs=5e-10)
+    assert crank.over_turn.maximum_torque == pytest.approx(2.6959e-5, abs=5e-10)

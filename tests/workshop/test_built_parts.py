@@ -313,8 +313,8 @@ def thickness(pillar: Any) -> float:
 def test_pillars_are_thin_beside_their_plates_and_stiff_enough(name: str) -> None:
     """Beams held at both ends, which one end leaves sideways: F l^3 / 12 E I a pillar (Roark, table 8.1, case 1b)."""
     found = parts_of_kind(name, "pillar")
-    corners = np.array(parts_of_kind(name, "frame")[0].outlines[0]).reshape(-1, 2)
-    assert all(thickness(pillar) <= max(3.0, 0.062 * dist(np.ptp(corners, axis=0), (0, 0))) for pillar in found)
+    kinks = np.array(parts_of_kind(name, "frame")[0].outlines[0]).reshape(-1, 2)
+    assert all(thickness(pillar) <= max(3.0, 0.062 * dist(np.ptp(kinks, axis=0), (0, 0))) for pillar in found)
     stiffness = 0.0
     for pillar in found:
         length = max(high - low for low, high, _, _ in pillar.bands)
@@ -417,8 +417,8 @@ PLATE = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]
 
 def rectangle(passage: Passage) -> shapely.Polygon:
     (x, y), (u, v), length, width = passage.middle, passage.way, passage.length, passage.width
-    corners = [(-length, -width), (length, -width), (length, width), (-length, width)]
-    return shapely.Polygon([(x + a * u - b * v, y + a * v + b * u) for a, b in corners])
+    kinks = [(-length, -width), (length, -width), (length, width), (-length, width)]
+    return shapely.Polygon([(x + a * u - b * v, y + a * v + b * u) for a, b in kinks])
 
 
 @given(st.floats(0, 60), st.floats(0, 40), st.floats(0, 2 * pi), st.floats(1, 60), st.floats(0.5, 4), st.floats(2, 9))
@@ -429,12 +429,12 @@ def test_what_is_left_of_a_plate_is_what_a_foreign_library_leaves(
     passage = Passage((x, y), (cos(turn), sin(turn)), length, width)
     whole = around(PLATE, edge)
     material = shapely.Polygon(whole.flattened(0.005))
-    corners = [shapely.Point(corner) for corner in rectangle(passage).exterior.coords[:4]]
-    assume(all(material.exterior.distance(corner) > 1.01 for corner in corners))
+    kinks = [shapely.Point(kink) for kink in rectangle(passage).exterior.coords[:4]]
+    assume(all(material.exterior.distance(kink) > 1.01 for kink in kinks))
     outline, windows = with_passages(whole, [passage])
     found = shapely.Polygon(outline.flattened(0.005), [each.flattened(0.005) for each in windows])
     assert found.is_valid
-    inside = [material.covers(corner) for corner in corners]
+    inside = [material.covers(kink) for kink in kinks]
     cut = material.difference(rectangle(passage))
     if all(inside) or inside in ([True, False, False, True], [False, True, True, False]):
         assert found.symmetric_difference(cut).area < 1e-6 * material.area

@@ -106,12 +106,12 @@ class Meshed:
     def __init__(self, work: SolidModel, gear: Any) -> None:
         first, second = gear.pair
         mesh = next((each for each in work.sized.meshes if each.name == gear.name), None)
-        self.law = None
+        self.transmission = None
         if mesh is not None and mesh.form == "triangular":
-            first, second, self.law = mesh.driver, mesh.driven, mesh.law
+            first, second, self.transmission = mesh.driver, mesh.driven, mesh.transmission
         self.uneven = ()  # laws of both flanks of teeth that are not conjugate
         if isinstance(mesh, OutlineMesh):
-            first, second, self.uneven = mesh.driver, mesh.driven, (mesh.law, mesh.coast)
+            first, second, self.uneven = mesh.driver, mesh.driven, (mesh.transmission, mesh.coast)
         if work.blanks.wheels[first].kind == "ring":
             first, second = second, first
         one, other = (work.blanks.wheels[each] for each in (first, second))
@@ -152,9 +152,9 @@ class Meshed:
 
     def overlap(self, t: float, lag: float = 0.0, back: bool = False) -> float:
         """Common area when the first wheel is t on, the second `lag` (rad) ahead of the middle of its play."""
-        if self.law is not None:
-            law = self.law.turned_back() if back else self.law
-            turned = float(law.angle(np.array(t))) + lag
+        if self.transmission is not None:
+            transmission = self.transmission.reversed_motion() if back else self.transmission
+            turned = float(transmission.angle(np.array(t))) + lag
             turn = turned if self.ring else pi - turned
         elif self.ring:
             turn = pi / self.z2 + t * self.z1 / self.z2 + lag
@@ -178,15 +178,15 @@ class Meshed:
 
     def flanks(self, t: float) -> list[float]:
         """Where teeth that are not conjugate meet, `lag` of either flank; a chord of an outline short of it."""
-        middle = self.uneven[0].gears.play / self.z2 if self.uneven else 0.0
-        errors = [float(law.error(np.array(t))) - middle for law in self.uneven]
+        middle = self.uneven[0].gears.backlash / self.z2 if self.uneven else 0.0
+        errors = [float(transmission.error(np.array(t))) - middle for transmission in self.uneven]
         return [error + short for error, short in zip(errors, (1e-4, -1e-4), strict=False)]
 
     def positions(self, count: int) -> Iterator[float]:
         """Through a pitch of the first wheel, none of them a symmetric one."""
         return (tau / self.z1 * (k + 0.137) / count for k in range(count))
 
-    def play(self, t: float) -> float:
+    def backlash(self, t: float) -> float:
         """How far (mm on the pitch circle) the second wheel is free, found by turning it until it bites."""
         ends = []
         for way in (1, -1):
@@ -200,36 +200,36 @@ class Meshed:
 
 
 @cache
-def sizes(name: str, play: float) -> tuple[tuple[str, Meshed, float], ...]:
+def sizes(name: str, backlash: float) -> tuple[tuple[str, Meshed, float], ...]:
     """Every pair of a train whose wheels are cut and stand where they mesh, with the play that the README states."""
     train = shipped.train(name)
     thinned = not any(mesh.form == "triangular" for mesh in train.meshes)
-    work = workpiece(name, **({"backlash": play} if thinned else {}))
-    plays = {each.pair: each for each in work.blanks.plays}
+    work = workpiece(name, **({"backlash": backlash} if thinned else {}))
+    backlashes = {each.pair: each for each in work.blanks.backlashes}
     wheels = train.declaration.wheels
     gears = [
         gear
         for gear in train.declaration.gears
-        if gear.name in plays
+        if gear.name in backlashes
         and gear.name not in work.layout.apart
         and not any(wheels[wheel][1].flexible for wheel in gear.pair)  # bent, not rolled, into its ring
     ]
-    return tuple((gear.name, Meshed(work, gear), plays[gear.name].length) for gear in gears)
+    return tuple((gear.name, Meshed(work, gear), backlashes[gear.name].length) for gear in gears)
 
 
-def overlapping(trains: Iterable[str], play: float, count: int) -> tuple[int, list[str]]:
+def overlapping(trains: Iterable[str], backlash: float, count: int) -> tuple[int, list[str]]:
     """How many different pairs were turned, and those whose wheels overlap."""
     seen: set[Any] = set()
     wrong = []
     for name in trains:
-        for pair, meshed, given in sizes(name, play):
+        for pair, meshed, given in sizes(name, backlash):
             if meshed.key in seen:
                 continue
             seen.add(meshed.key)
-            side = (1 - 1e-7) * given / 2 / meshed.R2 if meshed.law is None else 0.0
+            side = (1 - 1e-7) * given / 2 / meshed.R2 if meshed.transmission is None else 0.0
             for t in meshed.positions(count):
                 for lag in meshed.flanks(t) or {side, -side}:
-                    both = (False, True) if meshed.law is not None else (False,)
+                    both = (False, True) if meshed.transmission is not None else (False,)
                     worst = max(meshed.overlap(t, lag, back) for back in both)
                     wrong += [f"{name} {pair} at {degrees(t):.4f} deg: {worst:.3g} mm2"] if worst > NOTHING else []
     return len(seen), wrong
@@ -292,9 +292,9 @@ def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
 
 def beside(points: np.ndarray, vertices: np.ndarray, bulges: np.ndarray) -> np.ndarray:
     """How far each point is from a line of straight edges and arcs."""
-    at, corners = points @ (1, 1j), vertices @ (1, 1j)
-    best = np.abs(at[:, None] - corners).min(axis=1)
-    for (a, b), bulge in zip(pairwise(corners), bulges[: len(corners) - 1], strict=True):
+    at, kinks = points @ (1, 1j), vertices @ (1, 1j)
+    best = np.abs(at[:, None] - kinks).min(axis=1)
+    for (a, b), bulge in zip(pairwise(kinks), bulges[: len(kinks) - 1], strict=True):
         if bulge:
             centre = a + (b - a) / 2 * (1 + 1j / np.tan(2 * np.arctan(bulge)))
             spoke, sweep = at - centre, 4 * np.arctan(bulge)
@@ -333,7 +333,7 @@ def test_no_two_wheels_of_a_shipped_train_overlap_as_they_turn(names: list[str],
     assert wrong == []
 
 
-def test_no_two_wheels_that_are_cut_with_play_overlap_at_either_end_of_it() -> None:
+def test_no_two_wheels_that_are_cut_with_backlash_overlap_at_either_end_of_it() -> None:
     """One train of each form that can be thinned, of standard teeth a ring and pairs that jam too."""
     count, wrong = overlapping(PLAYED, 0.08, 3)
     assert count == 20
@@ -341,38 +341,38 @@ def test_no_two_wheels_that_are_cut_with_play_overlap_at_either_end_of_it() -> N
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("play", [0.0, 0.08])
-def test_no_two_wheels_overlap_at_many_positions(play: float) -> None:
-    _, wrong = overlapping(TRAINS, play, 12)
+@pytest.mark.parametrize("backlash", [0.0, 0.08])
+def test_no_two_wheels_overlap_at_many_positions(backlash: float) -> None:
+    _, wrong = overlapping(TRAINS, backlash, 12)
     assert wrong == []
 
 
-@pytest.mark.parametrize("play", [0.0, 0.02, 0.08])
+@pytest.mark.parametrize("backlash", [0.0, 0.02, 0.08])
 @pytest.mark.parametrize(
     "name", ["planetary-24-18-60", "planetary-24-18-60-involute", "longcase-clock-cycloidal", "longcase-clock"]
 )
-def test_the_play_that_is_measured_is_the_play_that_was_asked_for(name: str, play: float) -> None:
-    found = sizes(name, play)
+def test_the_backlash_that_is_measured_is_the_backlash_that_was_requested_for(name: str, backlash: float) -> None:
+    found = sizes(name, backlash)
     assert found
-    assert all(stated == pytest.approx(play, abs=1e-9) for _, _, stated in found)
+    assert all(stated == pytest.approx(backlash, abs=1e-9) for _, _, stated in found)
     for pair, meshed in {meshed.key: (pair, meshed) for pair, meshed, _ in found}.values():
-        least = min(meshed.play(t) for t in meshed.positions(3))
-        assert play - 1e-5 <= least <= play + CHORDS * meshed.module, pair
+        minimum = min(meshed.backlash(t) for t in meshed.positions(3))
+        assert backlash - 1e-5 <= minimum <= backlash + CHORDS * meshed.module, pair
 
 
 @pytest.mark.parametrize("form", ["involute", "cycloidal", "lantern", "uniform_stress"])
-def test_declared_play_is_cut_in_its_own_unit_where_a_module_is_asked_for(form: str) -> None:
+def test_declared_backlash_is_cut_in_its_own_unit_where_a_module_is_requested_for(form: str) -> None:
     """`backlash: 0.1 mm` has nothing to be compared with until --module says what a module is."""
     train = declared(f"{{form: {form}, backlash: 0.1 mm}}")
     assert SolidModel(train, ManufacturingSizes()).blanks.wheels == {}
     assert any("module" in each.fix for each in SolidModel(train, ManufacturingSizes()).blanks.notices)
     work = SolidModel(train, ManufacturingSizes(module=2.0, bore=0.0))
-    (play,) = work.blanks.plays
-    assert play.length == pytest.approx(0.1, abs=1e-9)
-    assert play.angles == pytest.approx((0.1 / 24, 0.1 / 36))
+    (backlash,) = work.blanks.backlashes
+    assert backlash.length == pytest.approx(0.1, abs=1e-9)
+    assert backlash.angles == pytest.approx((0.1 / 24, 0.1 / 36))
     meshed = Meshed(work, train.declaration.gears[0])
-    least = min(meshed.play(t) for t in meshed.positions(4))
-    assert 0.1 - 1e-5 <= least <= 0.1 + 2 * CHORDS
+    minimum = min(meshed.backlash(t) for t in meshed.positions(4))
+    assert 0.1 - 1e-5 <= minimum <= 0.1 + 2 * CHORDS
     assert max(meshed.overlap(t, lag) for t in meshed.positions(5) for lag in (0.0499 / 36, -0.0499 / 36)) <= NOTHING
 
 
@@ -389,21 +389,21 @@ inputs: {{a: 1}}
 
 
 def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
-    triangular = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+    triangular = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
     for form, said in ((triangular, "triangular teeth of pair 'G1'"), ("{form: involute, backlash: 0.1}", "pair 'G1'")):
         with pytest.raises(GearTrainError, match=said) as caught:
             _ = SolidModel(declared(form), ManufacturingSizes(backlash=0.1)).blanks
         assert caught.value.problems[0].fix.startswith("leave --backlash out, or ")
 
 
-@pytest.mark.parametrize(("said", "made", "plays"), [
+@pytest.mark.parametrize(("said", "made", "backlashes"), [
     ("", {}, (0.1, 0.1)),
     ("", {"backlash": 0.03}, (0.03, 0.03)),
     ("{form: cycloidal, backlash: 0.2 mm}", {}, (0.2, 0.1)),
     ("{form: cycloidal, backlash: 0.2 mm}", {"backlash": 0.03}, (0.2, 0.03)),
 ])  # fmt: skip
-def test_every_pair_is_cut_with_play_which_it_declares_or_the_maker_gives_or_a_twentieth_of_the_module(
-    said: str, made: dict[str, float], plays: tuple[float, float]
+def test_every_pair_is_cut_with_backlash_which_it_declares_or_the_maker_gives_or_a_twentieth_of_the_module(
+    said: str, made: dict[str, float], backlashes: tuple[float, float]
 ) -> None:
     train = GearTrain.declare(
         yaml.safe_load(f"""
@@ -415,12 +415,12 @@ inputs: {{a: 1}}
 """)
     )
     work = SolidModel(train, ManufacturingSizes(module=2.0, bore=0.0, **made))
-    assert {each.pair: each.length for each in work.blanks.plays} == pytest.approx(
-        dict(zip(("G1", "G2"), plays, strict=True)), abs=1e-9
+    assert {each.pair: each.length for each in work.blanks.backlashes} == pytest.approx(
+        dict(zip(("G1", "G2"), backlashes, strict=True)), abs=1e-9
     )
 
 
-def test_the_readme_states_the_play_of_every_pair() -> None:
+def test_the_readme_states_the_backlash_of_every_pair() -> None:
     work = workpiece("planetary-24-18-60-involute", module=2.0, backlash=0.1)
     text = next(each for each in export_files(work, ["svg"]) if each.path == "README.md").make().decode()
     rows = re.findall(r"^- (\S+): ([\d.]+) mm, ([\d.]+)° of (\S+), ([\d.]+)° of (\S+)$", text, re.M)
@@ -451,7 +451,7 @@ PLAIN = "{form: involute}"
     "second",
     ["{form: involute, backlash: 0.2}", "{form: cycloidal}", "{form: involute, addendum: [0.8, 1]}",
      "{form: involute, pressure_angle: 25 deg}", "{form: lantern, pins: 1}",
-     "{form: triangular, half_angle: 30 deg, clearance: 1.02}"],
+     "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"],
 )  # fmt: skip
 def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) -> None:
     work = SolidModel(GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second))), ManufacturingSizes())
@@ -491,9 +491,9 @@ def test_axes_stand_as_far_apart_as_the_law_of_triangular_teeth_asks(name: str) 
         if not {mesh.driver, mesh.driven} <= set(work.blanks.wheels) or mesh.form != "triangular":
             continue
         one, other = (places[each].centre[:2] for each in (mesh.driver, mesh.driven))
-        distance, law = hypot(one[0] - other[0], one[1] - other[1]), mesh.law.sizes
-        for wheel, R in ((mesh.driver, law.R1), (mesh.driven, law.R2)):
-            assert distance / work.blanks.wheels[wheel].tip_radius == pytest.approx(law.D / R, rel=1e-9)
+        distance, transmission = hypot(one[0] - other[0], one[1] - other[1]), mesh.transmission.sizes
+        for wheel, R in ((mesh.driver, transmission.R1), (mesh.driven, transmission.R2)):
+            assert distance / work.blanks.wheels[wheel].tip_radius == pytest.approx(transmission.D / R, rel=1e-9)
             checked += 1
     assert checked >= 8
 
@@ -515,14 +515,14 @@ inputs: {{a: 1}}
     assert drawn.tip > drawn.root > 0
 
 
-def test_shifted_involutes_stand_where_they_run_without_play() -> None:
+def test_shifted_involutes_stand_where_they_run_without_backlash() -> None:
     """The layout used to leave them at the distance of their reference circles, where such teeth jam."""
     train = declared("{form: involute, shift: [0.4, 0.3]}")
     work = SolidModel(train, ManufacturingSizes(bore=0.0, backlash=0.0))
     meshed = Meshed(work, train.declaration.gears[0])
     assert meshed.distance > 30.6
     assert max(meshed.overlap(t) for t in meshed.positions(8)) <= NOTHING
-    assert max(meshed.play(t) for t in meshed.positions(4)) < CHORDS
+    assert max(meshed.backlash(t) for t in meshed.positions(4)) < CHORDS
 
 
 def test_a_pinion_that_never_leaves_the_teeth_of_its_ring_is_refused() -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from sampling import first_few
-from studies.cut_pair_law import CutPairLaw
+from studies.cut_pair_transmission import CutPairLaw
 
 import geartrain
 from geartrain import GearTrainError
@@ -62,7 +62,7 @@ def as_drawn(outline: GearOutline, wheel: DisplacedWheel) -> GearOutline:
 def contact_of(name: str, driver: int) -> tuple[DisplacedContact, tuple[GearOutline, GearOutline], float]:
     """The contact of a pair, its outlines, the driver's first, and the distance of its axles."""
     if name in ARCS:
-        gears = ARC.law(*ARCS[name], driver=driver).gears
+        gears = ARC.transmission(*ARCS[name], driver=driver).gears
         return displaced_outlines(gears, driver), gears.of(driver), gears.distance
     design = PAIRS[name]
     first, second = pair_outlines(design) if driver == 1 else pair_outlines(design)[::-1]
@@ -79,13 +79,13 @@ def drawn_contact(name: str, driver: int, pair: DisplacedPair, S: np.ndarray) ->
 
 def off_ratio(at: DisplacedContact, found: TwoFlankContact, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     pitch = at.pitches[1]
-    return (float(at.ratio) * S + at.stands - found.front.angle) / pitch, found.play / pitch
+    return (float(at.ratio) * S + at.stands - found.front.angle) / pitch, found.backlash / pitch
 
 
-def by_law(pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def by_transmission(pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     rows = np.zeros(len(S), int)
     lag, lead = pair.first_lag(rows, S)[0], pair.first_lag(rows, S, back=True)[0]
-    return lag / pair.contact.pitches[1], (lag + lead + pair.contact.play) / pair.contact.pitches[1]
+    return lag / pair.contact.pitches[1], (lag + lead + pair.contact.backlash) / pair.contact.pitches[1]
 
 
 def angles(pair: DisplacedPair, number: int = 60) -> np.ndarray:
@@ -93,13 +93,13 @@ def angles(pair: DisplacedPair, number: int = 60) -> np.ndarray:
 
 
 @BOTH
-def test_wheels_without_errors_keep_their_ratio_and_their_play(name: str, driver: int) -> None:
+def test_wheels_without_errors_keep_their_ratio_and_their_backlash(name: str, driver: int) -> None:
     at = displaced_contact(PAIRS[name], driver)
     pair = DisplacedPair(at, *even(at))
-    lag, play = by_law(pair, angles(pair))
+    lag, backlash = by_transmission(pair, angles(pair))
     assert lag == pytest.approx(0.0, abs=1e-13)
-    assert play == pytest.approx(at.play / at.pitches[1], abs=1e-13)
-    assert pair.play() == pytest.approx(at.play, abs=1e-13)
+    assert backlash == pytest.approx(at.backlash / at.pitches[1], abs=1e-13)
+    assert pair.backlash() == pytest.approx(at.backlash, abs=1e-13)
 
 
 @pytest.mark.parametrize(("name", "driver"), [(name, driver) for name in (*PAIRS, *ARCS) for driver in (1, 2)])
@@ -109,7 +109,7 @@ def test_teeth_out_of_place_turn_the_driven_wheel_as_their_outlines_do(name: str
     wheels = (replace(each, place=RNG.normal(0, 0.005 * 2 * pi / each.z, each.z)) for each in even(at))
     pair = DisplacedPair(at, *wheels)
     S = angles(pair)
-    for found, drawn in zip(by_law(pair, S), drawn_contact(name, driver, pair, S), strict=True):
+    for found, drawn in zip(by_transmission(pair, S), drawn_contact(name, driver, pair, S), strict=True):
         assert np.ptp(drawn) > 0.005
         assert found == pytest.approx(drawn, abs=3e-6 if name in ARCS else 2e-5)
 
@@ -125,8 +125,8 @@ def test_an_eccentric_wheel_and_axles_apart_are_right_to_first_order(name: str, 
             wheels[which] = replace(wheels[which], e=np.array(e), towards=np.array(0.7))
         pair = DisplacedPair(at, *wheels, 0.0 if isinstance(which, int) else e)
         S = np.random.default_rng(3).uniform(0, pair.count * at.pitches[0], 24)
-        (lag, play), (drawn, drawn_play) = by_law(pair, S), drawn_contact(name, driver, pair, S)
-        off.append((np.median(np.abs(lag - drawn)), np.median(np.abs(play - drawn_play))))
+        (lag, backlash), (drawn, drawn_backlash) = by_transmission(pair, S), drawn_contact(name, driver, pair, S)
+        off.append((np.median(np.abs(lag - drawn)), np.median(np.abs(backlash - drawn_backlash))))
         # of an error of some 0.02/6 pitches
         assert np.abs(lag - drawn).max() < 0.002 * e / 0.02
     for large, small in zip(*off, strict=True):
@@ -140,22 +140,22 @@ def test_an_eccentric_involute_wheel_errs_by_e_over_the_base_radius() -> None:
     first, second = even(at)
     e, towards, psi = 0.01, 0.4, radians(20)
     S = np.linspace(0, 2 * pi, 200)
-    lag, _ = by_law(DisplacedPair(at, replace(first, e=np.array(e), towards=np.array(towards)), second), S)
+    lag, _ = by_transmission(DisplacedPair(at, replace(first, e=np.array(e), towards=np.array(towards)), second), S)
     rb2 = 18 * cos(psi)
     assert -lag * at.pitches[1] == pytest.approx(e * np.sin(S - towards + psi) / rb2, abs=1e-15)
     # an eccentric driven wheel errs by the other sign, by its own base circle
-    lag, _ = by_law(DisplacedPair(at, first, replace(second, e=np.array(e), towards=np.array(towards))), S)
+    lag, _ = by_transmission(DisplacedPair(at, first, replace(second, e=np.array(e), towards=np.array(towards))), S)
     turned = S * 24 / 36 + at.stands - towards
     assert -lag * at.pitches[1] == pytest.approx(-e * np.sin(turned - psi) / rb2, abs=1e-15)
 
 
-def test_axles_farther_apart_give_an_external_pair_play_and_take_it_from_a_ring() -> None:
+def test_axles_farther_apart_give_an_external_pair_backlash_and_take_it_from_a_ring() -> None:
     for name, sign in (("involute", 1), ("involute ring", -1)):
         at = displaced_contact(PAIRS[name], 1)
         driven = at.wheels[1].z / 2
         pair = DisplacedPair(at, *even(at), 0.01)
         # 2 tan psi of the distance, over the pitch radius
-        assert pair.play() - at.play == pytest.approx(sign * 2 * 0.01 * np.tan(radians(20)) / driven, rel=1e-9)
+        assert pair.backlash() - at.backlash == pytest.approx(sign * 2 * 0.01 * np.tan(radians(20)) / driven, rel=1e-9)
 
 
 @pytest.mark.parametrize(("name", "driver"), [(name, driver) for name in ("involute", *ARCS) for driver in (1, 2)])
@@ -171,7 +171,7 @@ def test_flanks_that_lean_touch_as_their_outlines_do(name: str, driver: int, gea
         sides = [tilted(side, R, lean, way) for side, way in ((tooth.ahead, 1), (tooth.behind, -1))]
         turned[gear] = replace(drawn[gear], teeth=(ToothFlanks(*sides),))
         S = np.random.default_rng(3).uniform(0, at.pitches[0], 40)
-        found, true = by_law(DisplacedPair(at, *wheels), S), off_ratio(at, solve(*turned, distance, S), S)
+        found, true = by_transmission(DisplacedPair(at, *wheels), S), off_ratio(at, solve(*turned, distance, S), S)
         assert np.ptp(true[0]) > lean / 10 or name in ARCS
         off.append([np.median(np.abs(one - other)) for one, other in zip(found, true, strict=True)])
     assert all(small < large / 6 + 2e-7 for large, small in zip(*off, strict=True))
@@ -232,7 +232,7 @@ def test_bevel_wheels_off_their_axles_err_as_spheres_have_it(gear: int) -> None:
         S = np.random.default_rng(3).uniform(0, 7 * at.pitches[0], 30)
         outline = [on_sphere(design, each, tipped(e if each == gear else 0.0, 0.7)) for each in (1, 2)]
         lag, _ = off_ratio(at, solve(*outline, pi / 2, S), S)
-        off.append(np.median(np.abs(by_law(pair, S)[0] - lag)))
+        off.append(np.median(np.abs(by_transmission(pair, S)[0] - lag)))
         assert np.ptp(lag) > 0.2 * e
     assert off[1] < off[0] / 6
 
@@ -254,15 +254,15 @@ def spread(at: DisplacedContact, trials: int, sigma: float = 0.01) -> DisplacedP
 
 
 @BOTH
-def test_the_least_play_of_a_batch_is_that_of_each_pair_angle_by_angle(name: str, driver: int) -> None:
+def test_the_minimum_backlash_of_a_batch_is_that_of_each_pair_angle_by_angle(name: str, driver: int) -> None:
     at = displaced_contact(PAIRS[name], driver)
     pair = spread(at, 3)
     S = np.arange(8 * pair.count) * at.pitches[0] / 8
-    for trial, play in enumerate(pair.play()):
+    for trial, backlash in enumerate(pair.backlash()):
         rows = np.full(len(S), trial)
-        scanned = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.play
-        assert play == pytest.approx(scanned.min(), abs=2e-3 * at.pitches[1])
-    assert pair.tight_place().play == pytest.approx(pair.play(), abs=1e-14)
+        scanned = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.backlash
+        assert backlash == pytest.approx(scanned.min(), abs=2e-3 * at.pitches[1])
+    assert pair.tight_place().backlash == pytest.approx(pair.backlash(), abs=1e-14)
 
 
 ERRORS = {
@@ -276,7 +276,7 @@ ERRORS = {
 
 @BOTH
 @pytest.mark.parametrize("errors", ERRORS.values(), ids=ERRORS)
-def test_each_error_is_in_the_least_play_as_it_is_angle_by_angle(
+def test_each_error_is_in_the_minimum_backlash_as_it_is_angle_by_angle(
     name: str, driver: int, errors: tuple[str, ...]
 ) -> None:
     """Wheel by wheel or couple by couple: two ways to the same sum, at the angles at which play is looked for."""
@@ -290,21 +290,21 @@ def test_each_error_is_in_the_least_play_as_it_is_angle_by_angle(
     pair, pitch = DisplacedPair(at, *wheels), at.pitches[0]
     within = np.mod([0, pitch / 4, pitch / 2, 3 * pitch / 4, at.start, at.end, -at.start, -at.end], pitch)
     S = (np.arange(pair.count)[:, None] * pitch + within).ravel()
-    for trial, play in enumerate(pair.play()):
+    for trial, backlash in enumerate(pair.backlash()):
         rows = np.full(len(S), trial)
-        apart = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.play
-        assert play == pytest.approx(apart.min(), abs=1e-12)
+        apart = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.backlash
+        assert backlash == pytest.approx(apart.min(), abs=1e-12)
 
 
 @BOTH
 def test_a_pair_that_jams_is_filed_until_it_passes(name: str, driver: int) -> None:
     at = displaced_contact(PAIRS[name], driver)
     pair = spread(at, 12, 0.015)
-    jams = pair.play() < 0
+    jams = pair.backlash() < 0
     assert jams.any()
     work = file_to_fit(pair, 0.01, 0.4)
     assert (work.filed == jams).all()
-    assert (work.pair.play() >= 0).all()
+    assert (work.pair.backlash() >= 0).all()
     assert (work.teeth[jams] >= 1).all()
     assert (work.strokes >= work.teeth).all()
 
@@ -316,14 +316,14 @@ def test_strokes_are_those_of_a_plain_loop_that_files_one_at_a_time() -> None:
     late[5] = -0.1 * at.pitches[0]  # one tooth of the driver is a tenth of a pitch ahead
     pair = DisplacedPair(at, replace(first, place=late[None]), second)
     stroke, strokes, low = 0.01, 0, np.zeros((1, 24))
-    while pair.play()[0] < 0:
+    while pair.backlash()[0] < 0:
         strokes += 1
         low[0, 5] += stroke
         pair = replace(pair, first=replace(pair.first, leading_low=low))
     found = file_to_fit(DisplacedPair(at, replace(first, place=late[None]), second), stroke, 1.0)
     assert (found.strokes[0], found.teeth[0]) == (strokes, 1)
     # what stood out, less the play, times the base radius of the driver
-    assert strokes == np.ceil((0.1 * at.pitches[0] - 1.5 * at.play) * 12 * cos(radians(20)) / stroke)
+    assert strokes == np.ceil((0.1 * at.pitches[0] - 1.5 * at.backlash) * 12 * cos(radians(20)) / stroke)
 
 
 PAIR = """
@@ -334,7 +334,7 @@ gears: [{pair: [p, w]}]
 inputs: {a: 1}
 outputs: {b: {}}
 tooth_form: {form: FORM, backlash: 0.2}
-cutting: {placement: {normal: 1 %}}
+cutting: {pitch_deviation: {normal: 1 %}}
 fitting: {filing: {stroke: 1 %}}
 """
 
@@ -363,12 +363,12 @@ def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting
     text = PAIR.replace("FORM, backlash: 0.2", "cycloidal, backlash: 0.2, centre_distance: 30.55")
     (tmp_path / "pair.yaml").write_text(text)
     train = geartrain.load(tmp_path / "pair.yaml")
-    plan = find_trial_plan(train, read_error_overrides(["placement=0.0001 %"]))
-    law, pitch, S = train.meshes[0].law, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
+    plan = find_trial_plan(train, read_error_overrides(["pitch_deviation=0.0001 %"]))
+    transmission, pitch, S = train.meshes[0].transmission, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
     lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).first_lag(np.zeros(50, int), S)[0]
     # to first order in 0.05 modules, the ripple of the outlines' own law
-    assert np.ptp(law.error(S)) > 0.001 * pitch
-    assert -lag == pytest.approx(law.error(S), abs=1e-3 * pitch)
+    assert np.ptp(transmission.error(S)) > 0.001 * pitch
+    assert -lag == pytest.approx(transmission.error(S), abs=1e-3 * pitch)
     assert abs(run_trials(plan, 200).pointers[0].mean.value) < 1e-4 * pitch
 
 
@@ -395,7 +395,7 @@ def test_the_triangular_flank_that_stands_out_is_the_one_that_is_filed(wheel: in
     """One tooth a third of a pitch ahead jams by its leading flank, one as far behind by its trailing flank."""
     form = "{form: triangular, half_angle: 30 deg, window: 0.3}"
     text = PAIR.replace("{form: FORM, backlash: 0.2}", form).partition("cutting")[0]
-    sizes = geartrain.load(text).meshes[0].law.sizes
+    sizes = geartrain.load(text).meshes[0].transmission.sizes
     wheels = [CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)]
     place = np.zeros((2, wheels[wheel].z))  # two trials: the second is without errors
     place[0, 7] = (-1, 1)[side] * 0.35 * wheels[wheel].pitch
@@ -427,7 +427,7 @@ def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
 def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
     # 15 % of such pairs jam, as docs/cut-by-hand.md prints
     text = PAIR.replace("p: 24", "p: 64").replace("w: 37", "w: 38").replace("normal: 1 %", "normal: 5.16 %")
-    form = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+    form = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
     (tmp_path / "pair.yaml").write_text(text.replace("{form: FORM, backlash: 0.2}", form))
     plan = find_trial_plan(geartrain.load(tmp_path / "pair.yaml"))
     bare = replace(plan, pairs=tuple(replace(pair, stroke=0.0) for pair in plan.pairs))
@@ -438,12 +438,14 @@ def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
     drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
     at = int(np.argmax([work.strokes.sum() for work in drawn.filing.values()]))
     pair, trial = drawn.pair(at), int(drawn.filing[at].strokes.argmax())
-    law = CutPairLaw.of(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
-    assert law.events.play >= 0
+    transmission = CutPairLaw.of(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
+    assert transmission.events.backlash >= 0
 
 
 def test_settings_and_wheels_of_other_forms() -> None:
-    settings = read_error_overrides(["placement=0.2 %", "eccentricity=1 %", "aperture=1 %", "tip=1 %", "centre=1 %"])
+    settings = read_error_overrides(
+        ["pitch_deviation=0.2 %", "eccentricity=1 %", "aperture_deviation=1 %", "tip=1 %", "centre=1 %"]
+    )
     for name in ("planetary-24-18-60-involute", "lantern-mill", "longcase-clock-cycloidal"):
         plan = find_trial_plan(geartrain.load(name), settings)
         found = run_trials(plan, 16)
@@ -454,7 +456,7 @@ def test_settings_and_wheels_of_other_forms() -> None:
 
 
 @BOTH
-def test_tips_meet_tips_where_the_lags_of_neighbours_say_so_couple_by_couple(name: str, driver: int) -> None:
+def test_tips_meet_tips_where_the_lags_of_neighbours_say_so_tooth_pair_by_tooth_pair(name: str, driver: int) -> None:
     at, trials, random = displaced_contact(PAIRS[name], driver), 60, np.random.default_rng(1)
     for spread in (0.02, 0.05):
         wheels = (
@@ -463,7 +465,7 @@ def test_tips_meet_tips_where_the_lags_of_neighbours_say_so_couple_by_couple(nam
         pair = DisplacedPair(at, *wheels)
         found, rows = pair.verdicts(), np.arange(trials)
         for verdict, x, step in ((found.clash, at.start - at.entering.most, 1),
-                                 (found.standstill, at.end + at.leaving.most, -1)):  # fmt: skip
+                                 (found.dwell, at.end + at.leaving.most, -1)):  # fmt: skip
             over = np.zeros(trials, bool)
             for n in range(pair.count):
                 # the driver where the tips of couple n meet, just within their reach
@@ -480,17 +482,17 @@ ARC_PAIRS = pytest.mark.parametrize(("name", "driver"), [(name, driver) for name
 
 
 @ARC_PAIRS
-def test_arcs_without_errors_turn_as_their_law_says(name: str, driver: int) -> None:
-    at, law = contact_of(name, driver)[0], ARC.law(*ARCS[name], driver=driver)
+def test_arcs_without_errors_turn_as_their_transmission_says(name: str, driver: int) -> None:
+    at, transmission = contact_of(name, driver)[0], ARC.transmission(*ARCS[name], driver=driver)
     pair = DisplacedPair(at, *even(at))
     S = angles(pair, 40)
-    lag, play = by_law(pair, S)
-    assert lag * at.pitches[1] == pytest.approx(-law.error(S), abs=1e-6 * at.pitches[1])
-    back = law.turned_back().error(S)
-    assert play * at.pitches[1] == pytest.approx(back - law.error(S), abs=1e-6 * at.pitches[1])
-    assert pair.play() == pytest.approx(law.verdict.play, rel=1e-3)
+    lag, backlash = by_transmission(pair, S)
+    assert lag * at.pitches[1] == pytest.approx(-transmission.error(S), abs=1e-6 * at.pitches[1])
+    back = transmission.reversed_motion().error(S)
+    assert backlash * at.pitches[1] == pytest.approx(back - transmission.error(S), abs=1e-6 * at.pitches[1])
+    assert pair.backlash() == pytest.approx(transmission.verdict.backlash, rel=1e-3)
     verdicts = pair.verdicts()
-    assert not (verdicts.clash | verdicts.standstill | verdicts.disengaged).any()
+    assert not (verdicts.clash | verdicts.dwell | verdicts.disengaged).any()
 
 
 @ARC_PAIRS
@@ -531,16 +533,18 @@ def test_filed_flanks_fall_behind_by_what_is_taken_over_the_moment_arm(gear: int
     )
     S = np.linspace(0, at.pitches[0], 37)
     pair = DisplacedPair(at, *wheels)
-    nominal = by_law(DisplacedPair(at, *even(at)), S)
-    found, true = by_law(pair, S), off_ratio(at, solve(turned[0], turned[1], distance, S), S)
+    nominal = by_transmission(DisplacedPair(at, *even(at)), S)
+    found, true = by_transmission(pair, S), off_ratio(at, solve(turned[0], turned[1], distance, S), S)
     for one, other, before in zip(found, true, nominal, strict=True):
         assert np.median(np.abs(other - before)) > 5e-4
         assert np.median(np.abs(one - other)) < 0.02 * np.median(np.abs(other - before))
 
 
 @pytest.mark.parametrize("counts", [(48, 12), (40, 40)])
-def test_the_least_play_is_that_of_all_angles_and_below_nothing_the_outlines_overlap(counts: tuple[int, int]) -> None:
-    gears = ARC.law(*counts).gears
+def test_the_minimum_backlash_is_that_of_all_angles_and_below_nothing_the_outlines_overlap(
+    counts: tuple[int, int],
+) -> None:
+    gears = ARC.transmission(*counts).gears
     at = displaced_outlines(gears, 1)
     random = np.random.default_rng(5)
     jams = 0
@@ -549,22 +553,24 @@ def test_the_least_play_is_that_of_all_angles_and_below_nothing_the_outlines_ove
         wheels[0] = replace(wheels[0], e=np.array(0.02), towards=np.array(1.0))
         pair = DisplacedPair(at, *wheels)
         S = np.linspace(0, pair.count * at.pitches[0], 60 * pair.count, endpoint=False)
-        play = by_law(pair, S)[1] * at.pitches[1]
-        assert float(pair.play()) == pytest.approx(play.min(), abs=5e-4 * at.pitches[1])
-        tight = S[np.argsort(play)[:5]]
+        backlash = by_transmission(pair, S)[1] * at.pitches[1]
+        assert float(pair.backlash()) == pytest.approx(backlash.min(), abs=5e-4 * at.pitches[1])
+        tight = S[np.argsort(backlash)[:5]]
         one, two = as_drawn(gears.first, pair.first), as_drawn(gears.second, pair.second)
-        true = solve(one, two, gears.distance, tight).play
-        assert true == pytest.approx(np.sort(play)[:5], abs=5e-4 * at.pitches[1])
-        jams += bool(pair.play() < 0)
+        true = solve(one, two, gears.distance, tight).backlash
+        assert true == pytest.approx(np.sort(backlash)[:5], abs=5e-4 * at.pitches[1])
+        jams += bool(pair.backlash() < 0)
     assert counts == (48, 12) or jams
 
 
 def test_a_clock_with_circular_arc_teeth_is_cut_by_hand() -> None:
     train = geartrain.load("longcase-clock-bs978")
-    found = run_trials(find_trial_plan(train, read_error_overrides(["placement=0.5 %", "eccentricity=2 %"])), 128, 1)
+    found = run_trials(
+        find_trial_plan(train, read_error_overrides(["pitch_deviation=0.5 %", "eccentricity=2 %"])), 128, 1
+    )
     assert found.train.events["stops"].value == 0
     # cut nearly true, pointers stray by the ripple of even teeth alone
-    sure = run_trials(find_trial_plan(train, read_error_overrides(["placement=0.001 %"])), 512, 1)
+    sure = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.001 %"])), 512, 1)
     run = MotionRun(train.motion(), 0.5, 20_001)
     run.run()
     for one, other, ripple in zip(found.pointers, sure.pointers, run.statistics, strict=True):

@@ -36,7 +36,7 @@ inputs: {{a: 1}}
 outputs: {{b: }}
 """
 INVOLUTE = "{form: involute, backlash: 0.05}"
-TRIANGULAR = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+TRIANGULAR = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
 
 
 def declared(text: str) -> GearTrain:

@@ -125,7 +125,7 @@ def test_pins_stand_in_their_slots() -> None:
     middle = pin.placed.vertices[:, :2].mean(axis=0)
     assert np.hypot(*(middle - k1)) == pytest.approx(9.6, abs=1e-6)
     assert 8.5 - 1e-6 <= np.hypot(*(middle - k2)) <= 10.7 + 1e-6
-    for wheel, play in ((held, 0.0), (slotted, 0.05)):
+    for wheel, backlash in ((held, 0.0), (slotted, 0.05)):
         own = (pin.placed.vertices - wheel.place) @ wheel.turn  # the pin as the wheel sees it
         assert own[:, 2].min() <= -wheel.height / 2 + 1e-9, "it goes through"
         assert own[:, 2].max() >= wheel.height / 2 - 1e-9
@@ -133,7 +133,7 @@ def test_pins_stand_in_their_slots() -> None:
         rod = shapely.MultiPoint(own[:, :2]).convex_hull
         (hole,) = [each for each in holes if each.contains(rod.centroid)]
         assert edge.contains(hole)
-        assert hole.buffer(1e-2 - play).contains(rod), "clear of the sides of a slot"
+        assert hole.buffer(1e-2 - backlash).contains(rod), "clear of the sides of a slot"
 
 
 def test_pins_in_bars_where_wheels_are_too_small() -> None:

@@ -9,7 +9,7 @@ import pytest
 from geartrain.workshop.sizes.size_search import minimise, polish
 
 
-def test_of_many_minima_with_kinks_the_least_is_found() -> None:
+def test_of_many_minima_with_kinks_the_minimum_is_found() -> None:
     """|x - 0.37| + 0.2 |sin| has a kink at every tooth; its least is where both vanish nearest to 0.37."""
     found = minimise(lambda at: abs(at[0] - 0.37) + 0.1 * (1 - cos(40 * pi * (at[0] - 0.37))), [(-1.0, 2.0)])
     assert found.best[0] == pytest.approx(0.37, abs=1e-6)

@@ -75,8 +75,8 @@ def test_arms_take_the_windows_out_of_the_solid_and_of_its_mass() -> None:
         blank = armed.blanks.wheels[name]
         assert blank.arms == 5
         (part,) = [part for part in armed.parts if part.name == name]
-        corners = part.solid.vertices[part.solid.faces]
-        volume = sum(float(a @ np.cross(b, c)) for a, b, c in corners) / 6
+        kinks = part.solid.vertices[part.solid.faces]
+        volume = sum(float(a @ np.cross(b, c)) for a, b, c in kinks) / 6
         assert volume == pytest.approx(shape(FlatDrawing(name, blank.contours)).area * blank.thickness, rel=5e-3), (
             "but for chords"
         )
@@ -91,8 +91,8 @@ def test_arms_take_the_windows_out_of_the_solid_and_of_its_mass() -> None:
 
 def test_sheets_hold_every_flat_part_at_its_compensated_size(tmp_path: Path) -> None:
     to = tmp_path / "set"
-    asked = ("--as", "svg", "--sheet", "400x300mm", "--process", "laser", "--module", "1mm")
-    done = call("export", "watch-going-train", "--to", to, *asked)
+    requested = ("--as", "svg", "--sheet", "400x300mm", "--process", "laser", "--module", "1mm")
+    done = call("export", "watch-going-train", "--to", to, *requested)
     assert done.exit_code == 0, done.output
     texts = [path.read_text(encoding="utf-8") for path in (to / "sheets").glob("*.svg")]
     loops = [len(re.findall("M ", re.search(r'id="CUT".* d="([^"]*)"', text).group(1))) for text in texts]  # type: ignore[union-attr]
@@ -126,8 +126,8 @@ inputs: {a: 1}
     )
     made = SolidModel(given, ManufacturingSizes(module=0.43))  # 1.075 mm
     assert {name: blank.thickness for name, blank in made.blanks.wheels.items()} == {"p": 1.7, "w": 1.0, "q": 1.0}
-    asked = SolidModel(given, ManufacturingSizes(module=0.43, thickness=1.1))
-    assert {blank.thickness for blank in asked.blanks.wheels.values()} == {1.1}
+    requested = SolidModel(given, ManufacturingSizes(module=0.43, thickness=1.1))
+    assert {blank.thickness for blank in requested.blanks.wheels.values()} == {1.1}
 
 
 def test_declared_widths_materials_and_arbors_are_those_that_are_made() -> None:
@@ -201,8 +201,8 @@ def test_parts_are_in_rows_the_tallest_first_and_none_goes_back_to_a_row_before(
     parts = [part(name, Contour.of([(0, 0, 0), (w, 0, 0), (w, h, 0), (0, h, 0)])) for name, (w, h) in sizes.items()]
     sheets = stock_sheets(parts, (111, 86), 5)
     assert [sheet.parts for sheet in sheets] == [("a", "b"), ("d", "c")]
-    corners = [[each.points.min(axis=0) for each in sheet.drawing.cut[::2]] for sheet in sheets]
-    assert np.array(corners) == pytest.approx(np.array([[(5, 5), (5, 50)], [(5, 5), (5, 30)]]), abs=0.05)
+    kinks = [[each.points.min(axis=0) for each in sheet.drawing.cut[::2]] for sheet in sheets]
+    assert np.array(kinks) == pytest.approx(np.array([[(5, 5), (5, 50)], [(5, 5), (5, 30)]]), abs=0.05)
 
 
 def test_letters_turn_with_their_part() -> None:

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from sorge import Pair, least_play
-from studies.cut_pair_law import CutPairLaw
+from sorge import Pair, minimum_backlash
+from studies.cut_pair_transmission import CutPairLaw
 
 from geartrain import GearTrain, load
 from geartrain.numerics import Execution, IntervalEstimate, Journal, open_executor
@@ -56,7 +56,7 @@ def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> Gea
         "gears": gears,
         "inputs": {"l0": 1},
         "outputs": {"end": {"of": f"l{len(counts)}"}},
-        "tooth_form": {"form": "triangular", "half_angle": "30 deg", "clearance": clearance},
+        "tooth_form": {"form": "triangular", "half_angle": "30 deg", "clearance_factor": clearance},
     }
     return GearTrain.declare(data | more)
 
@@ -65,7 +65,7 @@ def planned(train: GearTrain, *settings: str) -> TrialPlan:
     return find_trial_plan(train, read_error_overrides(settings))
 
 
-EVERY = ("placement=2 %", "eccentricity=6 %", "tip=3 %", "aperture=uniform 4 %", "centre=2 %")
+EVERY = ("pitch_deviation=2 %", "eccentricity=6 %", "tip=3 %", "aperture_deviation=uniform 4 %", "centre=2 %")
 
 # ------------------------------------------------------------------------------------------------------ printed figures
 
@@ -74,12 +74,12 @@ EVERY = ("placement=2 %", "eccentricity=6 %", "tip=3 %", "aperture=uniform 4 %",
 def test_64_and_38_teeth_jam_as_often_as_printed(trials: int) -> None:
     seen = []
     for sigma in ("4.13 %", "5.16 %", "6.61 %"):
-        found = run_trials(planned(chain((64, 38)), f"placement={sigma}"), trials)
+        found = run_trials(planned(chain((64, 38)), f"pitch_deviation={sigma}"), trials)
         jam = found.train.events["jam"]
         seen.append(jam.value)
         assert jam.of == trials
         assert jam.interval[0] <= found.pairs[0].bound
-        assert found.pairs[0].play == pytest.approx(0.368, abs=5e-4)
+        assert found.pairs[0].backlash == pytest.approx(0.368, abs=5e-4)
     assert seen[0] < (0.01 if trials >= 10**5 else 0.02)
     assert seen[1] == pytest.approx(0.16, abs=0.03 if trials >= 10**5 else 0.04)
     assert seen[2] == pytest.approx(0.80, abs=0.05)
@@ -106,9 +106,9 @@ def test_the_probability_of_a_jam_is_its_integral(trials: int) -> None:
     A driven tooth that is late against the one before it by more than the least play jams. The least play comes from a
     scan of the source's equations.
     """
-    plan = planned(chain((64, 38), clearance=1.01), "w0.placement=uniform 10 %")
-    play = least_play(Pair.of(plan.pairs[0].sizes, np))
-    coarse, fine = (chance_that_none_rises(38, play / (0.2 * 2 * pi / 38), nodes) for nodes in (400, 800))
+    plan = planned(chain((64, 38), clearance=1.01), "w0.pitch_deviation=uniform 10 %")
+    backlash = minimum_backlash(Pair.of(plan.pairs[0].sizes, np))
+    coarse, fine = (chance_that_none_rises(38, backlash / (0.2 * 2 * pi / 38), nodes) for nodes in (400, 800))
     assert abs(fine - coarse) < 1e-3
     true = 1 - (fine + (fine - coarse) / 3)
     low, high = run_trials(plan, trials).train.events["jam"].interval
@@ -119,7 +119,7 @@ def test_the_probability_of_a_jam_is_its_integral(trials: int) -> None:
 # ----------------------------------------------------------------------------------------------------------- one by one
 
 
-def test_every_trial_follows_the_law_of_its_own_wheels() -> None:
+def test_every_trial_follows_the_transmission_of_its_own_wheels() -> None:
     """All kinds of error, every trial asked at its own angle."""
     plan = planned(chain((23, 16)), *EVERY)
     drawn = draw_trial_wheels(plan, RandomStreams(3, 0), 40)
@@ -129,8 +129,8 @@ def test_every_trial_follows_the_law_of_its_own_wheels() -> None:
     for at in range(40):
         if not drawn.good[0][at] or not drawn.good[1][at]:
             continue
-        law = CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at), float(pair.shift[at]))
-        lag = float(law.error(2 * pi * turns[at])) - plan.pairs[0].even
+        transmission = CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at), float(pair.shift[at]))
+        lag = float(transmission.error(2 * pi * turns[at])) - plan.pairs[0].even
         assert abs(found[at]) == pytest.approx(abs(lag), abs=1e-10)
         checked += 1
     assert checked > 30
@@ -142,19 +142,19 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
     data = train.declaration.model_dump(mode="json", exclude_unset=True)
     data["gears"][1]["pair"] = ["w0", "w1"]
     del data["links"]["l1"]["wheels"]["p1"]
-    plan = planned(GearTrain.declare(data), "placement=2 %", "tip=3 %")
+    plan = planned(GearTrain.declare(data), "pitch_deviation=2 %", "tip=3 %")
     assert [wheel.name for wheel in plan.wheels] == ["p0", "w0", "w1"]
     drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 30)
     first, second = drawn.pair(0), drawn.pair(1)
     assert (first.second.place == second.first.place).all()
-    marks, play = judge_trial_pairs(drawn)
+    marks, backlash = judge_trial_pairs(drawn)
     for at, pair in enumerate((first, second)):
         verdicts = batch_verdicts(pair.sizes, pair.first, pair.second)
         assert (((marks[:, at] & JAM) > 0) == verdicts.jams).all()
-        assert play[:, at] == pytest.approx(verdicts.play / pair.sizes.p2, abs=1e-12)
+        assert backlash[:, at] == pytest.approx(verdicts.backlash / pair.sizes.p2, abs=1e-12)
 
 
-def test_a_chain_is_one_law_after_the_other() -> None:
+def test_a_chain_is_one_transmission_after_the_other() -> None:
     """The second driver turns as far as the first pair turns it, from where even teeth start; trial by trial."""
     plan = planned(chain((24, 17), (19, 30)), *EVERY[:4])
     drawn = draw_trial_wheels(plan, RandomStreams(5, 0), 25)
@@ -164,10 +164,10 @@ def test_a_chain_is_one_law_after_the_other() -> None:
     even = 19 / 30 * plan.pairs[0].even + plan.pairs[1].even
     lag = float(TriangularTransmission(one.sizes).angle(0.0))
     for at in np.flatnonzero(drawn.good[0] & drawn.good[1] & drawn.good[2] & drawn.good[3]):
-        laws = [CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)]
+        transmissions = [CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)]
         start = 2 * pi * float(turns[at])
-        middle = float(laws[0].angle(start)) - lag
-        end = float(laws[1].angle(middle)) + 19 / 30 * lag
+        middle = float(transmissions[0].angle(start)) - lag
+        end = float(transmissions[1].angle(middle)) + 19 / 30 * lag
         assert found[at] == pytest.approx(end - 24 / 17 * 19 / 30 * start - even, abs=1e-9)
 
 
@@ -194,8 +194,8 @@ def test_teeth_that_turn_against_their_numbering_are_seen_from_behind() -> None:
 
 def even_teeth(plan: TrialPlan) -> tuple[TriangularTransmission, np.ndarray]:
     """The law of even teeth, and angles over a pitch."""
-    law = TriangularTransmission(plan.pairs[0].sizes)
-    return law, (np.arange(2000) + 0.5) / 2000 * law.period
+    transmission = TriangularTransmission(plan.pairs[0].sizes)
+    return transmission, (np.arange(2000) + 0.5) / 2000 * transmission.period
 
 
 def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
@@ -203,54 +203,54 @@ def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
 
     So the variance is that of even teeth, and the mean of tau squared times that of the one wheel, and of the other.
     """
-    plan = planned(chain((64, 38)), "placement=0.6 %")
-    law, S = even_teeth(plan)
+    plan = planned(chain((64, 38)), "pitch_deviation=0.6 %")
+    transmission, S = even_teeth(plan)
     sigma1, sigma2 = 0.006 * 2 * pi / 64, 0.006 * 2 * pi / 38
-    ripple = law.error_moments()[1]
-    true = ripple**2 + float(np.mean(law.speed(S) ** 2)) * sigma1**2 + sigma2**2
+    ripple = transmission.error_moments()[1]
+    true = ripple**2 + float(np.mean(transmission.speed(S) ** 2)) * sigma1**2 + sigma2**2
     pointer = run_trials(plan, 4096).pointers[0]
     # near a change of couples the lesser of two is taken: some hundredths of the variance
     assert pointer.deviation.value**2 == pytest.approx(true, rel=0.1)
-    fine = planned(chain((64, 38)), "placement=0.06 %")
+    fine = planned(chain((64, 38)), "pitch_deviation=0.06 %")
     small = draw_trial_wheels(fine, RandomStreams(1, 0))
     turns = np.random.default_rng(4).uniform(0, 19, 256)
     errors = trial_pointers(small, np.arange(256)).errors(turns)[0]
-    even = np.asarray(law.error(2 * pi * turns)) - law.error_moments()[0]
+    even = np.asarray(transmission.error(2 * pi * turns)) - transmission.error_moments()[0]
     part = np.abs(errors) - np.abs(even)
     assert part.std() < 3 * sigma2
 
 
-def test_the_first_order_is_right_to_the_second_away_from_changes_of_couples() -> None:
-    plan = planned(chain((64, 38)), "placement=1 %")
-    law, _ = even_teeth(plan)
-    pitch = law.period
+def test_the_first_order_is_right_to_the_second_away_from_changes_of_tooth_pairs() -> None:
+    plan = planned(chain((64, 38)), "pitch_deviation=1 %")
+    transmission, _ = even_teeth(plan)
+    pitch = transmission.period
     # the middle of the longest stretch without corners
-    corners = [c % pitch for c in law.corners()]
-    corners = [*sorted(corners), min(corners) + pitch]
-    a, b = max(pairwise(corners), key=lambda pair: pair[1] - pair[0])
+    kinks = [c % pitch for c in transmission.kinks()]
+    kinks = [*sorted(kinks), min(kinks) + pitch]
+    a, b = max(pairwise(kinks), key=lambda pair: pair[1] - pair[0])
     S = (a + b) / 2
     left = []
     for scale in (0.02, 0.04):
         drawn = draw_trial_wheels(plan.scaled(scale), RandomStreams(2, 0), 200)
-        errors = trial_pointers(drawn, np.arange(200)).laws["g0"].error(np.full(200, S))
+        errors = trial_pointers(drawn, np.arange(200)).transmissions["g0"].error(np.full(200, S))
         one, two = drawn.pair(0).first.place, drawn.pair(0).second.place
         sizes = plan.pairs[0].sizes
         even = CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
-        couples = CutPairLaw.of(sizes, *even).driving(np.array([S]))
-        first = -(float(law.speed(S)) * one[:, couples[0][0]] - two[:, couples[1][0]])
-        left.append(np.abs(errors - float(law.error(S)) - first).mean())
+        tooth_pairs = CutPairLaw.of(sizes, *even).driving(np.array([S]))
+        first = -(float(transmission.speed(S)) * one[:, tooth_pairs[0][0]] - two[:, tooth_pairs[1][0]])
+        left.append(np.abs(errors - float(transmission.error(S)) - first).mean())
     assert 1.8 < log2(left[1] / left[0]) < 2.2
 
 
 def test_a_fixed_error_of_the_distance_is_another_clearance() -> None:
-    plan = planned(chain((40, 27)), "placement=3 %", "centre=value 10 %")
-    bare = planned(chain((40, 27)), "placement=3 %")
+    plan = planned(chain((40, 27)), "pitch_deviation=3 %", "centre=value 10 %")
+    bare = planned(chain((40, 27)), "pitch_deviation=3 %")
     pair = bare.pairs[0]
     factor = (pair.sizes.D + 0.1 * min(pair.sizes.depths)) / pair.sizes.deepest_distance
-    _, play = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), 50))
+    _, backlash = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), 50))
     _, true = judge_trial_pairs(draw_trial_wheels(bare.cleared(factor), RandomStreams(1, 0), 50))
     # one is reckoned from tables, the other couple by couple
-    assert play == pytest.approx(true, abs=2e-4)
+    assert backlash == pytest.approx(true, abs=2e-4)
 
 
 def test_errors_are_read_in_the_units_of_their_wheel() -> None:
@@ -259,18 +259,18 @@ def test_errors_are_read_in_the_units_of_their_wheel() -> None:
         "teeth": 30,
         "module": "0.5 mm",
         "cutting": {
-            "placement": {"normal": "0.6 deg"},
+            "pitch_deviation": {"normal": "0.6 deg"},
             "eccentricity": {"value": "0.1 mm"},
-            "eccentric_at": "90 deg",
-            "aperture": {"uniform": "3 deg"},
+            "eccentricity_angle": "90 deg",
+            "aperture_deviation": {"uniform": "3 deg"},
         },
     }
     measured = [f"{at / 100:g} deg" for at in range(20)]
-    data["links"]["l1"]["wheels"]["w0"] = {"teeth": 20, "cutting": {"measured": {"placement": measured}}}
+    data["links"]["l1"]["wheels"]["w0"] = {"teeth": 20, "cutting": {"measured": {"pitch_deviation": measured}}}
     plan = find_trial_plan(GearTrain.declare(data))
     first, second = plan.wheels
-    assert first.errors["placement"].size == pytest.approx(0.6 / 12)
-    assert first.errors["aperture"].size == pytest.approx(3 / 60)
+    assert first.errors["pitch_deviation"].size == pytest.approx(0.6 / 12)
+    assert first.errors["aperture_deviation"].size == pytest.approx(3 / 60)
     # the pitch circle, 7.5 mm, lies in the middle of teeth whose flanks stand at 30 degrees to the radius
     outer = 7.5 / (1 - first.depth / 2)
     assert first.errors["eccentricity"].size * first.depth * outer == pytest.approx(0.1)
@@ -308,7 +308,7 @@ def same(one: Any, other: Any) -> bool:
 @cache
 def nine_hundred() -> tuple[TrialPlan, TrialResults]:
     """Trials in one go, against which all ways of sharing them out are held."""
-    plan = planned(chain((12, 10), (9, 8)), "placement=2 %", "tip=2 %")
+    plan = planned(chain((12, 10), (9, 8)), "pitch_deviation=2 %", "tip=2 %")
     return plan, run_trials(plan, 900, 7)
 
 
@@ -317,15 +317,15 @@ def nine_hundred() -> tuple[TrialPlan, TrialResults]:
 )
 def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: Any, tmp_path: Path) -> None:
     plan, true = nine_hundred()
-    asked = journal_key(plan, 7, 900)
+    requested = journal_key(plan, 7, 900)
     path = tmp_path / "journal"
     for stop in (1, 3):
-        with Journal(path, asked) as journal, pytest.raises(CutError):
+        with Journal(path, requested) as journal, pytest.raises(CutError):
             run_trials(plan, 900, 7, Execution(None, journal, blocks_until(stop)))
-    with Journal(path, asked) as journal:
+    with Journal(path, requested) as journal:
         assert 0 < len(journal) < 16
     with workers() as executor:
-        with Journal(path, asked) as journal:
+        with Journal(path, requested) as journal:
             assert same(run_trials(plan, 900, 7, Execution(executor, journal)), true)
             assert len(journal) == 16
         assert same(run_trials(plan, 900, 7, Execution(executor)), true)
@@ -349,12 +349,14 @@ def test_tasks_are_every_trial_once_none_across_blocks_and_enough_for_eight_work
 
 
 def test_greater_errors_are_the_same_errors_and_other_clearances_meet_the_same_wheels() -> None:
-    plan, higher = (planned(chain((20, 15)), "placement=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4))
+    plan, higher = (
+        planned(chain((20, 15)), "pitch_deviation=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4)
+    )
     one, twice = (draw_trial_wheels(each, RandomStreams(1, 0), 5).wheels[0] for each in (plan, higher))
     assert np.allclose(twice.place, one.place, atol=2e-3)
     placed = [
         draw_trial_wheels(each, RandomStreams(1, 0), 5)
-        for each in (planned(chain((20, 15)), f"placement={s} %") for s in (1, 2))
+        for each in (planned(chain((20, 15)), f"pitch_deviation={s} %") for s in (1, 2))
     ]
     assert placed[1].wheels[0].place == pytest.approx(2 * placed[0].wheels[0].place)
     assert (
@@ -381,31 +383,37 @@ def test_wilsons_interval_ends_where_the_deviation_is_z(count: int, of: int) -> 
 
 def test_total_indices_are_the_shares_of_the_closed_form() -> None:
     """Each wheel's total share is its part of the variance; where the input stands takes part in all of it."""
-    plan = planned(chain((64, 38)), "p0.placement=0.5 %", "w0.placement=0.9 %")
-    law, S = even_teeth(plan)
-    parts = np.array([float(np.mean(law.speed(S) ** 2)) * (0.005 * 2 * pi / 64) ** 2, (0.009 * 2 * pi / 38) ** 2])
-    whole = parts.sum() + law.error_moments()[1] ** 2
+    plan = planned(chain((64, 38)), "p0.pitch_deviation=0.5 %", "w0.pitch_deviation=0.9 %")
+    transmission, S = even_teeth(plan)
+    parts = np.array(
+        [float(np.mean(transmission.speed(S) ** 2)) * (0.005 * 2 * pi / 64) ** 2, (0.009 * 2 * pi / 38) ** 2]
+    )
+    whole = parts.sum() + transmission.error_moments()[1] ** 2
     found = {each.name: each for each in find_sobol_indices(plan, 0, "wheel", 1024).indices}
     assert found["p0"].total.value == pytest.approx(parts[0] / whole, abs=0.07)
     assert found["w0"].total.value == pytest.approx(parts[1] / whole, abs=0.09)
     assert found["position"].total.value > 0.85
     assert all(each.first.value <= each.total.value + 0.1 for each in found.values())
     kinds = {each.name for each in find_sobol_indices(plan, 0, "kind", 64).indices}
-    assert kinds == {"placement", "position"}
+    assert kinds == {"pitch_deviation", "position"}
 
 
 def test_variance_shares_sum_to_one_and_follow_the_sensitivities() -> None:
     """Of two pairs, the share of each is its variance times the square of what stands behind it."""
-    plan = planned(chain((48, 40), (32, 60)), "placement=0.5 %")
+    plan = planned(chain((48, 40), (32, 60)), "pitch_deviation=0.5 %")
     found = run_trials(plan, 2048)
     shares = found.pointers[0].shares
     assert sum(shares.values()) == pytest.approx(1)
     alone = []
     for pair, factor in zip(plan.pairs, (32 / 60, 1.0), strict=True):
-        law = TriangularTransmission(pair.sizes)
-        S = (np.arange(2000) + 0.5) / 2000 * law.period
+        transmission = TriangularTransmission(pair.sizes)
+        S = (np.arange(2000) + 0.5) / 2000 * transmission.period
         sigma = [0.005 * 2 * pi / z for z in (pair.sizes.z1, pair.sizes.z2)]
-        own = law.error_moments()[1] ** 2 + float(np.mean(law.speed(S) ** 2)) * sigma[0] ** 2 + sigma[1] ** 2
+        own = (
+            transmission.error_moments()[1] ** 2
+            + float(np.mean(transmission.speed(S) ** 2)) * sigma[0] ** 2
+            + sigma[1] ** 2
+        )
         alone.append(factor**2 * own)
     assert shares["g0"] == pytest.approx(alone[0] / sum(alone), abs=0.06)
     off, size = found.pointers[0].first
@@ -413,7 +421,7 @@ def test_variance_shares_sum_to_one_and_follow_the_sensitivities() -> None:
 
 
 def test_more_clearance_jams_less_and_every_clearance_meets_the_same_wheels() -> None:
-    plan = planned(chain((64, 38)), "placement=3 %")
+    plan = planned(chain((64, 38)), "pitch_deviation=3 %")
     found = run_clearances(plan, [1.008, 1.012, 1.016, 1.02], 256)
     jams = [each.events["jam"].count for each in found]
     assert jams == sorted(jams, reverse=True)
@@ -422,7 +430,7 @@ def test_more_clearance_jams_less_and_every_clearance_meets_the_same_wheels() ->
 
 
 def test_along_a_turn_the_bands_are_in_order_and_hold_the_trials() -> None:
-    plan = planned(chain((20, 15)), "placement=2 %")
+    plan = planned(chain((20, 15)), "pitch_deviation=2 %")
     course = run_course(plan, 0, 40, trials=60)
     bands = course.bands()
     assert (np.diff(bands, axis=0) >= 0).all()
@@ -431,12 +439,12 @@ def test_along_a_turn_the_bands_are_in_order_and_hold_the_trials() -> None:
         0
     ]
     assert course.errors[7] == pytest.approx(alone, abs=1e-12)
-    assert course.greatest[7] == pytest.approx(np.abs(alone).max())
+    assert course.maximum[7] == pytest.approx(np.abs(alone).max())
 
 
 def test_a_cycle_of_teeth_is_no_longer_than_it_is() -> None:
     """Positions are drawn from all that the train can do before it repeats."""
-    plan = planned(chain((20, 15), (14, 21)), "placement=1 %")
+    plan = planned(chain((20, 15), (14, 21)), "pitch_deviation=1 %")
     # all teeth stand as at the start when both arbors of every pair have made whole turns
     speeds = (Fraction(1), Fraction(20, 15), Fraction(20, 15) * Fraction(14, 21))
     turns = next(n for n in range(1, 100) if all((n * speed).denominator == 1 for speed in speeds))
@@ -492,6 +500,6 @@ def test_more_friction_takes_more_torque() -> None:
     found = try_frictions(plan, 6, seed=2)
     drawn = [coefficients(draw_friction(plan.declared, 2, trial))[0] for trial in range(6)]
     order = np.argsort(drawn)
-    for figure in (found.mean, found.greatest, found.starting):
+    for figure in (found.mean, found.maximum, found.starting):
         assert (np.diff(figure.values[order]) > 0).all()
     assert (np.diff(found.efficiency.values[order]) < 0).all()

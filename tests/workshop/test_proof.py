@@ -103,7 +103,7 @@ def polygon(side: list[tuple[float, float]], z: int) -> Any:
 @pytest.mark.parametrize(
     ("z1", "z2", "thin"), [(20, 33, 0.02), (17, 17, 0.05), pytest.param(24, 18, 0.01, marks=pytest.mark.slow)]
 )
-def test_the_play_of_polygons_is_that_of_the_contact_of_their_outlines(z1: int, z2: int, thin: float) -> None:
+def test_the_backlash_of_polygons_is_that_of_the_contact_of_their_outlines(z1: int, z2: int, thin: float) -> None:
     """Two ways to one number: areas of overlap by bisection, and the contact of flanks, found edge by edge."""
     sides = [involute(z, thin, z / 2 + 0.9) for z in (z1, z2)]
     one, other = (GearOutline((ToothFlanks.symmetric(polyline(s)),), z) for s, z in zip(sides, (z1, z2), strict=True))
@@ -112,7 +112,7 @@ def test_the_play_of_polygons_is_that_of_the_contact_of_their_outlines(z1: int, 
     contact = solve(one, other, (z1 + z2) / 2, np.linspace(0, 2 * pi / z1, 97))
     assert found.overlap.max() == 0.0
     room = (found.high - found.low) * z2 / 2
-    exact = contact.play * z2 / 2
+    exact = contact.backlash * z2 / 2
     assert room.min() == pytest.approx(4 * thin, abs=4e-4)  # both flanks of both wheels, chords of 200 points
     assert exact.min() - 1e-5 <= room.min() <= exact.max() + 1e-5
     assert room.max() == pytest.approx(exact.max(), abs=2e-5)
@@ -121,27 +121,27 @@ def test_the_play_of_polygons_is_that_of_the_contact_of_their_outlines(z1: int, 
 # ------------------------------------------------------------------------------------------------ printed numbers
 
 
-@pytest.mark.parametrize(("play", "least"), [(0.0, 0.0), (0.1, 0.097)])
-def test_a_planet_leaves_its_sun_and_its_ring_their_play(play: float, least: float) -> None:
+@pytest.mark.parametrize(("backlash", "minimum"), [(0.0, 0.0), (0.1, 0.097)])
+def test_a_planet_leaves_its_sun_and_its_ring_their_backlash(backlash: float, minimum: float) -> None:
     """Cut for its first pair only, the planet left 0.0890 of 0.1 mm, and overlapped by 1.27e-3 mm2 without play."""
     for pair in ("s~p", "p~ring"):
-        found = turned("planetary-24-18-60", pair, module=2.0, backlash=play).turn()
+        found = turned("planetary-24-18-60", pair, module=2.0, backlash=backlash).turn()
         assert found.overlap.max() < 2e-6  # the digits of a drawing: 1e-6 mm along a flank
         room = (found.high - found.low)[found.overlap == 0] * (18 if pair == "s~p" else 60)
-        assert room.min() >= least
+        assert room.min() >= minimum
 
 
-def test_the_clock_turns_with_its_play_and_without_any_is_not_ready() -> None:
-    with_play, bare = (proof("longcase-clock-cycloidal", backlash=play) for play in (0.1, 0.0))
-    assert [mesh.overlap for mesh in with_play.meshes] == [0.0] * 5
-    assert all(0.0999 <= mesh.least <= mesh.most <= 0.108 for mesh in with_play.meshes)
-    assert not any(found.rule == "T5" for found in with_play.findings)
+def test_the_clock_turns_with_its_backlash_and_without_any_is_not_ready() -> None:
+    with_backlash, bare = (proof("longcase-clock-cycloidal", backlash=backlash) for backlash in (0.1, 0.0))
+    assert [mesh.overlap for mesh in with_backlash.meshes] == [0.0] * 5
+    assert all(0.0999 <= mesh.minimum <= mesh.most <= 0.108 for mesh in with_backlash.meshes)
+    assert not any(found.rule == "T5" for found in with_backlash.findings)
     named = {found.problem.what.split("'")[1] for found in bare.findings if found.rule == "T5" and found.is_error}
     assert "cannon~mw40" in named
     assert len(named) == 5
 
 
-def test_a_kerf_that_is_not_compensated_grows_the_play_by_twice_its_width_over_the_cosine() -> None:
+def test_a_kerf_that_is_not_compensated_grows_the_backlash_by_twice_its_width_over_the_cosine() -> None:
     pair = turned("planetary-24-18-60", "s~p", module=2.0, backlash=0.0)
     burnt = TurnedPair(tuple(each.buffer(-0.1, quad_segs=32) for each in pair.materials), (24, 18), 42.0)
     before, after = (float(((each.high - each.low) * 18).min()) for each in (pair.turn(), burnt.turn()))
@@ -150,10 +150,10 @@ def test_a_kerf_that_is_not_compensated_grows_the_play_by_twice_its_width_over_t
     assert shapely.hausdorff_distance(mended, pair.materials[0]) < 3e-4
 
 
-def internal(z1: int, z2: int, play: float) -> TurnedPair:
+def internal(z1: int, z2: int, backlash: float) -> TurnedPair:
     """A wheel and a ring of standard involutes, the ring's space the tooth of a wheel as thick as its own is thin."""
-    wheel = polygon(involute(z1, play / 4, z1 / 2 + 1), z1)
-    hole = polygon(involute(z2, -play / 4, z2 / 2 + 1.25), z2)
+    wheel = polygon(involute(z1, backlash / 4, z1 / 2 + 1), z1)
+    hole = polygon(involute(z2, -backlash / 4, z2 / 2 + 1.25), z2)
     bored = shapely.union(hole, shapely.Point(0, 0).buffer(z2 / 2 - 1, quad_segs=8 * z2))
     space = shapely.affinity.rotate(bored, 180 / z2, origin=(0, 0))
     ring = shapely.Point(0, 0).buffer(z2 / 2 + 4, quad_segs=256).difference(space)
@@ -191,15 +191,15 @@ def broken(svg: str, by: float) -> str:
 
 def test_one_thick_tooth_of_a_written_outline_is_found_and_its_place_told() -> None:
     model = work("planetary-24-18-60", module=2.0, backlash=0.1)
-    play, wheels, pair = paired_wheels(model, read_wheels(model))["s~p"]
+    backlash, wheels, pair = paired_wheels(model, read_wheels(model))["s~p"]
     bad = read_material(broken(wheel_file(model, "s", ".svg").decode(), 0.3))
     worn = TurnedPair((bad, pair.materials[1]), pair.counts, pair.distance)
-    assert len(worn.couples) == 24  # every tooth of the sun, for the planet's are alike
-    found = prove_mesh(play, wheels, worn)
+    assert len(worn.tooth_pairs) == 24  # every tooth of the sun, for the planet's are alike
+    found = prove_mesh(backlash, wheels, worn)
     (error,) = (each for each in found.findings if each.rule == "T5")
     assert error.is_error
     assert re.search(r"of s \(r .*\) on \w+ of p \(r ", error.problem.what)
-    assert found.least == 0.0
+    assert found.minimum == 0.0
 
 
 def test_a_wheel_that_does_not_reach_its_mate_is_no_mesh() -> None:
@@ -211,23 +211,23 @@ def test_a_wheel_that_does_not_reach_its_mate_is_no_mesh() -> None:
 # ------------------------------------------------------------------------------------------------ the train as a whole
 
 
-def test_the_play_of_a_link_is_the_sum_of_the_plays_on_the_way_to_it() -> None:
-    plays = {each.link: each.play for each in proof("longcase-clock-cycloidal", backlash=0.1).links}
+def test_the_backlash_of_a_link_is_the_sum_of_the_backlashes_on_the_way_to_it() -> None:
+    backlashes = {each.link: each.backlash for each in proof("longcase-clock-cycloidal", backlash=0.1).links}
     mesh = {each.pair: each for each in proof("longcase-clock-cycloidal", backlash=0.1).meshes}
-    assert "centre" not in plays  # the input is held
-    third = mesh["c60~t8"].least / 4
-    assert plays["third"] == pytest.approx(third, rel=0.03)
-    assert plays["escape"] == pytest.approx(third * 8 + mesh["t56~e7"].least / 3.5, rel=0.03)
-    assert plays["great"] == pytest.approx(mesh["g96~c8"].least / 48, rel=0.03)
+    assert "centre" not in backlashes  # the input is held
+    third = mesh["c60~t8"].minimum / 4
+    assert backlashes["third"] == pytest.approx(third, rel=0.03)
+    assert backlashes["escape"] == pytest.approx(third * 8 + mesh["t56~e7"].minimum / 3.5, rel=0.03)
+    assert backlashes["great"] == pytest.approx(mesh["g96~c8"].minimum / 48, rel=0.03)
 
 
 def test_planets_and_their_carrier_are_held_by_sun_and_ring() -> None:
     """With sun and ring held, the carrier turns until both meshes are at an end: by half the play of each."""
     found = proof("planetary-24-18-60", module=2.0, backlash=0.1)
     assert found.is_ready
-    plays = {each.link: degrees(each.play or 0.0) for each in found.links}
+    backlashes = {each.link: degrees(each.backlash or 0.0) for each in found.links}
     # 42 dA = (24 + 60)/2 dA of travel at each mesh, one way at the sun, the other at the ring
-    assert plays["carrier"] == pytest.approx(degrees(0.2 / 84), rel=0.03)
+    assert backlashes["carrier"] == pytest.approx(degrees(0.2 / 84), rel=0.03)
 
 
 def test_a_link_that_nothing_drives_is_free() -> None:
@@ -238,7 +238,7 @@ gears: [{id: G1, pair: [p, w]}]
 inputs: {a: 1}
 """)
     found = prove_train(model)
-    assert {each.link: each.play is None for each in found.links} == {"b": False, "c": True}
+    assert {each.link: each.backlash is None for each in found.links} == {"b": False, "c": True}
 
 
 def test_a_loop_of_wheels_that_does_not_close_is_not_ready() -> None:

@@ -92,7 +92,7 @@ REDUCERS = ("cycloidal-reducer", "rv-reducer", "strain-wave")
 @pytest.mark.parametrize("name", all_but({"rv-reducer"}, REDUCERS))
 def test_a_reducer_is_ready_to_cut(name: str) -> None:
     assert proof(name).verdict == "ready to cut", [str(each.problem.what) for each in proof(name).findings]
-    assert all(mesh.least > 0 for mesh in proof(name).meshes)
+    assert all(mesh.minimum > 0 for mesh in proof(name).meshes)
 
 
 def test_the_eccentric_is_drawn_as_far_out_of_the_middle_as_half_a_module() -> None:
@@ -115,7 +115,7 @@ def test_pins_of_the_ring_stand_in_holes_on_their_circle() -> None:
     assert pins == {(round(each.x, 5), round(each.y, 5)) for each in holes}
 
 
-def test_the_disc_passes_all_pins_with_play_wherever_its_eccentric_stands() -> None:
+def test_the_disc_passes_all_pins_with_backlash_wherever_its_eccentric_stands() -> None:
     disc = in_place("cycloidal-reducer", "lobes", "lobes")
     ring, flange = (middles("cycloidal-reducer", f"{which} pin") for which in ("ring", "holes"))
     assert (len(ring[0].geoms), len(flange[0].geoms)) == (12, 6)
@@ -264,7 +264,7 @@ def by_size(drawing: str) -> list[list[Point]]:
     return sorted(written("strain-wave")[drawing], key=lambda line: -shapely.Polygon(line).area)
 
 
-def test_a_thin_wheel_bent_by_its_wave_passes_its_ring_with_play() -> None:
+def test_a_thin_wheel_bent_by_its_wave_passes_its_ring_with_backlash() -> None:
     teeth, (_, ring) = by_size("spline")[0], by_size("ring")[:2]
     around = rotate(shapely.Polygon(ring), 180 / 202, origin=(0, 0))
     gaps = []

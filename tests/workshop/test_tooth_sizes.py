@@ -115,11 +115,11 @@ def test_the_margin_is_how_far_the_axes_can_move_before_the_teeth_jam_or_lose_ea
             sizes.at((sizes.D + way * part * design.jam * module) / sizes.deepest_distance - 1)
             for part in (0.999, 1.001)
         )
-        assert replace_law(design, near)
-        assert bool(replace_law(design, beyond)) is (kind is None)
+        assert replace_transmission(design, near)
+        assert bool(replace_transmission(design, beyond)) is (kind is None)
 
 
-def replace_law(design: ToothSizes, sizes: object) -> object:
+def replace_transmission(design: ToothSizes, sizes: object) -> object:
     from geartrain.teeth.triangular.clearance_window import TriangularContact
 
     return TriangularContact(sizes).verdict  # type: ignore[arg-type]
@@ -129,9 +129,9 @@ def replace_law(design: ToothSizes, sizes: object) -> object:
 def test_the_impact_is_what_inelastic_collisions_dissipate(z1: int, z2: int, radii: float, window: float) -> None:
     """J (tau+ - tau-)^2 / 2 of each, over J tau^2 / 2 of the mean."""
     design = pair(z1, z2, radii=radii, window=window)
-    assert design.law is not None
-    spent = sum((jump.after - jump.before) ** 2 / 2 for jump in design.law.jumps)
-    assert len(design.law.jumps) >= 1
+    assert design.transmission is not None
+    spent = sum((jump.after - jump.before) ** 2 / 2 for jump in design.transmission.jumps)
+    assert len(design.transmission.jumps) >= 1
     assert design.impact == pytest.approx(spent / ((z1 / z2) ** 2 / 2), rel=1e-12)
 
 
@@ -151,18 +151,18 @@ def test_limits_are_kept_and_cost_something() -> None:
     assert tight.best.loss > loose.best.loss
 
 
-def test_a_limit_on_a_chance_is_asked_of_few_designs_and_met() -> None:
+def test_a_limit_on_a_chance_is_requested_of_few_designs_and_met() -> None:
     """A chance that falls at 0.9853: the best that is let in is there, for the loss rises from 0.9823 on."""
-    asked: list[float] = []
+    requested: list[float] = []
 
     def chance(design: ToothSizes) -> float:
-        asked.append(design.radii)
+        requested.append(design.radii)
         return 0.0 if design.radii >= 0.9853 else 0.5
 
     found = find_tooth_sizes(pair(48, 96), free={"radii": (0.95, 1.0)}, chance=ChanceLimit(0.1, chance))
     assert 0.9853 <= found.best.radii < 0.9856
     assert found.stops == 0.0
-    assert len(asked) < 20
+    assert len(requested) < 20
     with pytest.raises(QuestionError, match="none stops"):
         find_tooth_sizes(pair(48, 96), free={"window": (0.4, 0.6)}, chance=ChanceLimit(0.1, lambda _: 1.0))
 
@@ -192,7 +192,9 @@ def test_no_design_of_a_front_is_better_than_another_in_both() -> None:
         (("loss",), {"radii": (0.98, 0.99)}, (SizeLimit("loss", 1e-4),), "misses a limit"),
     ],
 )
-def test_what_cannot_be_asked_or_found_is_said(aims: tuple[str, ...], free: object, limits: object, word: str) -> None:
+def test_what_cannot_be_requested_or_found_is_said(
+    aims: tuple[str, ...], free: object, limits: object, word: str
+) -> None:
     with pytest.raises(QuestionError, match=word):
         find_tooth_sizes(pair(48, 96), aims, free, limits)  # type: ignore[arg-type]
 
@@ -207,12 +209,12 @@ def test_a_limit_is_of_a_figure_that_there_is() -> None:
         SizeLimit("los", 0.01)
 
 
-def test_without_friction_there_is_no_loss_to_be_least() -> None:
+def test_without_friction_there_is_no_loss_to_be_minimum() -> None:
     with pytest.raises(QuestionError, match="without friction"):
         find_tooth_sizes(pair(48, 96, friction=0.0))
 
 
-def test_outlines_and_law_agree_on_wheels_of_two_half_angles() -> None:
+def test_outlines_and_transmission_agree_on_wheels_of_two_half_angles() -> None:
     design = replace(pair(24, 36, radii=0.97), half_angles=(0.5, 0.6))
     found = confirm_by_outlines(design)
     assert found.turns
@@ -226,24 +228,24 @@ PAGE = (DOCS / "best-radii.md").read_text(encoding="utf-8")
 A, B = (float(each) for each in re.findall(r"-\s*([\d.]+)\\left\(", PAGE.split("$$")[1]))
 
 
-def law(z1: int, z2: int) -> float:
+def transmission(z1: int, z2: int) -> float:
     return exp(-A * (1 / z1 - 1 / z2) - B * (1 / z1 + 1 / z2) ** 2)
 
 
-def times_the_least(z1: int, z2: int) -> float:
-    pair = ToothSizes((z1, z2), law(z1, z2), 0.5, (pi / 6, pi / 6), 0.2)
+def times_the_minimum(z1: int, z2: int) -> float:
+    pair = ToothSizes((z1, z2), transmission(z1, z2), 0.5, (pi / 6, pi / 6), 0.2)
     near = (pair.radii - 0.03, pair.radii + 0.03)
     return pair.loss / find_tooth_sizes(pair, free={"radii": near}).best.loss
 
 
 def test_the_law_is_within_a_few_percent_of_the_least_loss() -> None:
-    assert times_the_least(37, 89) < 1.02
+    assert times_the_minimum(37, 89) < 1.02
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("teeth", [(13, 47), (47, 13), (22, 101), (101, 22), (71, 73), (11, 17), (113, 64), (64, 38)])
 def test_the_law_holds_for_other_counts_than_those_it_was_fitted_to(teeth: tuple[int, int]) -> None:
-    assert times_the_least(*teeth) < 1.02
+    assert times_the_minimum(*teeth) < 1.02
 
 
 def test_the_page_has_the_pairs_of_the_literature() -> None:

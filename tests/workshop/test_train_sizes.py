@@ -127,7 +127,7 @@ def test_pairs_that_share_a_wheel_are_given_one_half_angle(aim: str) -> None:
     assert declared == {f"{degrees(angles.pop()):.10g} deg"}
 
 
-def test_what_cannot_be_asked_is_said() -> None:
+def test_what_cannot_be_requested_is_said() -> None:
     train = geartrain.load(TWO)
     for output, aim, word in (("a", "loss", "acts on 'a'"), ("nobody", "loss", "nobody"), ("c", "speed", "best in")):
         with pytest.raises(QuestionError, match=word):

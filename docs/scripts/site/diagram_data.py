@@ -23,7 +23,7 @@ from geartrain.scene import make_scene
 Data = dict[str, Any]
 
 DOCS = Path(__file__).resolve().parents[2]
-_DRAWN = ("bodies", "wheels", "profiles", "pairs", "movement", "back", "lead", "step")
+_DRAWN = ("bodies", "wheels", "profiles", "pairs", "movement", "back", "driving_link", "step")
 
 # ------------------------------------------------------------------------------------------------------------- speeds
 
@@ -111,21 +111,21 @@ MOMENTS = 120  # of a pitch
 def teeth() -> Data:
     """Pairs of Sorge's note: sizes, law, and where they touch at moments of a pitch of the driver."""
     train = geartrain.load("sorge-pairs")
-    tables = {table["pair"]: table for table in make_scene(train).to_dict()["movement"]["laws"]}
-    laws = {mesh.name: mesh.law for mesh in train.meshes}
-    return {"pairs": {name: _pair(laws[name], tables[name], title) for name, title in TEETH.items()}}
+    tables = {table["pair"]: table for table in make_scene(train).to_dict()["movement"]["transmissions"]}
+    transmissions = {mesh.name: mesh.transmission for mesh in train.meshes}
+    return {"pairs": {name: _pair(transmissions[name], tables[name], title) for name, title in TEETH.items()}}
 
 
-def _pair(law: Any, table: Data, title: str) -> Data:
-    sizes = law.sizes
-    moments = [tooth_pair_pose(law, -law.period * n / MOMENTS) for n in range(MOMENTS)]
+def _pair(transmission: Any, table: Data, title: str) -> Data:
+    sizes = transmission.sizes
+    moments = [tooth_pair_pose(transmission, -transmission.period * n / MOMENTS) for n in range(MOMENTS)]
     return {
         "title": title,
         "teeth": [sizes.z1, sizes.z2],
         "tips": [sizes.R1, sizes.R2],
         "depths": list(sizes.depths),
         "distance": sizes.D,
-        "ratio": str(law.ratio),
+        "ratio": str(transmission.ratio),
         "law": {key: table[key] for key in ("period", "breaks", "coefficients")},
         "moments": [
             [*(round(float(v), 9) for v in (m.alpha1, m.alpha2, *m.contact, m.centre[0])), m.phase] for m in moments
@@ -141,13 +141,13 @@ def pin() -> Data:
     scene = make_scene(geartrain.load("freeth-2008")).to_dict()
     (coupling,) = scene["couplings"]
     source = next(each for each in scene["movement"]["sources"] if each["pair"] == coupling["id"])
-    law = scene["movement"]["laws"][source["law"]]
+    transmission = scene["movement"]["transmissions"][source["transmission"]]
     wheels = [wheel for wheel in scene["wheels"] if wheel["body"] in (coupling["pin"], coupling["slot"])]
     return {
         "wheels": [_shaped(scene, wheel) for wheel in wheels],
         "pin_radius": coupling["pin_radius"],
         "offset": coupling["offset"],
-        "law": {key: law[key] for key in ("period", "breaks", "coefficients")},
+        "transmission": {key: transmission[key] for key in ("period", "breaks", "coefficients")},
     }
 
 
@@ -193,13 +193,13 @@ def _set(sun: int) -> Data:
 
 # ------------------------------------------------------------------------------------------------------------- torques
 
-LEAST, STEPS = Fraction("0.9"), 200
+MINIMUM, STEPS = Fraction("0.9"), 200
 
 
 def locking() -> Data:
     """The set of docs/torques.md, section 5: what of its power arrives both ways, by the efficiency of its pairs."""
     set_ = block("torques.md", "near.yaml")
-    basic = [LEAST + n * (1 - LEAST) / STEPS for n in range(STEPS + 1)]
+    basic = [MINIMUM + n * (1 - MINIMUM) / STEPS for n in range(STEPS + 1)]
     train = geartrain.GearTrain.declare(set_)
     return {
         "basic": [str(each) for each in basic],

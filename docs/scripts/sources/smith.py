@@ -492,7 +492,7 @@ def spirals() -> float:
 
 def shared_work() -> Finding:
     """Work of one engagement of 24/36 involutes, the force undivided, and divided among the pairs in contact."""
-    answer = Command("mesh involute --teeth 24 36", "costs").value()
+    answer = Command("mesh involute --teeth 24 36", "losses_and_stresses").value()
     ratio = Command("mesh involute --teeth 24 36", "contact_ratio").value()
     whole, divided = answer["one_pair"]["loss"] * ratio, answer["shared"]["loss"]
     part = divided / whole
@@ -636,7 +636,7 @@ def uniform(form: str, kind: Kind) -> Finding:
     return Finding(spread < 1e-9, "heat of the hotter tooth uniform to 1e-9, approach and recess")
 
 
-def least_height(shape: str) -> Finding:
+def minimum_height(shape: str) -> Finding:
     """Whether the greatest of the criterion is the least possible: against an involute of 80 or 45 deg."""
     tilt = {"stress": 45.0, "temperature": 80.0}[shape]
     other = optimal_sides.involute(SPUR.p / 2, radians(tilt))
@@ -646,7 +646,7 @@ def least_height(shape: str) -> Finding:
     return Finding(first <= second, f"greatest {first:.3f}; of an involute of {tilt:g} deg {second:.3f}")
 
 
-def extremal_is_least() -> Finding:
+def extremal_is_minimum() -> Finding:
     """J of the note's problem: the closed extremal against other paths between the same ends, over the same arc."""
     side = closed_form_sides.extremal(SPUR, 1.0, radians(80), radians(50))
     first, last = side.pieces[0].start, side.pieces[0].end
@@ -673,7 +673,7 @@ def misplaced(form: str) -> float:
         "revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]\n"
         f"gears: [{{pair: [A, B], tooth_form: {{form: {form}, centre_distance: 30.1}}}}]\ninputs: {{a: 1}}\n"
     )
-    low, high = train.meshes[0].law.error_range()
+    low, high = train.meshes[0].transmission.error_range()
     return float(high - low)
 
 

@@ -193,9 +193,13 @@ def friction() -> Iterator[Row]:
         ("Buckingham, 2100 ft/min", "the same", "0.0385", "buckingham(2100)"),
         ("Buckingham, stationary", "the same", "0.0517", "buckingham(0)"),
     ):
-        law = expression.partition("(")[0]
+        transmission = expression.partition("(")[0]
         yield digits(
-            f"Section 11, {place}", what, printed, expression, why=f"measured; `friction: {{law: {law}}}` goes by it"
+            f"Section 11, {place}",
+            what,
+            printed,
+            expression,
+            why=f"measured; `friction: {{law: {transmission}}}` goes by it",
         )
     yield outside(
         "Section 11, formulas",
@@ -346,7 +350,7 @@ def heat_and_optima() -> Iterator[Row]:
     yield words(
         "Theorem 10",
         "least friction between given ends",
-        "extremal_is_least()",
+        "extremal_is_minimum()",
         why="in closed form: (10) of [Tooth shapes](shapes.md)",
     )
     names = (("friction", "least friction"), ("stress", "uniform stress"), ("temperature", "uniform temperature"))
@@ -366,7 +370,7 @@ def heat_and_optima() -> Iterator[Row]:
         yield words(
             f"Section 21, {shape}",
             f"uniform {shape} plausibly has the least greatest {shape}",
-            f"least_height('{shape}')",
+            f"minimum_height('{shape}')",
             "**Section 21**",
             f"not without a bound on the pressure angle, here {tilt} deg",
         )

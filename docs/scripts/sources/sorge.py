@@ -13,10 +13,10 @@ import geartrain
 from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.teeth import Triangular
 from geartrain.teeth.triangular.clearance_window import find_window
-from geartrain.teeth.triangular.tooth_couple import ToothCouple
+from geartrain.teeth.triangular.tooth_pair import ToothPair
 from sources import sorge_contacts as note
 from sources.row import Equal, Finding, Mended, Row, Source, Statements, outside
-from sources.sorge_contacts import Contact, contacts, figures, law, off
+from sources.sorge_contacts import Contact, contacts, figures, off, transmission
 from sources.ways import Command
 
 SECTION = "sorges-note-on-ancient-gears"
@@ -30,7 +30,7 @@ words, equation = _OWN.words, _OWN.equation
 
 def mesh(z1: int, z2: int, clearance: str, path: str) -> Command:
     """A value of a pair of the figures."""
-    return Command(f"mesh triangular --teeth {z1} {z2} --clearance {clearance} --friction 0.2", path)
+    return Command(f"mesh triangular --teeth {z1} {z2} --clearance-factor {clearance} --friction 0.2", path)
 
 
 # ------------------------------------------------------------------------------------------------------ II. geometry
@@ -83,9 +83,9 @@ def matched() -> Finding:
     """Where flank lies on flank the angles are opposite; speed leaps there."""
     angles, leaps = [], []
     for pair in figures().values():
-        s, couple = pair.sizes, pair.contact.path.couple
-        angles.append(abs(couple.approach_angle(s.matching) + s.matching))
-        leaps.append(couple.recess_speed(s.matching) / couple.approach_speed(s.matching) - 1)
+        s, tooth_pair = pair.sizes, pair.contact.path.tooth_pair
+        angles.append(abs(tooth_pair.approach_angle(s.matching) + s.matching))
+        leaps.append(tooth_pair.recess_speed(s.matching) / tooth_pair.approach_speed(s.matching) - 1)
     return Finding(
         max(angles) < 1e-12 and min(leaps) > 0,
         f"alpha_2 = -alpha_1 to 1e-12; there tau leaps up by {100 * min(leaps):.1f} to {100 * max(leaps):.1f} %",
@@ -98,7 +98,7 @@ def geometry() -> Iterator[Row]:
     yield outside(
         "II, Fig. 2",
         "a drawing of approach, matching and recess, z2/z1 = 2, beta = 30 deg",
-        "the copy has no pictures; `geartrain mesh triangular --teeth 48 96 --clearance 1.01 --at -3deg "
+        "the copy has no pictures; `geartrain mesh triangular --teeth 48 96 --clearance-factor 1.01 --at -3deg "
         "--teeth-plot contact.svg` draws any position",
     )
     yield words("Fig. 2 b", "profiles match where -alpha_2 = alpha_1; tau changes suddenly there", "matched()")
@@ -193,12 +193,14 @@ def eq_17() -> float:
     """alpha_2 in recess by the quotient, on figures and on leaning flanks of few teeth, over the whole ideal path."""
     worst = 0.0
     for z1, z2, half in ((48, 96, 30), (96, 96, 30), (5, 4, 40), (3, 8, 25), (8, 8, 60), (12, 30, 70)):
-        form = Triangular.model_validate({"form": "triangular", "half_angle": f"{half} deg", "clearance": "1.05"})
-        sizes = form.law(z1, z2).sizes
-        s = sizes.at(sizes.greatest_excess / 2)
+        form = Triangular.model_validate(
+            {"form": "triangular", "half_angle": f"{half} deg", "clearance_factor": "1.05"}
+        )
+        sizes = form.transmission(z1, z2).sizes
+        s = sizes.at(sizes.maximum_excess / 2)
         x = np.linspace(s.exit, s.entry, 101)[1:-1]
-        couple = ToothCouple(s)
-        c = Contact(z1, z2, s.R1, s.R2, s.D, s.beta1, R, x, couple.recess_angle(x, np), x, x)
+        tooth_pair = ToothPair(s)
+        c = Contact(z1, z2, s.R1, s.R2, s.D, s.beta1, R, x, tooth_pair.recess_angle(x, np), x, x)
         worst = max(worst, float(np.abs(note.quotient_17(c, note.eq_16(c, -1.0)) - c.y).max()))
     return worst
 
@@ -258,39 +260,43 @@ def kinematics() -> Iterator[Row]:
 
 def concave_upward() -> Finding:
     """d tau / d alpha_1 on the whole ideal path of every figure, but for the matching position."""
-    least = []
+    minimum = []
     for pair in figures().values():
-        s, couple = pair.sizes, pair.contact.path.couple
+        s, tooth_pair = pair.sizes, pair.contact.path.tooth_pair
         late, early = np.linspace(-s.reach1, s.matching, 500), np.linspace(s.matching, s.reach1, 500)
-        least += [couple.recess_slope(late, np).min(), couple.approach_slope(early, np).min()]
-    return Finding(min(least) > 0, f"d tau/d alpha_1 at least {min(least):.2f} on all six ideal paths")
+        minimum += [tooth_pair.recess_slope(late, np).min(), tooth_pair.approach_slope(early, np).min()]
+    return Finding(min(minimum) > 0, f"d tau/d alpha_1 at least {min(minimum):.2f} on all six ideal paths")
 
 
 def shared_bounds() -> Finding:
     """How many pairs with some clearance run, of those tried."""
-    failing = {f"{z1}/{z2} at {a}": law(z1, z2, a).verdict.kind for z1, z2, a in ((15, 60, "1.01"), (96, 96, "1.027"))}
+    failing = {
+        f"{z1}/{z2} at {a}": transmission(z1, z2, a).verdict.kind for z1, z2, a in ((15, 60, "1.01"), (96, 96, "1.027"))
+    }
     text = ", ".join(f"{name}: {kind}" for name, kind in failing.items())
     return Finding(all(kind == "runs" for kind in failing.values()), text)
 
 
 def back_profiles() -> Finding:
     """The least play of back flanks at a clearance of 1.01."""
-    play = {f"{z1}/{z2}": law(z1, z2, "1.01").verdict.play * z2 / (2 * pi) for z1, z2 in ((48, 96), (15, 60))}
-    text = ", ".join(f"{name}: {part:.3f}" for name, part in play.items())
-    return Finding(min(play.values()) > 0, f"least play at a = 1.01, in pitches: {text}")
+    backlash = {
+        f"{z1}/{z2}": transmission(z1, z2, "1.01").verdict.backlash * z2 / (2 * pi) for z1, z2 in ((48, 96), (15, 60))
+    }
+    text = ", ".join(f"{name}: {part:.3f}" for name, part in backlash.items())
+    return Finding(min(backlash.values()) > 0, f"least play at a = 1.01, in pitches: {text}")
 
 
 def admissible() -> Finding:
     """Whether another couple would overlap at a contact of the real path: its first contact would come before it."""
     deepest = 0.0
     for pair in figures().values():
-        s, couple = pair.sizes, pair.contact.path.couple
+        s, tooth_pair = pair.sizes, pair.contact.path.tooth_pair
         for phase in (A, R):
             c = note.seen(pair, phase)
             for x, y in zip(c.x.tolist(), c.y.tolist(), strict=True):
                 for j in (-3, -2, -1, 1, 2, 3):
                     if abs(x + j * s.p1) <= s.reach1:
-                        deepest = max(deepest, (y + j * s.p2 - couple.contact(x + j * s.p1)) / s.p2)
+                        deepest = max(deepest, (y + j * s.p2 - tooth_pair.contact(x + j * s.p1)) / s.p2)
     return Finding(deepest < 1e-9, f"so at {note.SAMPLES} contacts of each figure, three couples before and after")
 
 
@@ -332,7 +338,7 @@ def widths() -> Finding:
 
 def phases(z1: int, z2: int, clearance: str) -> list[str]:
     """The phases of the real path; `astride` where one runs through the matching position."""
-    pair = law(z1, z2, clearance)
+    pair = transmission(z1, z2, clearance)
     names = [each.phase for each in pair.intervals]
     through = any(jump.kind == "matching" for jump in pair.jumps)
     return ["astride"] if through and len(names) == 2 else names
@@ -350,7 +356,7 @@ def faster() -> Finding:
     return Finding(all(jump.after > jump.before for jump in jumps), f"so in all {len(jumps)} collisions of the figures")
 
 
-def greatest_jumps() -> Finding:
+def maximum_jumps() -> Finding:
     """The range of the relative jumps."""
     found = [jump.value for pair in figures().values() for jump in pair.jumps]
     return Finding(max(found) < 0.2, f"{min(found):.4f} to {max(found):.4f} in the figures")
@@ -371,7 +377,7 @@ def towards_straddling() -> Finding:
 
 
 def _gap(z1: int, z2: int, a: str, late: int) -> float:
-    pair = law(z1, z2, a)
+    pair = transmission(z1, z2, a)
     edge = min(each.end for each in pair.intervals) if late else max(each.start for each in pair.intervals)
     return abs(edge - pair.sizes.matching) / pair.sizes.p1
 
@@ -435,7 +441,7 @@ def collisions() -> Iterator[Row]:
         "the same at alpha_1m, Figs. 4b and 5b",
         "max(abs(note.eq_27(name) - note.jump(name, 'matching')) for name in ('4b', '5b'))",
     )
-    yield words("III D, size", "relative jumps up to the order of 10 %", "greatest_jumps()")
+    yield words("III D, size", "relative jumps up to the order of 10 %", "maximum_jumps()")
 
 
 # ------------------------------------------------------------------------------------------------------ IV. power loss
@@ -500,7 +506,7 @@ def _integral(pair: Any, high: float, low: float) -> float:
     return float((high - low) / 2 * weights @ (1 - pair.efficiency(-x)))
 
 
-def lost_in_blows() -> tuple[float, float]:
+def lost_in_impacts() -> tuple[float, float]:
     """What a blow of Fig. 3a dissipates, from momentum and energy of the wheel alone, against both formulas.
 
     J2 is set to 1 and so is w1: the blow hands J2 w1 (tau+ - tau-) to the wheel while the driver keeps w1, so that it
@@ -575,7 +581,7 @@ def power_loss() -> Iterator[Row]:
     yield equation("Eq. (33)", "efficiency in recess", "eq_33()", Mended(), "**Eq. (33)**")
     yield from from_command()
     yield equation("Eq. (34)", "loss of one meshing, at constant driver torque", "eq_34()")
-    yield equation("IV, impact", "J2 w1^2 (tau+^2 - tau-^2)/2 is lost", "lost_in_blows()", Mended(), "**IV**, 48/96")
+    yield equation("IV, impact", "J2 w1^2 (tau+^2 - tau-^2)/2 is lost", "lost_in_impacts()", Mended(), "**IV**, 48/96")
 
 
 # --------------------------------------------------------------------------------------------------------- V. results
@@ -641,7 +647,7 @@ def sub_phases() -> Finding:
     """Pieces of the path of 96/96 as the clearance grows; one through the matching position counts once."""
     found = {}
     for a in ("1.01", "1.0115", "1.025"):
-        pair = law(96, 96, a)
+        pair = transmission(96, 96, a)
         found[a] = len(pair.intervals) - sum(jump.kind == "matching" for jump in pair.jumps)
     text = ", ".join(f"{pieces} at {a}" for a, pieces in found.items())
     return Finding(max(found.values()) <= 2, f"pieces of the path: {text}")
@@ -649,8 +655,10 @@ def sub_phases() -> Finding:
 
 def narrowing() -> Finding:
     """Width of the left (recess) sub-region of 96/96 just before a third is born, in pitches."""
-    width = {a: next(each.width for each in law(96, 96, a).intervals if each.phase == R) / law(96, 96, a).period
-             for a in ("1.001", "1.0111")}  # fmt: skip
+    pairs = {a: transmission(96, 96, a) for a in ("1.001", "1.0111")}
+    width = {
+        a: next(each.width for each in pair.intervals if each.phase == R) / pair.period for a, pair in pairs.items()
+    }
     text = ", ".join(f"{part:.3f} at {a}" for a, part in width.items())
     return Finding(width["1.0111"] < 0.5 * width["1.001"], f"recess apart, in pitches: {text}")
 
@@ -664,8 +672,8 @@ def best_of_figures() -> Finding:
 
 def best_of_all() -> Finding:
     """96/96 at 1.025 against 1.0117219, friction, and 1.019273, collisions."""
-    lost = {a: 1 - law(96, 96, a).efficiency_mean() for a in ("1.025", "1.0117219")}
-    spent = {a: collision_energies(law(96, 96, a).speed_leaps(), 1.0, 1.0)[1] for a in ("1.025", "1.019273")}
+    lost = {a: 1 - transmission(96, 96, a).efficiency_mean() for a in ("1.025", "1.0117219")}
+    spent = {a: collision_energies(transmission(96, 96, a).speed_leaps(), 1.0, 1.0)[1] for a in ("1.025", "1.019273")}
     return Finding(
         lost["1.025"] <= lost["1.0117219"] and spent["1.025"] <= spent["1.019273"],
         f"sliding takes {100 * lost['1.025']:.3f} %, at 1.0117219 {100 * lost['1.0117219']:.3f} %; blows "
@@ -673,14 +681,14 @@ def best_of_all() -> Finding:
     )
 
 
-def standstill() -> Finding:
+def dwell() -> Finding:
     """Where the ideal region of 96/96 is as wide as a pitch, and where the pair begins to stand still."""
-    run = law(96, 96, "1.01").contact
+    run = transmission(96, 96, "1.01").contact
     window = find_window(run.sizes)
     wide = 2 * run.sizes.at(window.run).reach1 / run.sizes.p1
-    kind = law(96, 96, f"{1 + window.run + 1e-4:.6f}").verdict.kind
+    kind = transmission(96, 96, f"{1 + window.run + 1e-4:.6f}").verdict.kind
     text = f"at a = {1 + window.run:.6f} it is {wide:.6f} pitches wide; beyond: {kind}"
-    return Finding(abs(wide - 1) < 1e-6 and kind == "standstill", text)
+    return Finding(abs(wide - 1) < 1e-6 and kind == "dwell", text)
 
 
 def results() -> Iterator[Row]:
@@ -690,7 +698,7 @@ def results() -> Iterator[Row]:
             f"Fig. {name}, curves",
             "alpha_2, tau and eta over alpha_1",
             "the copy has no pictures, and no values are printed; `geartrain mesh triangular "
-            f"--teeth {z1} {z2} --clearance {a} --friction 0.2 --plot law.svg` draws them",
+            f"--teeth {z1} {z2} --clearance-factor {a} --friction 0.2 --plot law.svg` draws them",
         )
         yield Row(f"Fig. {name}, tau_mean", "mean speed ratio", MEANS[name[0]], mesh(z1, z2, a, "speed_ratio.mean"))
         for figure, kind, printed in JUMPS:
@@ -746,7 +754,7 @@ def results() -> Iterator[Row]:
     yield words(
         "V, standstill",
         "where the ideal region is smaller than 360/z1 the driven wheel stands",
-        "standstill()",
+        "dwell()",
         why="of equal wheels; unequal ones stand earlier",
     )
 
@@ -777,7 +785,7 @@ def conclusions() -> Iterator[Row]:
     yield outside(
         "VI, rattling",
         "a sensible rattling noise, lubrication of the ancients",
-        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance 1.01 "
+        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance-factor 1.01 "
         "--inertia '20 g cm2' --rate 1rpm`",
     )
     yield words(

@@ -107,16 +107,16 @@ class Contact:
         return b * p - a * q, (a - self.D) * q - b * p
 
 
-def law(z1: int, z2: int, clearance: float | str) -> TriangularTransmission:
+def transmission(z1: int, z2: int, clearance: float | str) -> TriangularTransmission:
     """A pair of the note: equilateral teeth of equal depth, friction 0.2."""
-    form = Triangular.model_validate({"form": "triangular", "half_angle": "30 deg", "clearance": str(clearance)})
-    return form.law(z1, z2, FRICTION)
+    form = Triangular.model_validate({"form": "triangular", "half_angle": "30 deg", "clearance_factor": str(clearance)})
+    return form.transmission(z1, z2, FRICTION)
 
 
 @lru_cache(maxsize=1)
 def figures() -> dict[str, TriangularTransmission]:
     """The pairs of Figs. 3 to 5."""
-    return {name: law(*given) for name, given in FIGURES.items()}
+    return {name: transmission(*given) for name, given in FIGURES.items()}
 
 
 def seen(pair: TriangularTransmission, phase: str) -> Contact:
@@ -124,9 +124,9 @@ def seen(pair: TriangularTransmission, phase: str) -> Contact:
     sizes = pair.sizes
     S = (np.arange(SAMPLES) + 0.5) / SAMPLES * pair.period
     x = pair.alpha1(S)
-    couple = np.round((x + S) / sizes.p1)  # teeth are numbered from the driver's at S = 0
+    tooth_pair = np.round((x + S) / sizes.p1)  # teeth are numbered from the driver's at S = 0
     chosen = (x > sizes.matching) == (phase == "approach")
-    y = couple * sizes.p2 - pair.angle(S)
+    y = tooth_pair * sizes.p2 - pair.angle(S)
     return Contact(
         sizes.z1,
         sizes.z2,

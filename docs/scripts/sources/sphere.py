@@ -98,8 +98,8 @@ def same_lines() -> Finding:
 @lru_cache(maxsize=1)
 def pentagon() -> tuple[float, float, float, float, float]:
     """Of a dodecahedron of circumradius 1: edge S, L between middles of adjacent edges, R_sph, r and D in a face."""
-    corners, faces = axes("dodecahedron", "vertices"), axes("dodecahedron", "faces")
-    face = corners[np.argsort(-(corners @ faces[0]))[:5]]
+    kinks, faces = axes("dodecahedron", "vertices"), axes("dodecahedron", "faces")
+    face = kinks[np.argsort(-(kinks @ faces[0]))[:5]]
     first = face[0]
     one, two = face[np.argsort(-(face @ first))[1:3]]
     middles = (first + one) / 2, (first + two) / 2
@@ -129,9 +129,9 @@ def height() -> float:
 
 def decagon() -> Finding:
     """Middles of edges in a plane through the centre that holds one edge's neighbours on a face: ten, evenly spaced."""
-    corners = axes("dodecahedron", "vertices")
-    pairs = np.argwhere(np.triu(corners @ corners.T > sqrt(5) / 3 - 1e-9, 1))
-    middles = np.array([(corners[a] + corners[b]) / 2 for a, b in pairs])
+    kinks = axes("dodecahedron", "vertices")
+    pairs = np.argwhere(np.triu(kinks @ kinks.T > sqrt(5) / 3 - 1e-9, 1))
+    middles = np.array([(kinks[a] + kinks[b]) / 2 for a, b in pairs])
     near = middles[np.argsort(np.linalg.norm(middles - middles[0], axis=1))]
     normal = np.cross(near[0], near[1])
     cut = middles[np.abs(middles @ normal) < 1e-9]

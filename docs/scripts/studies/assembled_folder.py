@@ -93,9 +93,9 @@ def read_parts(folder: Path) -> list[AssembledPart]:
     for at, node in enumerate(nodes):
         if "mesh" in node:
             (shown,) = content["meshes"][node["mesh"]]["primitives"]
-            corners = content["accessors"][shown["indices"]]["count"]
-            own, start = triangles[start : start + corners // 3], start + corners // 3
-            mesh = trimesh.Trimesh(own.reshape(-1, 3), np.arange(corners).reshape(-1, 3))
+            kinks = content["accessors"][shown["indices"]]["count"]
+            own, start = triangles[start : start + kinks // 3], start + kinks // 3
+            mesh = trimesh.Trimesh(own.reshape(-1, 3), np.arange(kinks).reshape(-1, 3))
             parts.append(AssembledPart(node["name"], bodies[at], mesh))
     assert start == len(triangles)
     return parts
@@ -105,8 +105,8 @@ def find_overlaps(parts: Sequence[AssembledPart]) -> list[MeasuredOverlap]:
     """Every two parts that share some volume, the largest share first."""
     found = []
     for one, other in combinations(parts, 2):
-        (low, high), (least, most) = one.mesh.bounds, other.mesh.bounds
-        if (low < most).all() and (least < high).all():
+        (low, high), (minimum, most) = one.mesh.bounds, other.mesh.bounds
+        if (low < most).all() and (minimum < high).all():
             volume = float((one.solid ^ other.solid).volume())
             if volume > _NOTHING:
                 share = volume / min(one.solid.volume(), other.solid.volume())
@@ -151,6 +151,6 @@ def _fits_at(parts: Sequence[AssembledPart], height: float) -> Iterator[Measured
 def _circle(line: Any) -> tuple[Any, float] | None:
     """Middle and radius of the corners of a line that is round; None of others."""
     middle = np.array(line.centroid.coords[0])
-    corners = shapely.get_coordinates(line.simplify(1e-6))[:-1]
-    radii = np.hypot(*(corners - middle).T)
+    kinks = shapely.get_coordinates(line.simplify(1e-6))[:-1]
+    radii = np.hypot(*(kinks - middle).T)
     return (middle, float(radii.max())) if len(radii) >= 8 and np.ptp(radii) <= _ROUND * radii.max() else None

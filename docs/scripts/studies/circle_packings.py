@@ -65,13 +65,13 @@ def _middle(rounds: Sequence[Sequence[tuple[float, float]]]) -> list[tuple[float
     return [(median(seconds for seconds, _ in each), each[0][1]) for each in zip(*rounds, strict=True)]
 
 
-def fitted(family: str, given: int, aim: Aim, least: int, rounds: int) -> list[FitRecord]:
+def fitted(family: str, given: int, aim: Aim, minimum: int, rounds: int) -> list[FitRecord]:
     """One set of gears fitted to its graph."""
     edges = graph(family, given)
     runs, moving = [], []
     for _ in range(rounds):
         with _clocked_fits() as spent:
-            runs.append(timed(lambda: from_graph(edges, least, aim)))
+            runs.append(timed(lambda: from_graph(edges, minimum, aim)))
         moving.append(sum(spent))
     found: GraphSet = runs[0][1]
     sized = [timed(lambda: size_gears(found.configuration))[0] for _ in range(rounds)]
@@ -80,7 +80,7 @@ def fitted(family: str, given: int, aim: Aim, least: int, rounds: int) -> list[F
             family=family,
             gears=len(found.configuration.names),
             aim=aim,
-            least=least,
+            minimum=minimum,
             most=max(found.configuration.teeth.values()),
             steps=len(found.residuals),
             seconds=median(moving),

@@ -15,9 +15,9 @@ from geartrain.numerics import open_executor, run
 from geartrain.numerics.confidence_intervals import wilson
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
-from geartrain.workshop.cutting.least_backlash import nominal_backlash
 from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, batch_verdicts
-from studies.cut_pair_law import CutPairLaw
+from geartrain.workshop.cutting.minimum_backlash import nominal_backlash
+from studies.cut_pair_transmission import CutPairLaw
 from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 from studies.uncertainty_records import ErrorRecord
 
@@ -86,15 +86,15 @@ class Batch:
         return [self._single(at) for at in range(trials)]
 
     def _single(self, at: int) -> Single:
-        law = CutPairLaw.of(self.pair.sizes, self.pair.first.trial(at), self.pair.second.trial(at))
-        events = law.events
-        return events.play, (events.stop is not None, bool(events.of("standstill")), bool(events.of("disengaged")))
+        transmission = CutPairLaw.of(self.pair.sizes, self.pair.first.trial(at), self.pair.second.trial(at))
+        events = transmission.events
+        return events.backlash, (events.stop is not None, bool(events.of("dwell")), bool(events.of("disengaged")))
 
     def compared(self, found: MeshingVerdicts, singly: list[Single]) -> tuple[float, int]:
         """Greatest difference of a play (pitches of the driven wheel), and trials of other verdicts."""
-        marks = np.stack((found.stops, found.standstill, found.disengaged), axis=1)[: len(singly)]
-        play = np.array([each for each, _ in singly])
-        off = np.abs(play - found.play[: len(singly)]).max() / self.pair.sizes.p2
+        marks = np.stack((found.stops, found.dwell, found.disengaged), axis=1)[: len(singly)]
+        backlash = np.array([each for each, _ in singly])
+        off = np.abs(backlash - found.backlash[: len(singly)]).max() / self.pair.sizes.p2
         return float(off), int((marks != np.array([each for _, each in singly])).any(axis=1).sum())
 
 

@@ -46,7 +46,7 @@ class CuttingErrorModel:
 
     place: ErrorDistribution = ErrorDistribution()
     tip: ErrorDistribution = ErrorDistribution()
-    aperture: ErrorDistribution = ErrorDistribution()
+    aperture_deviation: ErrorDistribution = ErrorDistribution()
     eccentricity: ErrorDistribution = ErrorDistribution()
 
     def draw(self, even: CutWheel, rng: np.random.Generator, trials: int) -> CutWheel:
@@ -55,11 +55,11 @@ class CuttingErrorModel:
             raise RangeError(Problem(f"{trials} trials tell nothing", "", "ask for at least 1"))
         shape, high = (trials, even.z), even.radius * depth(even.sign * even.z, even.half_angle)
         place, tip = self.place.draw(rng, shape), self.tip.draw(rng, shape)
-        leading, trailing = self.aperture.draw(rng, shape), self.aperture.draw(rng, shape)
+        leading, trailing = self.aperture_deviation.draw(rng, shape), self.aperture_deviation.draw(rng, shape)
         e, towards = self.eccentricity.draw(rng, (trials,)), rng.uniform(0.0, 2 * pi, trials)
         wheel = even.placed(even.pitch * place)
         if self.tip.size:
             wheel = wheel.grown(high * tip)
-        if self.aperture.size:
+        if self.aperture_deviation.size:
             wheel = wheel.widened(even.half_angle * leading, even.half_angle * trailing)
         return wheel.eccentric(high * np.abs(e), towards) if self.eccentricity.size else wheel

@@ -66,14 +66,16 @@ class DisplacedBatch:
     def singly(self, trials: int) -> list[float]:
         """The least play of the first trials (rad), each by the law of every couple at many angles of the cycle."""
         S = np.arange(_ANGLES * self.pitches) * (2 * pi / self.z1 / _ANGLES)
-        return [self._least(np.full(len(S), at), S) for at in range(trials)]
+        return [self._minimum(np.full(len(S), at), S) for at in range(trials)]
 
-    def _least(self, rows: np.ndarray, S: np.ndarray) -> float:
+    def _minimum(self, rows: np.ndarray, S: np.ndarray) -> float:
         lag, lead = self.pair.first_lag(rows, S)[0], self.pair.first_lag(rows, S, back=True)[0]
-        return float((lag + lead).min() + self.pair.contact.play)
+        return float((lag + lead).min() + self.pair.contact.backlash)
 
     def compared(self, found: MeshingVerdicts, singly: list[float]) -> tuple[float, int]:
         """Greatest difference of a play (pitches of the driven wheel), and trials of which only one way jams."""
-        play = np.array(singly)
-        own = found.play[: len(singly)]
-        return float(np.abs(play - own).max() / self.pair.contact.pitches[1]), int(((play < 0) != (own < 0)).sum())
+        backlash = np.array(singly)
+        own = found.backlash[: len(singly)]
+        return float(np.abs(backlash - own).max() / self.pair.contact.pitches[1]), int(
+            ((backlash < 0) != (own < 0)).sum()
+        )

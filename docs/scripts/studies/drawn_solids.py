@@ -246,8 +246,8 @@ def opened(browser: Browser, scene: Scene) -> Iterator[DrawnTeeth]:
             yield DrawnTeeth(
                 scene,
                 wheels,
-                lambda asked: sheet.evaluate(POSES, asked),
-                lambda asked: sheet.evaluate(BENT, asked),
+                lambda requested: sheet.evaluate(POSES, requested),
+                lambda requested: sheet.evaluate(BENT, requested),
             )
         finally:
             sheet.close()

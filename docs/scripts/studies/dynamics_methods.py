@@ -14,17 +14,17 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothYield
-from geartrain.simulation.contacts.law_tables import tabled_angle
+from geartrain.simulation.contacts.pair_tables import tabled_angle
 from geartrain.simulation.contacts.train_model import SlackPin
 from geartrain.simulation.contacts.yielding_train import damping_ratio
-from geartrain.simulation.steps.contact_solution import BLOW_COUNT, BLOWS, GAP, TIME_APART
+from geartrain.simulation.steps.contact_solution import GAP, IMPACT_COUNT, IMPACTS, TIME_APART
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 
 INERTIA, DRAG, RATE, TURNS = 1e-5, 1e-3, 32.0, 2
 """kg m2, N m, rad/s: teeth part from 20.4 rad/s on."""
-_LAW = PinToSlotTransmission(10, 2)
-FLANKS = SlackPin(_LAW, 0.4, -1), SlackPin(_LAW, 0.4, 1)
+_TRANSMISSION = PinToSlotTransmission(10, 2)
+FLANKS = SlackPin(_TRANSMISSION, 0.4, -1), SlackPin(_TRANSMISSION, 0.4, 1)
 """The slot's side that drives, and the other."""
 _STICKS = 1e-7  # of the driver's speed: what comes back slower touches on
 _MOST = 20_000  # events
@@ -36,7 +36,7 @@ class PairRun:
 
     gap: float
     apart: float
-    blows: float
+    impacts: float
     count: int
 
 
@@ -176,4 +176,4 @@ def _plan(steps: int) -> StepPlan:
 
 def _told(run: SimulatedRun) -> PairRun:
     apart = float(run.counts[0, TIME_APART]) / run.plan.steps
-    return PairRun(float(run.counts[0, GAP]), apart, float(run.energy[BLOWS]), int(run.counts[0, BLOW_COUNT]))
+    return PairRun(float(run.counts[0, GAP]), apart, float(run.energy[IMPACTS]), int(run.counts[0, IMPACT_COUNT]))

@@ -29,7 +29,7 @@ class PairRecord:
 
     setting   steps a turn, or stiffness (N m/rad)
     steps     a turn; 0 for events
-    apart     error of the share of time apart; `blows`, of the energy of blows, relative
+    apart     error of the share of time apart; `impacts`, of the energy of blows, relative
     """
 
     restitution: float
@@ -37,7 +37,7 @@ class PairRecord:
     setting: float
     steps: int
     apart: float
-    blows: float
+    impacts: float
     seconds: float
 
 
@@ -79,7 +79,7 @@ _PAIR = {
     "setting": lambda row: f"{row.setting:.3g}" if row.method == "teeth that yield" else "",
     "steps a turn": lambda row: f"{row.steps:,}" if row.steps else "",
     "time apart, off by": lambda row: error_text(abs(row.apart)),
-    "energy of blows, off by": lambda row: error_text(abs(row.blows)),
+    "energy of blows, off by": lambda row: error_text(abs(row.impacts)),
     "time": lambda row: seconds_text(row.seconds),
 }
 _TRAIN = {
@@ -116,7 +116,7 @@ def _pair(restitution: float, quick: bool) -> list[PairRecord]:
     stepped(restitution, 10), yielding(restitution, 1e2, 10)  # compiled before they are timed
 
     def record(method: str, setting: float, steps: int, seconds: float, found: PairRun) -> PairRecord:
-        off = found.apart - truth.apart, found.blows / truth.blows - 1
+        off = found.apart - truth.apart, found.impacts / truth.impacts - 1
         return PairRecord(restitution, method, setting, steps, float(off[0]), float(off[1]), seconds)
 
     rows = [record("events", 1e-8, 0, *timed(partial(by_events, restitution, 1e-8)))]

@@ -36,7 +36,7 @@ def is_reached(candidate: Arbor, problem: ReconstructionProblem) -> bool:
     if added > problem.additions.wheels or broken_rules(candidate, problem):
         return False
     own = {path.dial: path for path in _paths(candidate, (), Fraction(1))}
-    keys = QuotientKeys(problem.additions.least, problem.additions.greatest)
+    keys = QuotientKeys(problem.additions.minimum, problem.additions.maximum)
     dials = sorted(problem.dials, key=lambda dial: dial.name)
     lists = {dial.name: PathList(dial, problem, keys, own[dial.name].ways) for dial in dials}
     shape, trees = _shape(_branching_of(candidate)), PathTrees(problem, lists)
@@ -86,7 +86,7 @@ def _added(wheel: PlacedWheel) -> int:
 
 def _holds(topology: Topology, own: dict[str, _TrainPath]) -> bool:
     """Whether the counts of the train are among those that are wanted."""
-    return all(least <= own[dial].quotient <= greatest for dial, (least, greatest) in topology.wanted)
+    return all(minimum <= own[dial].quotient <= maximum for dial, (minimum, maximum) in topology.wanted)
 
 
 # trains as topologies, and when two are the same

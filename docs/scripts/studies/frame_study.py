@@ -93,7 +93,7 @@ def measured(browser: Browser, name: str, rounds: int = ROUNDS) -> FrameRecord:
     """A page of a train and the example, each drawn once a round."""
     with (
         TemporaryDirectory() as folder,
-        shown(browser) as (sheet, asked),
+        shown(browser) as (sheet, requested),
         shown(browser) as (other, _),
         shown(browser) as (roomy, _),
     ):
@@ -123,7 +123,7 @@ def measured(browser: Browser, name: str, rounds: int = ROUNDS) -> FrameRecord:
             own.over(base),
             own.over(mirrored),
             path.stat().st_size / 1e3,
-            len([each for each in asked if each != path.as_uri()]),
+            len([each for each in requested if each != path.as_uri()]),
         )
 
 
@@ -135,9 +135,9 @@ def _frame(sheet: Page, script: str, turns: Iterator[int]) -> None:
 def shown(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
     """A window, and the addresses that it asks for."""
     sheet = browser.new_page(viewport=SIZE)  # type: ignore[arg-type]
-    asked: list[str] = []
-    sheet.on("request", lambda request: asked.append(request.url.partition("#")[0]))
-    yield sheet, asked
+    requested: list[str] = []
+    sheet.on("request", lambda request: requested.append(request.url.partition("#")[0]))
+    yield sheet, requested
     sheet.close()
 
 

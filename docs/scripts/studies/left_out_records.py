@@ -109,7 +109,7 @@ class LeftOutRecord:
         return self.seconds is not None
 
     @property
-    def least(self) -> int | None:
+    def minimum(self) -> int | None:
         """The fewest added wheels that explain the dials, as far as was counted."""
         return next((added for added, count in enumerate(self.mechanisms) if count), None)
 
@@ -120,7 +120,7 @@ class LeftOutRecords(StudyRecords):
 
     trees: Sequence[TreeRecord]
     rows: Sequence[LeftOutRecord]
-    not_asked: Sequence[NotAskedRecord]
+    not_requested: Sequence[NotAskedRecord]
     covers: Sequence[CoverRecord]
 
     @property
@@ -145,7 +145,7 @@ class LeftOutRecords(StudyRecords):
         for tree in self.trees:
             own = self._of(tree)
             lines += [f"## {_heading(tree)}", "", _about(tree, tree.questions - len(own)), "", *table(_COLUMNS, own)]
-        return [*lines, "## Not asked", "", *table(_NOT_ASKED, self.not_asked)]
+        return [*lines, "## Not asked", "", *table(_NOT_REQUESTED, self.not_requested)]
 
     def _of(self, tree: TreeRecord) -> list[LeftOutRecord]:
         return [row for row in self.rows if (row.train, row.part) == (tree.train, tree.part)]
@@ -173,9 +173,9 @@ def _about(tree: TreeRecord, unasked: int) -> str:
 
 def _found(row: LeftOutRecord) -> str:
     """How many explanations there are with the fewest added wheels."""
-    if row.least is None:
+    if row.minimum is None:
         return "-" if not row.mechanisms else f"none with {len(row.mechanisms) - 1}"
-    return f"{row.mechanisms[row.least]:,} with {row.least}"
+    return f"{row.mechanisms[row.minimum]:,} with {row.minimum}"
 
 
 def _was_found(row: LeftOutRecord) -> str:
@@ -224,7 +224,7 @@ _COVER: dict[str, Callable[[CoverRecord], str]] = {
     "left out": lambda row: str(row.left_out),
     "not left out": lambda row: "; ".join(row.others),
 }
-_NOT_ASKED: dict[str, Callable[[NotAskedRecord], str]] = {
+_NOT_REQUESTED: dict[str, Callable[[NotAskedRecord], str]] = {
     "train": lambda row: row.train,
     "why": lambda row: row.why,
 }

@@ -72,16 +72,16 @@ def left_out(
     journal  what is finished is kept in two files beside it, for one and for two arbors, which `forget` removes
     short    processor seconds for what is asked of a question that was not finished
     """
-    trees, not_asked = find_trees(names or tuple(shipped()))
+    trees, not_requested = find_trees(names or tuple(shipped()))
     one = [(*part, (link,), limit, short) for part, tree in trees.items() for link in tree.able]
-    singles = _asked(one, workers, _part(journal, 1))
+    singles = _requested(one, workers, _part(journal, 1))
     able = _finished(singles)
     two = [
         (*part, lost, limit if all((*part, link) in able for link in lost) else 0.0, short)
         for part, tree in trees.items()
         for lost in combinations(tree.able, 2)
     ]
-    return _records(trees, [*singles, *_asked(two, workers, _part(journal, 2))], not_asked)
+    return _records(trees, [*singles, *_requested(two, workers, _part(journal, 2))], not_requested)
 
 
 def more_left_out(
@@ -91,7 +91,7 @@ def more_left_out(
 
     minutes   after which no more is asked; what is left is asked by the next call
     """
-    trees, not_asked = find_trees(tuple(shipped()))
+    trees, not_requested = find_trees(tuple(shipped()))
     known = {(row.train, row.part, tuple(row.lost)): row for row in kept.rows}
     end = monotonic() + 60 * minutes
     waiting = [each for each in _questions(trees) if not names or each[0][0] in names]
@@ -107,7 +107,7 @@ def more_left_out(
             step(known, trees[part], (*part, lost), limit, short)
     order = {(*part, lost): at for at, (part, lost) in enumerate(_questions(trees))}
     rows = sorted((key for key in known if key in order), key=order.__getitem__)
-    return _records(trees, [known[key] for key in rows], not_asked)
+    return _records(trees, [known[key] for key in rows], not_requested)
 
 
 def _add_new(known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
@@ -116,7 +116,7 @@ def _add_new(known: Rows, tree: SpurTree, key: Question, limit: float, short: fl
         name, part, lost = key
         able = _finished(known.values())
         full = limit if len(lost) == 1 or all((name, part, link) in able for link in lost) else 0.0
-        known[key] = LeftOutRecord(**_asked_to_the_end(tree, key, full))
+        known[key] = LeftOutRecord(**_requested_to_the_end(tree, key, full))
 
 
 def _add_known(known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
@@ -147,21 +147,21 @@ def _finished(rows: Iterable[LeftOutRecord]) -> set[tuple[str, str, str]]:
 
 def tree_records(names: Sequence[str]) -> LeftOutRecords:
     """What would be asked of some trains, before it is."""
-    trees, not_asked = find_trees(names)
-    return _records(trees, [], not_asked)
+    trees, not_requested = find_trees(names)
+    return _records(trees, [], not_requested)
 
 
 def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], list[NotAskedRecord]]:
     """The parts of trains, and the trains that have none of their own. Of the same parts the first counts."""
     trees: dict[Part, SpurTree] = {}
-    not_asked: list[NotAskedRecord] = []
+    not_requested: list[NotAskedRecord] = []
     known: dict[Any, str] = {}
     for name in sorted(names, key=lambda name: (len(name), name)):  # a variant has a longer name than what it varies
         try:
             parts = find_spur_trees(read_declaration(name))
         except GearTrainError as error:
             refused = error.problems[0]
-            not_asked.append(NotAskedRecord(name, ": ".join(filter(None, (refused.what, refused.why)))))
+            not_requested.append(NotAskedRecord(name, ": ".join(filter(None, (refused.what, refused.why)))))
             continue
         same = set()
         for tree in parts:
@@ -173,22 +173,22 @@ def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], list[NotAske
             else:
                 same.add(own)
         if same and not any((name, tree.name) in trees for tree in parts):
-            not_asked.append(NotAskedRecord(name, f"{_SAME} as {' and '.join(sorted(same))}"))
-    return dict(sorted(trees.items())), sorted(not_asked, key=lambda row: row.train)
+            not_requested.append(NotAskedRecord(name, f"{_SAME} as {' and '.join(sorted(same))}"))
+    return dict(sorted(trees.items())), sorted(not_requested, key=lambda row: row.train)
 
 
 def ask(task: Sequence[Any]) -> dict[str, Any]:
     """What explains a train without some arbors, as plain data of its record."""
     name, part, lost, limit, short = task
     tree = next(tree for tree in find_spur_trees(read_declaration(name)) if tree.name == part)
-    row = _asked_to_the_end(tree, (name, part, tuple(lost)), limit)
+    row = _requested_to_the_end(tree, (name, part, tuple(lost)), limit)
     for what in _LESS:
         if what != "better" or row["seconds"] is None:
             row |= _less(what, tree, LeftOutRecord(**row), short)
     return row
 
 
-def _asked_to_the_end(tree: SpurTree, question: Question, limit: float) -> dict[str, Any]:
+def _requested_to_the_end(tree: SpurTree, question: Question, limit: float) -> dict[str, Any]:
     """All explanations, as far as they come in time; with no time none is looked for."""
     name, part, lost = question
     found: list[Any] = []
@@ -232,13 +232,13 @@ def _less(what: str, tree: SpurTree, row: LeftOutRecord, short: float) -> dict[s
         classes = [*row.classes, *[None] * (len(mechanisms) - len(row.classes))]
         told = {"better": steps[-1][1] if steps else None, "mechanisms": mechanisms, "classes": classes}
     else:
-        found, _ = gathered(lambda: iter([_asked_at_once(what, tree, lost)]), short, _MEMORY)
+        found, _ = gathered(lambda: iter([_requested_at_once(what, tree, lost)]), short, _MEMORY)
         told = {what: found[0] if found else None}
     print(f"{row.train} {row.part} without {', '.join(lost)}: {told}", file=sys.stderr, flush=True)
     return told
 
 
-def _asked_at_once(what: str, tree: SpurTree, lost: tuple[str, ...]) -> Any:
+def _requested_at_once(what: str, tree: SpurTree, lost: tuple[str, ...]) -> Any:
     return _is_reached(tree, lost) if what == "reached" else _rank_with_meshes(tree, lost)
 
 
@@ -280,15 +280,15 @@ def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterat
 
 def fewest_new_arbors(problem: ReconstructionProblem) -> int:
     """How many arbors must be added at least, for pointers of different speeds that have none."""
-    bounds = [sorted((abs(dial.least), abs(dial.greatest))) for dial in problem.dials if dial.place == "new"]
+    bounds = [sorted((abs(dial.minimum), abs(dial.maximum))) for dial in problem.dials if dial.place == "new"]
     number, last = 0, Fraction(-1)
-    for least, greatest in sorted(bounds, key=lambda each: each[1]):
-        if least > last:
-            number, last = number + 1, greatest
+    for minimum, maximum in sorted(bounds, key=lambda each: each[1]):
+        if minimum > last:
+            number, last = number + 1, maximum
     return number
 
 
-def _asked(tasks: Sequence[Task], workers: int | None, journal: Path | None) -> list[LeftOutRecord]:
+def _requested(tasks: Sequence[Task], workers: int | None, journal: Path | None) -> list[LeftOutRecord]:
     with open_executor(workers) as executor:
         if journal is None:
             return [LeftOutRecord(**row) for row in run(ask, tasks, executor)]
@@ -307,11 +307,11 @@ def forget(journal: Path) -> None:
 
 
 def _records(
-    trees: dict[Part, SpurTree], rows: Sequence[LeftOutRecord], not_asked: Sequence[NotAskedRecord]
+    trees: dict[Part, SpurTree], rows: Sequence[LeftOutRecord], not_requested: Sequence[NotAskedRecord]
 ) -> LeftOutRecords:
-    names = sorted({name for name, _ in trees} | {row.train for row in not_asked if row.why.startswith(_SAME)})
+    names = sorted({name for name, _ in trees} | {row.train for row in not_requested if row.why.startswith(_SAME)})
     return LeftOutRecords(
-        TITLE, [_tree_record(*part, tree) for part, tree in trees.items()], rows, not_asked, [*map(_cover, names)]
+        TITLE, [_tree_record(*part, tree) for part, tree in trees.items()], rows, not_requested, [*map(_cover, names)]
     )
 
 

@@ -58,8 +58,8 @@ class Rounds(NamedTuple):
 
 def in_turns(tasks: Iterable[Task], rounds: int, clock: Callable[[], float] = time.perf_counter) -> list[Rounds]:
     """Every task once a round, one after the other, so that ratios are of neighbours in time."""
-    asked = list(tasks)
-    taken = [[timed(task, clock) for task in asked] for _ in range(rounds)]
+    requested = list(tasks)
+    taken = [[timed(task, clock) for task in requested] for _ in range(rounds)]
     return [Rounds([seconds for seconds, _ in own], own[0][1]) for own in zip(*taken, strict=True)]
 
 

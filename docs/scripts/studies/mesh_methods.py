@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from geartrain.teeth.transmission_table import DEGREE, CellTable
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, ToothCouple
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, ToothPair
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 Floats = NDArray[np.float64]
@@ -19,7 +19,7 @@ Driver = tuple[int, str] | None
 _SCAN = 128  # positions in a pitch at which the scan asks who drives
 
 
-def plain_law(sizes: TriangularSizes) -> TriangularTransmission:
+def plain_transmission(sizes: TriangularSizes) -> TriangularTransmission:
     """The law by the direct formula."""
     return TriangularTransmission(sizes, friction=0.2)
 
@@ -27,8 +27,14 @@ def plain_law(sizes: TriangularSizes) -> TriangularTransmission:
 class Coarse:
     """The error alone, on as many cells as asked for."""
 
-    def __init__(self, law: TriangularTransmission, cells: int) -> None:
-        self.error = CellTable(law.error, law.period, np.unique(np.mod(law.corners(), law.period)), cells, DEGREE)
+    def __init__(self, transmission: TriangularTransmission, cells: int) -> None:
+        self.error = CellTable(
+            transmission.error,
+            transmission.period,
+            np.unique(np.mod(transmission.kinks(), transmission.period)),
+            cells,
+            DEGREE,
+        )
 
 
 class Sampled:
@@ -55,29 +61,29 @@ class Sampled:
 
 def lowest_of_all(sizes: TriangularSizes, t: Floats) -> Floats:
     """U(t): the least driven angle over all couples in reach at driver positions t (rad); infinite where none is."""
-    couple, reach = ToothCouple(sizes), sizes.reach1
+    tooth_pair, reach = ToothPair(sizes), sizes.reach1
     lowest = np.full(t.shape, np.inf)
     for k in range(ceil((-reach - t.max()) / sizes.p1), int((reach - t.min()) // sizes.p1) + 1):
         x = t + k * sizes.p1
         inside = np.flatnonzero(np.abs(x) <= reach)
-        y = np.fmin(couple.approach_angle(x[inside], np), couple.recess_angle(x[inside], np)) - k * sizes.p2
+        y = np.fmin(tooth_pair.approach_angle(x[inside], np), tooth_pair.recess_angle(x[inside], np)) - k * sizes.p2
         lowest[inside] = np.minimum(lowest[inside], y)
     return lowest
 
 
 def scanned(sizes: TriangularSizes) -> TriangularTransmission:
     """The law on switching points found by a scan of all couples."""
-    law = plain_law(sizes)
-    vars(law.contact.path)["envelope"] = _Scan(sizes).envelope()
-    _ = law.intervals
-    return law
+    transmission = plain_transmission(sizes)
+    vars(transmission.contact.path)["envelope"] = _Scan(sizes).envelope()
+    _ = transmission.intervals
+    return transmission
 
 
 class _Scan:
     """Switching points where the lowest of all couples changes, by halving; what is shorter than a scan is missed."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
-        self.sizes, self.couple = sizes, ToothCouple(sizes)
+        self.sizes, self.tooth_pair = sizes, ToothPair(sizes)
         reach = int(sizes.reach1 // sizes.p1) + 2
         self.numbers = np.arange(-reach, reach + 2)
 
@@ -89,8 +95,8 @@ class _Scan:
             return None
         k, x = self.numbers[inside], x[inside]
         both = [
-            self.couple.approach_angle(x, np) - k * self.sizes.p2,
-            self.couple.recess_angle(x, np) - k * self.sizes.p2,
+            self.tooth_pair.approach_angle(x, np) - k * self.sizes.p2,
+            self.tooth_pair.recess_angle(x, np) - k * self.sizes.p2,
         ]
         at = int(np.nanargmin(np.fmin(*both)))
         return int(k[at]), APPROACH if both[0][at] < both[1][at] else RECESS

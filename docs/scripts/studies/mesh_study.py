@@ -22,7 +22,7 @@ from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_wi
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from studies.measurement import Step, Task, measure, taken
-from studies.mesh_methods import Coarse, Sampled, plain_law, scanned
+from studies.mesh_methods import Coarse, Sampled, plain_transmission, scanned
 from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table
 from studies.reference_solutions import reference
 
@@ -50,13 +50,13 @@ _MARGIN = 1e-10  # of a pitch about a switching point, where rounding decides wh
 class MeshRecord:
     """A method on a pair: best time, growth of peak memory, greatest true error.
 
-    couples    of teeth within reach
+    tooth_pairs    of teeth within reach
     error      in pitches of the driven wheel for the quantity "error", relative to the mean ratio for "speed"
     quantity   what was asked for, and at how many `angles`
     """
 
     family: str
-    couples: int
+    tooth_pairs: int
     method: str
     seconds: float | None
     megabytes: float | None
@@ -75,8 +75,8 @@ class MeshRecords(StudyRecords):
     def tables(self) -> list[str]:
         """One table for each pair and quantity."""
         lines = []
-        for family, couples in distinct((row.family, row.couples) for row in self.rows):
-            lines += [f"## {family}, {couples} couples in reach", ""]
+        for family, tooth_pairs in distinct((row.family, row.tooth_pairs) for row in self.rows):
+            lines += [f"## {family}, {tooth_pairs} couples in reach", ""]
             group = [row for row in self.rows if row.family == family]
             for quantity in distinct(row.quantity for row in group):
                 lines += _table(quantity, [row for row in group if row.quantity == quantity])
@@ -111,18 +111,18 @@ def _step(pair: _Pair, method: str, quantity: str, task: Task | None = None) -> 
     def built() -> list[MeshRecord]:
         assert task is not None
         _ = pair.sizes, pair.name.startswith("growth") or pair.truth  # made before the processes part
-        return [MeshRecord(pair.name, pair.couples, method, *measure(task), quantity)]
+        return [MeshRecord(pair.name, pair.tooth_pairs, method, *measure(task), quantity)]
 
-    def asked() -> list[MeshRecord]:
+    def requested() -> list[MeshRecord]:
         function = pair.function(method, quantity)
         error = pair.error_of(quantity, function)
         cost = measure(partial(function, pair.S), lambda _: error)
         note = cost.note
         if isinstance(function, CellTable):
             note = f"{note or f'{function.cells} cells'}, {function.nbytes / 1024:.3g} KB"
-        return [MeshRecord(pair.name, pair.couples, method, *cost[:3], note, quantity, pair.angles)]
+        return [MeshRecord(pair.name, pair.tooth_pairs, method, *cost[:3], note, quantity, pair.angles)]
 
-    return f"{pair.name}: {method}, {quantity}", asked if task is None else built
+    return f"{pair.name}: {method}, {quantity}", requested if task is None else built
 
 
 def _steps(quick: bool) -> Iterator[Step]:
@@ -164,7 +164,7 @@ class _Pair:
         fraction: float = 1 / 3,
     ) -> None:
         self.given, self.angles, self.name = (z1, z2, radians(beta), excess), angles, f"{prefix}{z1}/{z2}"
-        self.fraction, self._asked = fraction, 0
+        self.fraction, self._requested = fraction, 0
         self._built: dict[str, Any] = {}
 
     @cached_property
@@ -174,12 +174,12 @@ class _Pair:
         return sizes.at(find_window(sizes).at(self.fraction) if excess is None else excess)
 
     @property
-    def couples(self) -> int:
+    def tooth_pairs(self) -> int:
         return int(2 * self.sizes.reach1 / self.sizes.p1) + 1
 
     @cached_property
-    def law(self) -> TriangularTransmission:
-        return plain_law(self.sizes)
+    def transmission(self) -> TriangularTransmission:
+        return plain_transmission(self.sizes)
 
     def window(self) -> ClearanceWindow:
         """The window of clearance."""
@@ -187,29 +187,29 @@ class _Pair:
 
     def _fresh(self) -> TriangularSizes:
         """The same pair a little larger than ever before: what was worked out for it is not remembered."""
-        self._asked += 1
-        scale = 1 + 1e-9 * self._asked
+        self._requested += 1
+        scale = 1 + 1e-9 * self._requested
         return replace(self.sizes, R1=self.sizes.R1 * scale, R2=self.sizes.R2 * scale)
 
     def verdict(self) -> PairVerdict:
         """Whether the pair runs."""
-        return plain_law(self._fresh()).verdict
+        return plain_transmission(self._fresh()).verdict
 
     def build(self, method: str) -> Any:
         """What answers by this method, from the sizes alone."""
         sizes = self._fresh()
-        law = plain_law(sizes)
+        transmission = plain_transmission(sizes)
         name, _, count = method.partition(", ")
         if name == SCANNED:
             return scanned(sizes)
         if name == "sampled":
             return Sampled(sizes, int(count))
-        _ = law.intervals
+        _ = transmission.intervals
         if name == DIRECT:
-            return law
+            return transmission
         if count:
-            return Coarse(law, int(count.removesuffix(" cells")))
-        table = TabulatedTransmission(law)
+            return Coarse(transmission, int(count.removesuffix(" cells")))
+        table = TabulatedTransmission(transmission)
         _ = table.error_table
         return table
 
@@ -232,7 +232,7 @@ class _Pair:
         pitch = self.sizes.p1
         near = pitch * np.geomspace(10 * _MARGIN, 0.1, 30)
         points = [np.random.default_rng(2).uniform(0, pitch, 100)]
-        points += [corner + side * near for corner in self.law.corners() for side in (-1, 1)]
+        points += [kink + side * near for kink in self.transmission.kinks() for side in (-1, 1)]
         return np.mod(np.concatenate(points), pitch)
 
     @cached_property

@@ -54,7 +54,7 @@ class Effort(NamedTuple):
 class _Off:
     """Differences (rad) of a method from the direct composition, by output: greatest, and sums of squares."""
 
-    greatest: Floats
+    maximum: Floats
     squares: Floats
     count: int = 0
 
@@ -64,14 +64,14 @@ class _Off:
 
     def add(self, off: Floats) -> None:
         """Count differences (outputs, n)."""
-        self.greatest = np.maximum(self.greatest, np.abs(off).max(axis=1))
+        self.maximum = np.maximum(self.maximum, np.abs(off).max(axis=1))
         self.squares = self.squares + (off**2).sum(axis=1)
         self.count += off.shape[1]
 
     def worst(self) -> tuple[int, float, float]:
         """The output with the greatest difference, that, and the rms there (deg)."""
-        at = int(np.argmax(self.greatest))
-        return at, math.degrees(self.greatest[at]), math.degrees(math.sqrt(self.squares[at] / self.count))
+        at = int(np.argmax(self.maximum))
+        return at, math.degrees(self.maximum[at]), math.degrees(math.sqrt(self.squares[at] / self.count))
 
 
 @dataclass
@@ -115,7 +115,7 @@ class MotionCase:
         return self.train.motion(outputs=self.outputs)
 
     @cached_property
-    def asked(self) -> dict[str, Ask]:
+    def requested(self) -> dict[str, Ask]:
         """Each method that answers position by position: turns (n,) to errors (rad) of the outputs (outputs, n)."""
         return {method: self._ask(self.direct if method == DIRECT else None, method) for method in PER_POSITION}
 
@@ -139,7 +139,7 @@ class MotionCase:
 
     def run(self, method: str, positions: int) -> Floats:
         """Greatest error by output over so many positions: nothing is kept of a stretch but that."""
-        ask, most = self.asked[method], np.zeros(len(self.outputs))
+        ask, most = self.requested[method], np.zeros(len(self.outputs))
         for turns in self.stretches(positions):
             most = np.maximum(most, np.abs(ask(turns)).max(axis=1))
         return most
@@ -151,7 +151,7 @@ class MotionCase:
         answers: dict[str, Task] = {m: partial(self.run, m, self.effort.positions) for m in PER_POSITION}
         answers |= {method: partial(self._estimate, method) for method in (BOUND, INDEPENDENT)}
         for method in PER_POSITION:
-            self.asked[method](np.zeros(2))  # tables are made when first asked
+            self.requested[method](np.zeros(2))  # tables are made when first asked
         tasks = [task for method, answer in answers.items() for task in (partial(self._prepare, method), answer)]
         found = in_turns(tasks, self.effort.rounds)
         self.prepared = dict(zip(answers, found[::2], strict=True))
@@ -181,7 +181,7 @@ class MotionCase:
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
             for method in others:
-                off = self.asked[method](turns) - passage.error
+                off = self.requested[method](turns) - passage.error
                 self.off[method].add(off)
                 if method == TABLES[-1]:
                     self._doubt(turns, np.abs(off))
@@ -229,11 +229,11 @@ class MotionCase:
         return MotionRecord(self.name, self.links, method, output=self.outputs[output], **more)
 
     def _of_positions(self, method: str) -> MotionRecord:
-        at, greatest, rms = self.off[method].worst()
+        at, maximum, rms = self.off[method].worst()
         return self._record(
             method,
             at,
-            error=greatest,
+            error=maximum,
             rms=rms,
             **self._times(method),
             megabytes=self.memory[method],
@@ -242,12 +242,12 @@ class MotionCase:
         )
 
     def _of_marching(self, method: str) -> MotionRecord:
-        at, greatest, rms = self.off[method].worst()
+        at, maximum, rms = self.off[method].worst()
         seconds = self.marched[method]
         return self._record(
             method,
             at,
-            error=greatest,
+            error=maximum,
             rms=rms,
             seconds=seconds,
             ratio=seconds / self.taken[DIRECT].median,

@@ -33,10 +33,10 @@ def from_command_line(
 
     runs   name of the file under docs/data/ -> the study that fills it
     """
-    asked = argparse.ArgumentParser(description="Write a page from its kept run.")
-    asked.add_argument("--measure", action="store_true", help="make the run anew, which takes minutes to hours")
-    asked.add_argument("--quick", action="store_true", help="print the tables of a short run, and write nothing")
-    given = asked.parse_args()
+    requested = argparse.ArgumentParser(description="Write a page from its kept run.")
+    requested.add_argument("--measure", action="store_true", help="make the run anew, which takes minutes to hours")
+    requested.add_argument("--quick", action="store_true", help="print the tables of a short run, and write nothing")
+    given = requested.parse_args()
     if given.quick:
         print(quick().to_markdown())
         return
@@ -74,8 +74,8 @@ def number(value: float, form: str = ".2g") -> str:
 def span(values: Sequence[float], form: str | Callable[[float], str] = ".2g") -> str:
     """Least to greatest, or one number where both are written alike; `form` for `number`, or what writes a number."""
     write = form if callable(form) else lambda value: number(value, form)
-    least, greatest = write(min(values)), write(max(values))
-    return least if least == greatest else f"{least} to {greatest}"
+    minimum, maximum = write(min(values)), write(max(values))
+    return minimum if minimum == maximum else f"{minimum} to {maximum}"
 
 
 @contextmanager

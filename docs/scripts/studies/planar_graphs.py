@@ -29,11 +29,11 @@ def zonohedron(zones: int) -> Edges:
     for i, j in zip(*np.triu_indices(zones, 1), strict=True):
         side = np.sign(way @ np.cross(way[i], way[j])).astype(int)
         for face in (side, -side):
-            corners = []
+            kinks = []
             for face[i], face[j] in ((1, 1), (1, -1), (-1, -1), (-1, 1)):
-                corners.append(names.setdefault(tuple(face.tolist()), f"v{len(names)}"))
+                kinks.append(names.setdefault(tuple(face.tolist()), f"v{len(names)}"))
             for k in range(4):
-                a, b = sorted((corners[k - 1], corners[k]))
+                a, b = sorted((kinks[k - 1], kinks[k]))
                 edges[a, b] = None
     return list(edges)
 

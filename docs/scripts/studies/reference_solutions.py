@@ -18,11 +18,11 @@ from geartrain.dynamics.motion.error_composition import PairErrorSource
 from geartrain.numerics.elimination import LinearForm, eliminate
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.tooth_couple import ToothCouple
+from geartrain.teeth.triangular.tooth_pair import ToothPair
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 Floats = NDArray[np.float64]
-_SETTLED = 1e-25  # rad: far below what a float resolves, far above what 40 digits do
+_CONVERGED = 1e-25  # rad: far below what a float resolves, far above what 40 digits do
 
 
 def reference(sizes: TriangularSizes, S: Floats) -> tuple[Floats, Floats]:
@@ -72,10 +72,12 @@ class TriangularDefinition:
             real.number(x) for x in (sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.excess)
         )
         self.p1, self.p2 = 2 * real.pi / sizes.z1, 2 * real.pi / sizes.z2
-        least = self.R1 + self.R2 - min(self._depth(self.R1, self.p1, self.b1), self._depth(self.R2, self.p2, self.b2))
-        self.D = (1 + excess) * least
+        minimum = (
+            self.R1 + self.R2 - min(self._depth(self.R1, self.p1, self.b1), self._depth(self.R2, self.p2, self.b2))
+        )
+        self.D = (1 + excess) * minimum
         self.reach = real.acos((self.D**2 + self.R1**2 - self.R2**2) / (2 * self.D * self.R1))
-        self.couple = ToothCouple(sizes)
+        self.tooth_pair = ToothPair(sizes)
 
     def _depth(self, R: Any, pitch: Any, b: Any) -> Any:
         """The bottom of a space is where the flanks of two neighbouring teeth meet."""
@@ -84,7 +86,7 @@ class TriangularDefinition:
     def at(self, S: float) -> tuple[float, float]:
         """Error and speed ratio at driver angle S in the first pitch."""
         t = -self.m.number(S)
-        y, speed = min(self._couple(t, k) for k in self._candidates(S))
+        y, speed = min(self._tooth_pair(t, k) for k in self._candidates(S))
         return float(-y + t * self.sizes.z1 / self.sizes.z2), float(speed)
 
     def _candidates(self, S: float) -> list[int]:
@@ -93,10 +95,13 @@ class TriangularDefinition:
             ceil((S - float(self.reach)) / self.sizes.p1) - 2, (S + float(self.reach)) // self.sizes.p1 + 1
         )
         x = np.clip(numbers * self.sizes.p1 - S, -self.sizes.reach1, self.sizes.reach1)
-        y = np.fmin(self.couple.approach_angle(x, np), self.couple.recess_angle(x, np)) - numbers * self.sizes.p2
+        y = (
+            np.fmin(self.tooth_pair.approach_angle(x, np), self.tooth_pair.recess_angle(x, np))
+            - numbers * self.sizes.p2
+        )
         return [int(k) for k in numbers[y < y.min() + 1e-3 * self.sizes.p2]]
 
-    def _couple(self, t: Any, k: int) -> tuple[Any, Any]:
+    def _tooth_pair(self, t: Any, k: int) -> tuple[Any, Any]:
         """Driven angle and speed ratio if couple k drove at position t."""
         x = t + k * self.p1
         if x > self.reach:
@@ -131,18 +136,18 @@ class MotionTruth:
 
     def __init__(self, motion: Motion) -> None:
         self.real: Any = numbers()
-        self.settled = _SETTLED if find_spec("mpmath") else 1e-18
+        self.converged = _CONVERGED if find_spec("mpmath") else 1e-18
         self.motion, self.sources = motion, motion._forward.used
-        self.laws = [self._law(source.law) for source in self.sources]
+        self.transmissions = [self._transmission(source.transmission) for source in self.sources]
         errors = self._spread()
         self.gains = [self._gain(source, errors) for source in self.sources]
         self.responses = [self._terms({of: 1, base: -sense}, errors) for of, base, sense in motion._forward.outputs]
 
-    def _law(self, law: TransmissionFunction) -> Callable[[Any], Any]:
-        if isinstance(law, TriangularTransmission) and law.direction > 0:
-            return _Teeth(law.sizes, self.real).error
-        assert isinstance(law, PinToSlotTransmission)
-        return partial(_slot_error, self.real, self.real.number(law.r), self.real.number(law.e))
+    def _transmission(self, transmission: TransmissionFunction) -> Callable[[Any], Any]:
+        if isinstance(transmission, TriangularTransmission) and transmission.direction > 0:
+            return _Teeth(transmission.sizes, self.real).error
+        assert isinstance(transmission, PinToSlotTransmission)
+        return partial(_slot_error, self.real, self.real.number(transmission.r), self.real.number(transmission.e))
 
     def _spread(self) -> dict[int, LinearForm]:
         """Every link's error as a sum over the errors of the sources, by -1 less their number, exactly."""
@@ -190,9 +195,9 @@ class MotionTruth:
             changed = False
             for at, source in enumerate(self.sources):
                 S = stands[at] + sum((factor * deltas[other] for other, factor in self.gains[at]), number(0))
-                if last[at] is not None and abs(S - last[at]) < self.settled:
+                if last[at] is not None and abs(S - last[at]) < self.converged:
                     continue
-                deltas[at], last[at], changed = source.sense * self.laws[at](S), S, True
+                deltas[at], last[at], changed = source.sense * self.transmissions[at](S), S, True
         return deltas
 
     def _stands(self, source: PairErrorSource, turns: Fraction) -> Any:
@@ -210,7 +215,7 @@ class _Teeth(TriangularDefinition):
     def error(self, S: Any) -> Any:
         """Transmission error (rad) at driver angle S (rad)."""
         t = -(S % self.p1)
-        y, _ = min(self._couple(t, k) for k in self._candidates(float(-t)))
+        y, _ = min(self._tooth_pair(t, k) for k in self._candidates(float(-t)))
         return -y + t * self.sizes.z1 / self.sizes.z2
 
 

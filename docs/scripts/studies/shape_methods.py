@@ -37,10 +37,10 @@ def packaged(case: ShapeCase) -> float:
 
 def nodes_of(case: ShapeCase) -> int:
     """How many nodes the package takes."""
-    return len(solved(case.pitch, *_law(case), case.end).coefficients)
+    return len(solved(case.pitch, *_transmission(case), case.end).coefficients)
 
 
-def _law(case: ShapeCase) -> tuple[ValueAndSlope, float]:
+def _transmission(case: ShapeCase) -> tuple[ValueAndSlope, float]:
     """The equation of a criterion, and what its solution starts with."""
     pitch = case.pitch
     if case.kind == "stress":
@@ -143,11 +143,11 @@ def _side(case: ShapeCase) -> Any:
 def collocated(case: ShapeCase, nodes: int) -> float:
     """Collocation with a number of nodes, travel by Gauss's rule; its end by Newton's method."""
     pitch = case.pitch
-    law, first = _law(case)
+    transmission, first = _transmission(case)
     x, weights = np.polynomial.legendre.leggauss(nodes + 8)
     end, before = 0.94 * case.X, None
     for _ in range(12):
-        v: ChebyshevSeries = fitted(pitch, law, first, end, 0.0, nodes, before)
+        v: ChebyshevSeries = fitted(pitch, transmission, first, end, 0.0, nodes, before)
         before = v
 
         def sine(d: Floats, v: ChebyshevSeries = v) -> Floats:

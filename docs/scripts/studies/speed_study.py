@@ -74,22 +74,22 @@ class SpeedRecords(StudyRecords):
 
 
 def speeds(
-    most: int, least: int = 0, families: Collection[str] = tuple(FAMILIES), advance: Advance = lambda _: None
+    most: int, minimum: int = 0, families: Collection[str] = tuple(FAMILIES), advance: Advance = lambda _: None
 ) -> SpeedRecords:
-    """Measure all methods on `families` from `least` to `most` links; `advance` hears of every measurement."""
+    """Measure all methods on `families` from `minimum` to `most` links; `advance` hears of every measurement."""
     rows: list[SpeedRecord] = []
-    for family, train, data in _trains(most, least, families):
+    for family, train, data in _trains(most, minimum, families):
         rows += _measure_all(family, train, data, advance)
     return SpeedRecords("Speeds: error against run time", rows)
 
 
-def _trains(most: int, least: int, families: Collection[str]) -> Iterator[tuple[str, GearTrain, Data | None]]:
+def _trains(most: int, minimum: int, families: Collection[str]) -> Iterator[tuple[str, GearTrain, Data | None]]:
     """Two shipped trains, then each family as it grows, with the data it is declared from."""
-    for name in ("pennestri-2002", "freeth-2021") if least == 0 else ():
+    for name in ("pennestri-2002", "freeth-2021") if minimum == 0 else ():
         yield name, load(name), None
     for family in families:
         for size in SIZES:
-            if least <= size <= most:
+            if minimum <= size <= most:
                 data = FAMILIES[family](size)
                 yield family, GearTrain.declare(data), data
 

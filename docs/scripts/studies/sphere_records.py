@@ -64,16 +64,16 @@ class PackRecord:
     @property
     def squares(self) -> list[float]:
         """residual after a step / (residual before it)^2 (1/rad), of the steps near the solution and above rounding."""
-        near, least = _QUADRATIC
+        near, minimum = _QUADRATIC
         left = [residual for _, residual in self.steps]
-        return [b / a**2 for a, b in pairwise(left) if a < near and b > least]
+        return [b / a**2 for a, b in pairwise(left) if a < near and b > minimum]
 
 
 @dataclass(frozen=True, slots=True)
 class FitRecord:
     """Axes moved from a packing until whole teeth fit.
 
-    least      teeth of the smallest gear, `most` those of the largest
+    minimum      teeth of the smallest gear, `most` those of the largest
     steps      of the fit, and `seconds` of it; `whole` of everything from the graph to the sizes; `sizing` of sizes
     residual   ln(greatest pitch / least pitch) for the aim "pitch", largest residue of a loop (pitches) for "phases"
     moved      the farthest that an axis moved (deg)
@@ -83,7 +83,7 @@ class FitRecord:
     family: str
     gears: int
     aim: Aim
-    least: int
+    minimum: int
     most: int
     steps: int
     seconds: float
@@ -149,10 +149,10 @@ class SphereRecords(StudyRecords):
         ]
 
 
-def growth(gears: Sequence[int], seconds: Sequence[float], least: int = 90) -> float:
-    """The exponent p of seconds ~ gears^p, by least squares of logarithms over `least` gears and more."""
+def growth(gears: Sequence[int], seconds: Sequence[float], minimum: int = 90) -> float:
+    """The exponent p of seconds ~ gears^p, by least squares of logarithms over `minimum` gears and more."""
     n, s = np.log(np.array([gears, seconds], dtype=float))
-    kept = np.array(gears) >= least
+    kept = np.array(gears) >= minimum
     return float(np.polyfit(n[kept], s[kept], 1)[0])
 
 
@@ -183,7 +183,7 @@ _FITS: dict[str, Callable[[FitRecord], str]] = {
     "graph": lambda row: row.family,
     "gears": lambda row: str(row.gears),
     "aim": lambda row: row.aim,
-    "teeth": lambda row: f"{row.least} to {row.most}",
+    "teeth": lambda row: f"{row.minimum} to {row.most}",
     "steps": lambda row: str(row.steps),
     "time": lambda row: seconds_text(row.seconds),
     "with packing": lambda row: seconds_text(row.whole),

@@ -32,8 +32,8 @@ def _steps(quick: bool) -> Iterator[Step]:
     for family, sizes in _SIZES.items():
         for given in sizes[:few]:
             yield f"{family} {given}: circles", partial(packed, family, given, rounds)
-            for aim, least in _FITS:
-                yield f"{family} {given}: {aim}, {least} teeth", partial(fitted, family, given, aim, least, rounds)
+            for aim, minimum in _FITS:
+                yield f"{family} {given}: {aim}, {minimum} teeth", partial(fitted, family, given, aim, minimum, rounds)
     for power in _FEW_POWERS if quick else _POWERS:
         for solid in _SOLIDS:
             yield f"{solid}: 10^{power} teeth", partial(closed, solid, power, draws)

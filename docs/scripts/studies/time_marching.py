@@ -32,7 +32,7 @@ class Marching:
         moving = self.moving = motion._problem
         names = moving.system.links
         at = {link: number for number, link in enumerate(names)}
-        lead = float(moving.speeds[moving.lead])
+        lead = float(moving.speeds[moving.driving_link])
         self.matrix = np.zeros((len(names), len(names)))
         self.right = np.array([float(row.right) / lead for row in moving.system.equations])
         row_of = {}
@@ -51,9 +51,9 @@ class Marching:
     def _pair(motion: Motion, source: PairErrorSource, row: int) -> Marched:
         joint = motion._propagation.joints[source.pair]
         own, carried = source.forward * source.driver_sense, source.forward * source.carrier_sense
-        ratio, scale = float(source.law.ratio), joint.coefficient * source.sense
+        ratio, scale = float(source.transmission.ratio), joint.coefficient * source.sense
         return Marched(
-            _speed_of(source.law), ratio, source.start, joint.driver, joint.carrier, own, carried, row, scale
+            _speed_of(source.transmission), ratio, source.start, joint.driver, joint.carrier, own, carried, row, scale
         )
 
     def speeds(self, angle: Floats) -> Floats:
@@ -109,21 +109,25 @@ class Marched(NamedTuple):
     scale: int
 
 
-def _speed_of(law: TransmissionFunction) -> Callable[[float], float]:
+def _speed_of(transmission: TransmissionFunction) -> Callable[[float], float]:
     """dq/dS at one angle, in plain floats: arrays of one element would cost ten times as much."""
-    if isinstance(law, TriangularTransmission):
-        return _Path(law).speed
-    return lambda S: float(law.speed(S))
+    if isinstance(transmission, TriangularTransmission):
+        return _Path(transmission).speed
+    return lambda S: float(transmission.speed(S))
 
 
 class _Path:
     """Triangular teeth in plain floats: which stretch of the path an angle falls in, and its formula."""
 
-    def __init__(self, law: TriangularTransmission) -> None:
-        self.intervals, self.period, self.couple = law.intervals, law.period, law.contact.path.couple
-        self.edges = [0.0, *accumulate(interval.width for interval in law.intervals)]
-        first = law.intervals[0]
-        self.first = first.start - first.couple * law.period
+    def __init__(self, transmission: TriangularTransmission) -> None:
+        self.intervals, self.period, self.tooth_pair = (
+            transmission.intervals,
+            transmission.period,
+            transmission.contact.path.tooth_pair,
+        )
+        self.edges = [0.0, *accumulate(interval.width for interval in transmission.intervals)]
+        first = transmission.intervals[0]
+        self.first = first.start - first.tooth_pair * transmission.period
 
     def speed(self, S: float) -> float:
         """dq/dS at S (rad)."""
@@ -132,4 +136,4 @@ class _Path:
         interval = self.intervals[at]
         if interval.held is not None:
             return 0.0
-        return float(self.couple.speed(interval.phase, interval.start - (gone - self.edges[at]), math))
+        return float(self.tooth_pair.speed(interval.phase, interval.start - (gone - self.edges[at]), math))

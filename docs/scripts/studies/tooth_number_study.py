@@ -65,7 +65,7 @@ def _steps(quick: bool) -> Iterator[Step]:
         name = f"{case.name}, {case.stages} stages"
         printed = case == _case(*_PRINTED)
         patience = 0.3 if quick else 90.0 if printed else 8.0
-        yield name, partial(asked, case, 1 if quick else 3, _TRIES[:2] if quick else _TRIES, patience)
+        yield name, partial(requested, case, 1 if quick else 3, _TRIES[:2] if quick else _TRIES, patience)
     yield from _growths(quick)
 
 
@@ -92,7 +92,7 @@ def _cases(quick: bool) -> Iterator[RatioCase]:
 # error against time --------------------------------------------------------------------------------------------------
 
 
-def asked(case: RatioCase, rounds: int, tries: Sequence[int], patience: float) -> list[TeethRecord]:
+def requested(case: RatioCase, rounds: int, tries: Sequence[int], patience: float) -> list[TeethRecord]:
     """One question by all ways: pairs by stage with so many tries, brute force within `patience` seconds."""
     train = ways.chain(case)
     widths = [1] if case.stages == 1 else [round(number ** (1 / (case.stages - 1))) for number in tries]
@@ -178,8 +178,8 @@ def _of_share(stages: int, size: int, sample: int) -> list[TeethGrowth]:
     number = len(plan.segments)
     sample = min(sample, number)
     chosen = [plan.segments[number * (2 * at + 1) // (2 * sample)] for at in range(sample)]
-    asked = StageProblem(_MONTH, stages, counts, counts, StageConstraints(), "error", 1, hint)
-    tasks = [task_of(asked, *segment, hint) for segment in chosen]
+    requested = StageProblem(_MONTH, stages, counts, counts, StageConstraints(), "error", 1, hint)
+    tasks = [task_of(requested, *segment, hint) for segment in chosen]
 
     def task() -> None:
         for one in tasks:

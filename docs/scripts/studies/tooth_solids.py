@@ -23,9 +23,9 @@ class DrawnTooth:
         sections = _turns(points, count) if worm else _sections(points)
         self.solid = _lofted(sections)
         self.volume = float(self.solid.volume())
-        corners = np.concatenate(sections)
-        self.middle = corners.mean(0)
-        self.reach = float(np.linalg.norm(corners - self.middle, axis=1).max())
+        kinks = np.concatenate(sections)
+        self.middle = kinks.mean(0)
+        self.reach = float(np.linalg.norm(kinks - self.middle, axis=1).max())
         stand = np.array(elements).reshape(4, 4).T
         self.copies = np.array([stand @ about_z(2 * pi * copy / count) for copy in range(count)])
 
@@ -51,9 +51,9 @@ class BentTeeth:
         sections = [_sections(each) for each in points.reshape(wheel.teeth, -1, 3)]
         self.solids = [_lofted(each) for each in sections]
         self.volume = min(float(each.volume()) for each in self.solids)
-        corners = [np.concatenate(each) for each in sections]
-        self.own = np.array([[*each.mean(0), 1.0] for each in corners])
-        self.reach = max(float(np.linalg.norm(each - each.mean(0), axis=1).max()) for each in corners)
+        kinks = [np.concatenate(each) for each in sections]
+        self.own = np.array([[*each.mean(0), 1.0] for each in kinks])
+        self.reach = max(float(np.linalg.norm(each - each.mean(0), axis=1).max()) for each in kinks)
         self.wheel = wheel
 
     def standing(self, body: Floats, ahead: float = 0.0) -> Floats:
@@ -115,9 +115,9 @@ def _lofted(sections: Sequence[Floats]) -> manifold3d.Manifold:
     faces = np.vstack(
         [sides, cap if left else cap[:, ::-1], (cap[:, ::-1] if left else cap) + count * (len(sections) - 1)]
     )
-    corners = np.ascontiguousarray(np.vstack(sections))
+    kinks = np.ascontiguousarray(np.vstack(sections))
     for each in (faces, faces[:, ::-1]):
-        solid = manifold3d.Manifold(manifold3d.Mesh64(corners, np.ascontiguousarray(each, dtype=np.uint64)))
+        solid = manifold3d.Manifold(manifold3d.Mesh64(kinks, np.ascontiguousarray(each, dtype=np.uint64)))
         if solid.status() == manifold3d.Error.NoError and solid.volume() > 0:
             return solid
     raise ValueError(f"a tooth is no closed solid: {solid.status()}")

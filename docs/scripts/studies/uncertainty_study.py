@@ -74,18 +74,21 @@ def _steps(effort: Effort, quick: bool) -> Iterator[Step]:
 
 def _counts(effort: Effort) -> list[RateRecord]:
     """Whether combinations fit, and all that their outputs do, against whole solutions one by one."""
-    asked = Counted(_TRAIN, effort.combinations)
-    case = f"{_TRAIN}, {len(asked.question.doubts)} wheels in doubt"
-    asked.decided(), asked.told()  # formulas, tables and counts are found once, whatever the number of combinations
+    requested = Counted(_TRAIN, effort.combinations)
+    case = f"{_TRAIN}, {len(requested.question.doubts)} wheels in doubt"
+    (
+        requested.decided(),
+        requested.told(),
+    )  # formulas, tables and counts are found once, whatever the number of combinations
     ways: list[tuple[str, int, Callable[[], Any]]] = [
-        (SINGLY, effort.counted, partial(asked.singly, effort.counted)),
-        (f"fit or not, {len(asked.question.witnesses)} outputs, drawn", effort.combinations, asked.decided),
-        ("the same, all in a row", asked.followed, asked.neighbours),
-        (f"speeds of {len(asked.question.outputs)} outputs, with bounds", effort.combinations, asked.told),
+        (SINGLY, effort.counted, partial(requested.singly, effort.counted)),
+        (f"fit or not, {len(requested.question.witnesses)} outputs, drawn", effort.combinations, requested.decided),
+        ("the same, all in a row", requested.followed, requested.neighbours),
+        (f"speeds of {len(requested.question.outputs)} outputs, with bounds", effort.combinations, requested.told),
     ]
     rows, singles = _measured(COUNTS, case, 1, ways, effort.rounds)
-    error, share = asked.off(singles)
-    differing = asked.differing(singles)
+    error, share = requested.off(singles)
+    differing = requested.differing(singles)
     fitting = sum(fits for _, fits in singles)
     notes = ("", f"{fitting} of those checked fit", "", f"errors are {share:.2g} of their bounds at most")
     checks = ((None, 0, 0), (None, differing, len(singles)), (None, 0, 0), (error, 0, 0))

@@ -47,6 +47,7 @@ from geartrain.cli.mesh.form_options import (
 from geartrain.cli.option_values import Theme, at_option, quantity, read_quantity
 from geartrain.cli.option_values import friction as read_friction
 from geartrain.errors import GearTrainError
+from geartrain.teeth.any_tooth_form import tooth_form
 from geartrain.teeth.tooth_form import ToothForm
 
 if TYPE_CHECKING:
@@ -62,8 +63,9 @@ _LEANING = ("helix",)
 """Options of the form whose teeth may lean."""
 
 
-def command(name: str, model: type[ToothForm]) -> Callable[..., None]:
+def command(name: str) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
+    model = tooth_form(name)
     kind = "Costs, faults and outlines" if model.conjugate else "Motion, losses and outlines"
     words = f"{kind} of a pair with {name.replace('_', '-')} teeth."
     without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _LEANING))
@@ -139,7 +141,7 @@ def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, ba
         own = own | {"clearance": clearance}
     if "backlash" in model.model_fields or backlash is None:
         return read_form(model, own | ({} if backlash is None else {"backlash": backlash}))
-    return read_form(model, own).thinned(read_quantity("--backlash", backlash, "length", plain=True, least="0"))
+    return read_form(model, own).thinned(read_quantity("--backlash", backlash, "length", plain=True, minimum="0"))
 
 
 def _figure(mesh: GearMesh) -> Figure:
@@ -173,7 +175,7 @@ def pin(
     r = quantity("--pin-radius", pin_radius, "length", plain=True)
     e = quantity("--offset", offset, "length", plain=True)
     try:
-        law = pin_transmission(r, e, rub, cast(Literal["pin", "slot"], driver))
+        transmission = pin_transmission(r, e, rub, cast(Literal["pin", "slot"], driver))
     except GearTrainError as error:
         raise as_options(error, "--pin-radius") from None
-    give(to, json, lambda: pin_figures(law), lambda: [describe_pin(law)])
+    give(to, json, lambda: pin_figures(transmission), lambda: [describe_pin(transmission)])

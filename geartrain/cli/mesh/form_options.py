@@ -313,7 +313,7 @@ class PairFrictionOption:
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts
             radius *= second / first
-        speed = quantity("--rate", rate, "speed", least="above 0") * radius
+        speed = quantity("--rate", rate, "speed", minimum="above 0") * radius
         return replace(mesh, wheels=replace(mesh.wheels, friction=None, friction_law=self.law, pitch_line=speed))
 
 

@@ -99,11 +99,11 @@ class TriangularOptions:
             mesh = pair_in_mesh(form, wheels, None, self.driver)
         except GearTrainError as error:
             clearances = (name for name in self.own if name not in _KEPT and self.own[name] is not None)
-            given = next(clearances, "clearance")
+            given = next(clearances, "clearance_factor")
             raise at_option(error, "--teeth" if min(z1, z2) < FEWEST else option_name(given)) from None
         assert isinstance(mesh, TriangularMesh)
         mesh = rub.of(mesh, self.rate)
-        return replace(mesh, law=mesh.law.turned_back()) if self.backwards else mesh
+        return replace(mesh, transmission=mesh.transmission.reversed_motion()) if self.backwards else mesh
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
         """The tooth form with some options replaced; one clearance that is varied replaces whatever is given."""
@@ -120,7 +120,7 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     read_pair_friction(pair.friction).number("--vary")
 
     def make(**values: float) -> TriangularTransmission:
-        return pair.mesh(**{name: f"{value!r}{units[name]}" for name, value in values.items()}).law
+        return pair.mesh(**{name: f"{value!r}{units[name]}" for name, value in values.items()}).transmission
 
     # a unit or an option that no point of a sweep can have is complained of before it begins
     pair.form({name: f"{values[0]!r}{units[name]}" for name, values in ranges.items() if name not in _PAIR})
@@ -232,7 +232,9 @@ def _run(
     ] = None,
     set_: Annotated[
         list[str] | None,
-        typer.Option("--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'placement=1 %'."),
+        typer.Option(
+            "--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'pitch_deviation=1 %'."
+        ),
     ] = None,
     plot: Annotated[
         Path | None, typer.Option("--plot", help="Draw the law, the sweep, or the designs of --best to this file.")
@@ -256,7 +258,7 @@ def _run(
     drawing = picture_sink(teeth_plot, force, theme, "--teeth-plot")
     outlined = profile_sink(profile, force)
     check_distinct_outputs(to, outlined, picture, drawing)
-    size = None if module is None else quantity("--module", module, "length", least="above 0")
+    size = None if module is None else quantity("--module", module, "length", minimum="above 0")
     if best is not None or free or within or set_:
         sizes = wing("workshop.sizes.verb")
         question = sizes.SizeQuestion(best, tuple(free or ()), tuple(within or ()), tuple(set_ or ()))
@@ -273,15 +275,15 @@ def _run(
     outlines = write_profile(mesh, wheel, {"bore": bore, "tolerance": tolerance}, outlined)
     give(to, json, lambda: collect_pair(mesh, outlines, operation), lambda: [describe_pair(mesh, outlines, operation)])
     if plot is not None:
-        from geartrain.drawing import law_figure
+        from geartrain.drawing import triangular_figure
         from geartrain.teeth.rubbed_transmission import pair_friction
 
-        draw(law_figure(mesh.law, pair_friction(mesh.wheels)), picture)
+        draw(triangular_figure(mesh.transmission, pair_friction(mesh.wheels)), picture)
     if teeth_plot is not None:
         from geartrain.drawing import teeth_figure
 
         angle = None if at is None else quantity("--at", at, "angle")
-        draw(teeth_figure(mesh.law, angle), drawing)
+        draw(teeth_figure(mesh.transmission, angle), drawing)
     raise typer.Exit(GOOD if not mesh.faults else VERDICT)
 
 
@@ -296,9 +298,9 @@ def _operation(inertia: str | None, rate: str | None, load: str | None) -> PairO
     from geartrain.numerics.quantity import RADIANS_PER_TURN
 
     return PairOperation(
-        None if inertia is None else quantity("--inertia", inertia, "inertia", least="above 0"),
-        None if rate is None else quantity("--rate", rate, "speed", least="above 0") / RADIANS_PER_TURN,
-        None if load is None else quantity("--load", load, "torque", least="0"),
+        None if inertia is None else quantity("--inertia", inertia, "inertia", minimum="above 0"),
+        None if rate is None else quantity("--rate", rate, "speed", minimum="above 0") / RADIANS_PER_TURN,
+        None if load is None else quantity("--load", load, "torque", minimum="0"),
     )
 
 

@@ -6,7 +6,7 @@ error_composition                         errors along the solved order
 compiled_composition                      the same order as a compiled kernel
 motion_run, run_statistics                one run over some turns, its spectrum by exact orders; peaks and moments
 extreme_search, rate_bounds               extremes between the positions of a run, with bounds
-corner_positions                          where laws have corners
+kink_positions                          where laws have corners
 superposition                             cheap estimates
 pair_impacts                              what collisions of teeth cost
 """

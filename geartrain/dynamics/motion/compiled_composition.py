@@ -19,10 +19,10 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
-from geartrain.numerics.kernels import is_fast, kernel
+from geartrain.numerics.kernels import kernel
 from geartrain.numerics.rounding_bounds import SPLITTER, split
 from geartrain.teeth.transmission import TransmissionFunction
-from geartrain.teeth.transmission_table import join_transmission_tables, law_along, make_transmission_table
+from geartrain.teeth.transmission_table import join_transmission_tables, make_transmission_table, transmission_along
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import CompositionStep, ErrorComposition
@@ -31,37 +31,36 @@ if TYPE_CHECKING:
 
 
 BLOCK = 2048  # positions: so many that what is done once a block does not count, and their angles stay in a cache
-_PACE = 2e6  # links a second that numpy goes through, in most trains
 
 
 @dataclass(frozen=True)
-class FedBackLaw:
+class FedBackTransmission:
     """Error and speed of a pair whose driver gains `gain` radians a radian of its error; `sense` of its driven side."""
 
-    law: TransmissionFunction
+    transmission: TransmissionFunction
     sense: int
     gain: float
 
     @property
     def ratio(self) -> Fraction:
         """The law's own."""
-        return self.law.ratio
+        return self.transmission.ratio
 
     @property
     def period(self) -> float:
         """The law's own."""
-        return self.law.period
+        return self.transmission.period
 
     @cached_property
     def goes_on(self) -> bool:
         """True where no place of the law is a dead centre."""
-        ratio = float(self.law.ratio)
-        return all(1 - self.sense * (tau - ratio) * self.gain > 0 for tau in self.law.speed_range())
+        ratio = float(self.transmission.ratio)
+        return all(1 - self.sense * (tau - ratio) * self.gain > 0 for tau in self.transmission.speed_range())
 
-    def corners(self) -> list[float]:
+    def kinks(self) -> list[float]:
         """Where the driver would stand (rad) at the corners of the law itself."""
-        corners = np.array(self.law.corners(), dtype=float)
-        found: list[float] = (corners - self.gain * self.sense * self.law.error(corners)).tolist()
+        kinks = np.array(self.transmission.kinks(), dtype=float)
+        found: list[float] = (kinks - self.gain * self.sense * self.transmission.error(kinks)).tolist()
         return found
 
     def error(self, S: Floats) -> Floats:
@@ -73,7 +72,7 @@ class FedBackLaw:
         return self._solved(S)[1]
 
     def _solved(self, S: Floats) -> tuple[Floats, Floats]:
-        pair = CoupledErrors(("",), (self.law,), np.array([float(self.sense)]), np.array([[self.gain]]))
+        pair = CoupledErrors(("",), (self.transmission,), np.array([float(self.sense)]), np.array([[self.gain]]))
         delta, rate, _ = solve_coupled_errors(pair, S.reshape(1, -1), [1.0])
         return self.sense * delta.reshape(S.shape), self.sense * rate.reshape(S.shape) + float(self.ratio)
 
@@ -126,7 +125,7 @@ class ComposedSources(NamedTuple):
     ratio: Floats
     """Of the driven side, and of the law."""
     gain: Floats
-    """What the source adds to its own driver, where its law is a `FedBackLaw`, else 0."""
+    """What the source adds to its own driver, where its law is a `FedBackTransmission`, else 0."""
 
 
 class CompositionArrays(NamedTuple):
@@ -134,14 +133,14 @@ class CompositionArrays(NamedTuple):
 
     order: CompositionOrder
     sources: ComposedSources
-    laws: TransmissionTables
+    transmissions: TransmissionTables
     rows: int
     most: int
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
     """The arrays of a composition; None where a law is not read from tables, or pairs turn each other's drivers."""
-    laws: list[TransmissionTable | None] = []
+    transmissions: list[TransmissionTable | None] = []
     gains: list[float] = []
     for step in composition.steps:
         if step.coupled and len(step.sources) > 1:
@@ -150,9 +149,11 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
         if step.coupled and own is None:
             return None
         gains += [0.0 if own is None else float(composition.gain(step)[0, 0])] * len(step.sources)
-        laws += [own] if own else [make_transmission_table(composition.sources[at].law) for at in step.sources]
-    tables = [law for law in laws if law is not None]
-    if len(tables) < len(laws):
+        transmissions += (
+            [own] if own else [make_transmission_table(composition.sources[at].transmission) for at in step.sources]
+        )
+    tables = [transmission for transmission in transmissions if transmission is not None]
+    if len(tables) < len(transmissions):
         return None
     most = max((len(step.sources) for step in composition.steps), default=0)
     return CompositionArrays(
@@ -167,9 +168,9 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
 def _fed_back(composition: ErrorComposition, step: CompositionStep) -> TransmissionTable | None:
     """The table of a pair that moves its own driver; None where it has none, or may come to a dead centre."""
     (source,) = (composition.sources[at] for at in step.sources)
-    law = FedBackLaw(source.law, source.sense, float(composition.gain(step)[0, 0]))
-    changing = type(source.law).picked is not TransmissionFunction.picked
-    return make_transmission_table(law) if law.goes_on and not changing else None
+    transmission = FedBackTransmission(source.transmission, source.sense, float(composition.gain(step)[0, 0]))
+    changing = type(source.transmission).picked is not TransmissionFunction.picked
+    return make_transmission_table(transmission) if transmission.goes_on and not changing else None
 
 
 def _order(composition: ErrorComposition) -> CompositionOrder:
@@ -207,7 +208,7 @@ def _sources(composition: ErrorComposition, gains: Sequence[float]) -> ComposedS
         np.array([[place.get(link, -1) for link, _ in each] for each in ends], dtype=np.int64).reshape(-1, 2),
         np.array([[float(sign) for _, sign in each] for each in ends]).reshape(-1, 2),
         np.array([float(source.sense) for source in used]),
-        np.array([float(source.law.ratio) for source in used]),
+        np.array([float(source.transmission.ratio) for source in used]),
         np.array(gains, dtype=float),
     )
 
@@ -239,7 +240,7 @@ def compose(
     plain    cycles per turn up to which a plain product tells where in its period a driver stands
     behind   of each source: at how many positions its driver turns against its mean, filled in
     """
-    order, sources, laws, rows, most = arrays
+    order, sources, transmissions, rows, most = arrays
     held = np.zeros((2, rows, BLOCK))
     angle, turning = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
     delta, slope = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
@@ -253,11 +254,13 @@ def compose(
             first, last = order.sources[step], order.sources[step + 1]
             for source in range(first, last):
                 S, w = angle[source - first, :size], turning[source - first, :size]
-                _phase(sources, source, laws.period[source], plain, here, S)
+                _phase(sources, source, transmissions.period[source], plain, here, S)
                 _turn(sources, source, size, held, S, w)
             for source in range(first, last):
                 e, v = delta[source - first, :size], slope[source - first, :size]
-                law_along(laws, source, angle[source - first, :size], e, v, scratch[:size], cell[:size])
+                transmission_along(
+                    transmissions, source, angle[source - first, :size], e, v, scratch[:size], cell[:size]
+                )
                 _sign(sources, source, turning[source - first, :size], e, v)
                 behind[source] += _count_negative(turning[source - first, :size])
             _spread(order, step, size, delta, slope, held)
@@ -403,15 +406,6 @@ class CompiledComposition:
         compose.chosen(self.fast)(self.arrays, turns, plain, error, rate, behind)
         back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)
         return ErrorSamples(turns, error, rate, back)
-
-
-def pays(composition: ErrorComposition, fast: bool | None, positions: int) -> bool:
-    """Whether so many positions are asked of a kernel: where that pays, or as the user says.
-
-    Raises `MissingExtraError` where kernels are asked for and numba is not installed.
-    """
-    links = sum(len(step.links) for step in composition.steps)
-    return links > 0 and is_fast(fast, positions * links / _PACE)
 
 
 def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:

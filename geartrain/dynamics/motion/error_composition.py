@@ -36,7 +36,7 @@ class PairErrorSource:
     """One pair that ripples."""
 
     id: str
-    law: TransmissionFunction
+    transmission: TransmissionFunction
     """Of its driver's forward angle."""
     pair: int
     """Its index in the spread."""
@@ -62,7 +62,7 @@ class PairErrorSource:
     @property
     def mean(self) -> float:
         """Mean forward speed of the driver over the input's."""
-        return float(self.cycles) * self.law.period / (2 * np.pi)
+        return float(self.cycles) * self.transmission.period / (2 * np.pi)
 
 
 def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
@@ -112,7 +112,7 @@ class ErrorSamples(NamedTuple):
     """Angle of each output less its mean motion [rad]. Shape (outputs, n)."""
     rate: Floats
     """Speed of each output less its mean, over the input's. Shape (outputs, n)."""
-    turned_back: frozenset[str] = frozenset()
+    reversing_drivers: frozenset[str] = frozenset()
     """Pairs whose driver turns against its mean at one of these positions: their flanks change there, and the law,
     which is that of the flanks in front, does not follow the play."""
 
@@ -180,7 +180,7 @@ class ErrorComposition:
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
         """Forward angle (rad) of a source's driver, from errors of links about their own axes, by index (rad)."""
-        S = phase.cycles(source.cycles) * source.law.period + source.start
+        S = phase.cycles(source.cycles) * source.transmission.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]
         return S
@@ -235,7 +235,7 @@ class ErrorComposition:
         angle = InputPhase(turns)
         error = np.empty((self.rows, len(turns)))
         rate = np.empty_like(error)
-        turned_back = frozenset(pair for step in self.steps for pair in self._take(step, angle, error, rate))
+        reversing_drivers = frozenset(pair for step in self.steps for pair in self._take(step, angle, error, rate))
         found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
         for at, seen in enumerate(self.outputs):
             for link, sign in ((seen.of, 1), (seen.base, -seen.sense)):
@@ -244,7 +244,7 @@ class ErrorComposition:
                     found[1][at] += sign * rate[self.place[link]]
         for at, offset in enumerate(self.offsets):
             found[0][at] += offset
-        return ErrorSamples(turns, found[0], found[1], turned_back)
+        return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
         """Fill in the links of a step; yields its pairs whose driver turns against its mean."""
@@ -263,11 +263,11 @@ class ErrorComposition:
                 self._coupled(step), np.stack([S for S, _ in where]), [w for _, w in where]
             )
         else:
-            parts = [source.law.error_and_speed(S) for source, (S, _) in zip(sources, where, strict=True)]
+            parts = [source.transmission.error_and_speed(S) for source, (S, _) in zip(sources, where, strict=True)]
             turning = [w for _, w in where]
             own_pairs = list(zip(sources, parts, turning, strict=True))
             delta = np.stack([s.sense * e for s, (e, _), _ in own_pairs])
-            slope = np.stack([s.sense * (tau - float(s.law.ratio)) * w for s, (_, tau), w in own_pairs])
+            slope = np.stack([s.sense * (tau - float(s.transmission.ratio)) * w for s, (_, tau), w in own_pairs])
         error[own] += step.from_sources @ delta
         rate[own] += step.from_sources @ slope
         yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)
@@ -275,7 +275,7 @@ class ErrorComposition:
     def _driver_angle(self, at: int, angle: InputPhase, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
         """Forward angle (rad) and speed of a source's driver; links of its own step count as they stand."""
         source = self.sources[at]
-        S = angle.cycles(source.cycles) * source.law.period
+        S = angle.cycles(source.cycles) * source.transmission.period
         if source.start:
             S += source.start
         turning: Floats | float = source.mean
@@ -300,7 +300,7 @@ class ErrorComposition:
         sources = [self.sources[at] for at in step.sources]
         return CoupledErrors(
             tuple(source.id for source in sources),
-            tuple(source.law for source in sources),
+            tuple(source.transmission for source in sources),
             np.array([float(source.sense) for source in sources]),
             self.gain(step),
         )

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.willis_system import WillisSystem
 
 _MOST_STEPS = 120  # halved steps count too
-_SETTLED = 2e-15  # rad, over the scale of the angles added
+_CONVERGED = 2e-15  # rad, over the scale of the angles added
 _FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
 _HALVINGS = 64  # of four pitches, or of four turns of cut wheels: to rounding
 
@@ -47,24 +47,24 @@ class CoupledErrors:
     """Pairs in parallel: names, laws, senses of the driven sides, and `gain`, (pairs, pairs)."""
 
     names: tuple[str, ...]
-    laws: tuple[TransmissionFunction, ...]
+    transmissions: tuple[TransmissionFunction, ...]
     senses: Floats
     gain: Floats
     """Radians of driver m's forward angle per radian of pair n's driven error."""
 
-    def laws_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
+    def transmissions_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
         """Driven errors and their slopes over the drivers' angles, both signed, (pairs, n), at some positions."""
         error, slope = np.empty_like(S), np.empty_like(S)
-        for at, law in enumerate(self.laws):
-            error[at], tau = law.picked(columns).error_and_speed(S[at])
-            slope[at] = tau - float(law.ratio)
+        for at, transmission in enumerate(self.transmissions):
+            error[at], tau = transmission.picked(columns).error_and_speed(S[at])
+            slope[at] = tau - float(transmission.ratio)
         error *= self.senses[:, None]
         slope *= self.senses[:, None]
         return error, slope
 
     def jacobian(self, slope: Floats) -> Floats:
         """J = I - slope gain of equation (5) at each position, (n, pairs, pairs)."""
-        return np.eye(len(self.laws)) - slope.T[:, :, None] * self.gain
+        return np.eye(len(self.transmissions)) - slope.T[:, :, None] * self.gain
 
 
 def solve_coupled_errors(
@@ -88,15 +88,15 @@ def solve_coupled_errors(
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
     """Errors, and the slopes of the laws there."""
-    tolerance = _SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
+    tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
-    delta, slopes = pairs.laws_at(base, active)
+    delta, slopes = pairs.transmissions_at(base, active)
     now = delta.copy()
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
     for _ in range(_MOST_STEPS):
         trial = now - length * step
         # at first the step is 0 and the size infinite: the first trial is the start itself
-        error, slope = pairs.laws_at(base[:, active] + pairs.gain @ trial, active)
+        error, slope = pairs.transmissions_at(base[:, active] + pairs.gain @ trial, active)
         residual = trial - error
         found = np.max(np.abs(residual), axis=0)
         better = found < size
@@ -126,13 +126,13 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
     A law may jump past the error, as that of cut teeth that clash: the error is then where the law jumps, its slope 0.
     Where nothing touches, the error is that of the law, infinite.
     """
-    if len(pairs.laws) > 1:
+    if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
-    high = np.full_like(base, 2 * float(pairs.laws[0].ratio) * pairs.laws[0].period)
+    high = np.full_like(base, 2 * float(pairs.transmissions[0].ratio) * pairs.transmissions[0].period)
     low = -high
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        error, slope = pairs.laws_at(base + pairs.gain * middle, columns)
+        error, slope = pairs.transmissions_at(base + pairs.gain * middle, columns)
         if (slope * pairs.gain > 1 + _FORGIVEN).any():
             raise _refusal(pairs.names, _DEAD_CENTRE)
         low, high = np.where(middle < error, middle, low), np.where(middle < error, high, middle)

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from geartrain.dynamics.motion.corner_positions import CornerSearch, InputSteps
 from geartrain.dynamics.motion.error_composition import ErrorComposition, common_period
+from geartrain.dynamics.motion.kink_positions import InputSteps, KinkSearch
 from geartrain.dynamics.motion.rate_bounds import RateBounds, StepBounds, error_difference
 from geartrain.numerics.chebyshev import points
 
@@ -32,7 +32,7 @@ _MOST_WIDE = 16_000  # wide ones, of all outputs: most of these would be divided
 _NUMBERS = 1 << 23  # most bounds kept at once
 _PARTS = 4  # of a step that is divided
 _FEW = 1024  # so few steps are cut at corners without being divided further
-_LEAST_DIVISIONS, _MOST_DIVISIONS = 2, 16
+_MINIMUM_DIVISIONS, _MOST_DIVISIONS = 2, 16
 _BATCH = 4096  # steps cut at corners at once
 _BATCHES = 16
 _MOST_CORNERS = 200_000  # in a batch
@@ -102,11 +102,11 @@ class StepSearch:
         self._parts = parts
         self._most_wide = int(_MOST_WIDE * share)
         self._bounds = tuple(RateBounds(part) for part in parts)
-        self._corners = tuple(CornerSearch(part) for part in parts)
+        self._corners = tuple(KinkSearch(part) for part in parts)
         self.chunk = min(bounds.chunk for bounds in self._bounds)
         self.values = np.full((len(parts[0].outputs), 4), -np.inf)
         self.dropped = self.values.copy()
-        self.turned_back: set[str] = set()
+        self.reversing_drivers: set[str] = set()
 
     @cached_property
     def step(self) -> float:
@@ -131,7 +131,7 @@ class StepSearch:
         before = 0
         for division in range(_MOST_DIVISIONS):
             # narrow steps are divided twice at least, and as long as that leaves fewer of them
-            enough = division >= _LEAST_DIVISIONS and (left.number <= _FEW or left.number > before)
+            enough = division >= _MINIMUM_DIVISIONS and (left.number <= _FEW or left.number > before)
             if not left.number or (left.width <= self.step and enough):
                 break
             before, left = left.number, self._searched(_divided(left.steps, self.chunk))
@@ -187,7 +187,7 @@ class StepSearch:
             # NaN where no teeth touch
             extremes = np.fmax.reduce(values, axis=1), -np.fmin.reduce(values, axis=1)
             self.values[:, first : first + 2] = np.fmax(self.values[:, first : first + 2], np.stack(extremes, axis=1))
-        self.turned_back |= passage.turned_back
+        self.reversing_drivers |= passage.reversing_drivers
 
     # --------------------------------------------------------------------------------------------------- smooth pieces
 
@@ -275,7 +275,7 @@ class ExtremeSearch:
         self._whole = StepSearch(self._parts)
         outputs = len(composition.outputs)
         self.values, self._dropped = (np.full((outputs, 4), -np.inf) for _ in range(2))
-        self.turned_back = self._whole.turned_back
+        self.reversing_drivers = self._whole.reversing_drivers
 
     @property
     def doubt(self) -> Floats:
@@ -321,7 +321,7 @@ class ExtremeSearch:
         at = list(group)
         self.values[at] = self._whole.values[at] = np.maximum(self.values[at], search.values)
         self._dropped[at] = np.maximum(self._dropped[at], search.dropped)
-        self.turned_back |= search.turned_back
+        self.reversing_drivers |= search.reversing_drivers
 
     def _first(self, start: float, end: float) -> Iterator[InputSteps]:
         """The whole run, in steps that are narrow if there are not too many."""

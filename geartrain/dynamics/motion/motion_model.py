@@ -17,22 +17,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition, pays
-from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
+from geartrain.dynamics.motion.kink_positions import KinkPositions, KinkSearch
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.willis_system import axis_sense
+from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, picture_maker
 
 if TYPE_CHECKING:
     from numpy.random import Generator
 
+    from geartrain.dynamics.motion.compiled_composition import CompiledComposition
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
+
+_PACE = 2e6  # links per second that numpy computes, in most trains
 
 
 @dataclass(frozen=True)
@@ -44,17 +47,19 @@ class PointerCompositions:
 
     def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
         """The composition while the input turns that way; `besides` as of `PairErrors.sources`."""
-        play, (teeth, pins) = self.errors.play(way), self._start
+        backlash, (teeth, pins) = self.errors.backlash(way), self._start
         found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
         sources = tuple(
             replace(
                 each,
-                phase=each.phase + found.driver_shift(each, play),
+                phase=each.phase + found.driver_shift(each, backlash),
                 set_back=found.driver_shift(each, teeth + pins),
             )
             for each in found.sources
         )
-        return replace(found, sources=sources, offsets=tuple(each.difference(play - teeth) for each in self.outputs))
+        return replace(
+            found, sources=sources, offsets=tuple(each.difference(backlash - teeth) for each in self.outputs)
+        )
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
@@ -62,7 +67,7 @@ class PointerCompositions:
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
         for each in self.errors.sources(1):
-            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.law.error(each.phase))
+            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.transmission.error(each.phase))
         teeth, slots = self.errors.spread.errors(deltas).T
         return teeth, slots
 
@@ -194,7 +199,7 @@ class Motion(Shown):
     def _summary(self) -> str:
         name = "" if self._declaration is None else self._declaration.name
         state = "" if self._state is None else f" state {self._state}"
-        lead = self._problem.lead
+        lead = self._problem.driving_link
         means = [(each, self._problem.seen_ratio(*self.outputs[each])) for each in islice(self.outputs, _MAIN)]
         shown = ", ".join(f"{each} = {brief(ratio)} of {lead}" for each, ratio in means)
         more = f", {len(self.outputs) - _MAIN} more" if len(self.outputs) > _MAIN else ""
@@ -363,17 +368,19 @@ class Motion(Shown):
             The composition, or its compiled kernel.
         """
         composition = self._forward if turns >= 0 else self._backward
-        if not pays(composition, self.fast, samples):
+        links = sum(len(step.links) for step in composition.steps)
+        if not links or not is_fast(self.fast, samples * links / _PACE):
             return composition
-        return (self._compiled_ahead if turns >= 0 else self._compiled_back) or composition
+        if (turns >= 0) not in self._compiled:
+            from geartrain.dynamics.motion.compiled_composition import compiled_composition
+
+            self._compiled[turns >= 0] = compiled_composition(composition)
+        return self._compiled[turns >= 0] or composition
 
     @cached_property
-    def _compiled_ahead(self) -> CompiledComposition | None:
-        return compiled_composition(self._forward)
-
-    @cached_property
-    def _compiled_back(self) -> CompiledComposition | None:
-        return compiled_composition(self._backward)
+    def _compiled(self) -> dict[bool, CompiledComposition | None]:
+        """Compiled kernels of the compositions forwards (True) and backwards (False), as far as they were requested."""
+        return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Errors and rates of the outputs, turning as declared.
@@ -393,9 +400,9 @@ class Motion(Shown):
         chunk = composition.chunk
         parts = [composition.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
         error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
-        return ErrorSamples(turns, error, rate, frozenset().union(*(part.turned_back for part in parts)))
+        return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
-    def corner_positions(self, start: float, end: float) -> CornerPositions:
+    def kink_positions(self, start: float, end: float) -> KinkPositions:
         """Where some pair that an output depends on is at a corner of its law: between them all errors are smooth.
 
         A speed may jump there. To take its values on either side, ask a little before and a little after.
@@ -407,7 +414,7 @@ class Motion(Shown):
 
         Returns
         -------
-        CornerPositions
+        KinkPositions
             Turns from the lesser to the greater of the two, both included, in ascending order, with the pair at each.
 
         Raises
@@ -420,12 +427,12 @@ class Motion(Shown):
         A pair of triangular teeth has a corner a pitch, and the driver of the first makes 45 in one turn of the crank:
 
         >>> import geartrain
-        >>> corners = geartrain.load("moon-triangular").motion(outputs=["moon"]).corner_positions(0, 1)
-        >>> len(corners.turns), corners.names().count("a~b1")
+        >>> kinks = geartrain.load("moon-triangular").motion(outputs=["moon"]).kink_positions(0, 1)
+        >>> len(kinks.turns), kinks.names().count("a~b1")
         (160, 45)
         """
         composition = self._forward if end >= start else self._backward
-        return CornerSearch(composition).over(min(start, end), max(start, end))
+        return KinkSearch(composition).over(min(start, end), max(start, end))
 
     def transmission_errors(
         self, turns: float = 1.0, samples: int = 2001, on_done: Callable[[int], None] = lambda _: None

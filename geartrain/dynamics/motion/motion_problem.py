@@ -34,7 +34,7 @@ class MotionProblem:
     speeds: Mapping[str, Fraction]
     """Exact mean speeds; `lead` is the input whose angle is given."""
     frame: str
-    lead: str
+    driving_link: str
     meshes: Mapping[str, GearMesh]
     """Pairs with real teeth by name, as they are driven, each made when it is first read."""
     pins: Sequence[PinMesh]
@@ -52,11 +52,11 @@ class MotionProblem:
     @property
     def way(self) -> int:
         """1, or -1 where the lead turns backwards about its own axis: motion counts turns and angles in its sense."""
-        return -1 if self.speeds[self.lead] < 0 else 1
+        return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
         """Mean speed of a link over the lead's, exactly."""
-        return self.speeds[link] / self.speeds[self.lead]
+        return self.speeds[link] / self.speeds[self.driving_link]
 
     def seen_ratio(self, link: str, base: str) -> Fraction:
         """Mean speed of a link seen from another, about the first one's axis, over the lead's."""

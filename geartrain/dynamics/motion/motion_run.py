@@ -20,7 +20,6 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.extreme_search import ExtremeSearch
 from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
-from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     Complex = NDArray[np.complex128]
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
+    from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition
 
     OnDone = Callable[[int], None]
 
@@ -82,6 +82,8 @@ def find_spectrum(
     Lines are told apart if they differ by two periods over the run; over whole common periods the measure is exact but
     for harmonics beyond half the sampling rate.
     """
+    from geartrain.dynamics.motion.superposition import Superposition
+
     superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
     found = {}
@@ -106,7 +108,7 @@ def _harmonics(superposed: Superposition, at: int) -> Complex:
     source = superposed.sources[at]
     u = np.arange(_SAMPLES) / _SAMPLES
     shift = source.start + superposed.lags[at]
-    error = source.sense * source.law.error(u * source.law.period + shift)
+    error = source.sense * source.transmission.error(u * source.transmission.period + shift)
     # twice, for half of a real wave stands at the negative frequency
     return np.asarray(2 * np.fft.rfft(error)[1 : _HARMONICS + 1] / _SAMPLES)
 
@@ -220,7 +222,7 @@ class MotionRun(Tabular, Pictured):
     """By output, the strongest lines first."""
     done: int = 0
     """Positions counted so far: fewer than `samples` in a run that was interrupted."""
-    turned_back: set[str] = field(default_factory=set)
+    reversing_drivers: set[str] = field(default_factory=set)
     """Pairs whose driver was seen turning against its mean; the play between their flanks is not followed there."""
 
     def __post_init__(self) -> None:
@@ -277,13 +279,13 @@ class MotionRun(Tabular, Pictured):
             for at, tally in enumerate(self.statistics):
                 tally.add(passage.error[at], passage.rate[at])
             peaks.add(passage)
-            self.turned_back |= passage.turned_back
+            self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
         composition = self.motion._forward if self.turns >= 0 else self.motion._backward
         search = ExtremeSearch(composition)
         count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)
-        self.turned_back |= search.turned_back
+        self.reversing_drivers |= search.reversing_drivers
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
         """The same run with random phases of the pairs that declare none.
@@ -314,6 +316,8 @@ class MotionRun(Tabular, Pictured):
         on_done : callable
             As of `run`.
         """
+        from geartrain.dynamics.motion.superposition import find_estimates
+
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
     def find_spectra(self, on_done: OnDone = _untold) -> None:

@@ -88,13 +88,13 @@ class PairErrors:
         names = [name for at, name in enumerate(self.spread.pairs) if at in reached and name in self.train.meshes]
         return [self.train.meshes[name] for name in names]
 
-    def play(self, way: int) -> Floats:
+    def backlash(self, way: int) -> Floats:
         """What the play of teeth that keep their ratio adds to the angle of each link (rad): the same everywhere.
 
         Nothing while the input turns as declared.
         """
-        laws = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes if mesh.rigid}
-        ahead = {name: law.error_moments()[0] for name, law in laws.items()}
+        transmissions = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes if mesh.rigid}
+        ahead = {name: transmission.error_moments()[0] for name, transmission in transmissions.items()}
         circuits = self._circuits
         deltas = [ahead[name] * self.sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
         return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
@@ -111,23 +111,23 @@ class PairErrors:
         besides   pairs that keep their ratio and are wanted as well
         """
         meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
-        laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in meshes}
-        laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
+        transmissions: dict[str, TransmissionFunction] = {mesh.name: mesh.transmission for mesh in meshes}
+        transmissions |= {joint.coupling.name: joint.transmission for joint in self.train.pins}
         circuits = self._circuits
         for at, name in enumerate(self.spread.pairs):
-            if name in laws:
-                law = laws[name] if way > 0 else laws[name].turned_back()
-                yield self._source(at, circuits[name], laws[name], self._read(law))
+            if name in transmissions:
+                transmission = transmissions[name] if way > 0 else transmissions[name].reversed_motion()
+                yield self._source(at, circuits[name], transmissions[name], self._read(transmission))
 
-    def _read(self, law: TransmissionFunction) -> TransmissionFunction:
+    def _read(self, transmission: TransmissionFunction) -> TransmissionFunction:
         if self.tolerance is None:
-            return law
+            return transmission
         from geartrain.teeth.transmission_table import TabulatedTransmission
 
-        return TabulatedTransmission(law, self.tolerance)
+        return TabulatedTransmission(transmission, self.tolerance)
 
     def _source(
-        self, at: int, circuit: Circuit, ahead: TransmissionFunction, law: TransmissionFunction
+        self, at: int, circuit: Circuit, ahead: TransmissionFunction, transmission: TransmissionFunction
     ) -> PairErrorSource:
         driven = self.driven_side(circuit)
         ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
@@ -148,14 +148,15 @@ class PairErrors:
         if cycles > _FASTEST:
             raise GearTrainError(
                 Problem(
-                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while '{self.train.lead}' turns once",
+                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while "
+                    f"'{self.train.driving_link}' turns once",
                     "no position of the input can be told so finely that it says where these teeth stand",
                     "drive the train nearer to this pair, or give it ideal teeth",
                 )
             )
-        return PairErrorSource(circuit.id, law, at, *senses, cycles, phase, forward, sense)
+        return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
-    def _phase(self, circuit: Circuit, law: TransmissionFunction, driven: int) -> float:
+    def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
         """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
 
         A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards. A
@@ -167,18 +168,22 @@ class PairErrors:
             before, opposite = placed
             if (mesh := self.train.meshes.get(before)) is not None:
                 first = self._circuits[before]
-                start = self._phase(first, mesh.law, self.driven_side(first))
-                teeth = round(2 * pi / law.period)
-                pitches = float(mesh.law.angle(start)) / law.period + mesh.stands - (teeth / 2 if opposite else 0)
-                return (pitches % 1) * law.period
+                start = self._phase(first, mesh.transmission, self.driven_side(first))
+                teeth = round(2 * pi / transmission.period)
+                pitches = (
+                    float(mesh.transmission.angle(start)) / transmission.period
+                    + mesh.stands
+                    - (teeth / 2 if opposite else 0)
+                )
+                return (pitches % 1) * transmission.period
         phase = self.train.phases.get(circuit.id, 0.0)
         if driven == 1 or circuit.kind != "gear":
-            return phase * law.period
+            return phase * transmission.period
         phase -= self.train.meshes[circuit.id].stands
-        wanted = phase * float(law.ratio) * law.period
-        low, high = (phase - 2) * law.period, (phase + 2) * law.period
+        wanted = phase * float(transmission.ratio) * transmission.period
+        low, high = (phase - 2) * transmission.period, (phase + 2) * transmission.period
         # bisection: an angle grows with its driver's, and laws have corners that other methods stumble on
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
-            low, high = (middle, high) if float(law.angle(middle)) < wanted else (low, middle)
+            low, high = (middle, high) if float(transmission.angle(middle)) < wanted else (low, middle)
         return (low + high) / 2

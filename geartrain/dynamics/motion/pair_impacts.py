@@ -40,13 +40,13 @@ class ToothImpact(Shown):
     """Of all that is struck, at the driven wheel [kg m^2]."""
     rate: float
     """Pitches passed a second [1/s]."""
-    blows: tuple[float, ...]
+    jumps: tuple[float, ...]
     """Jumps of the driven wheel's speed [rad/s], those of one pitch."""
 
     @property
     def power(self) -> float:
         """Power dissipated (W)."""
-        return self.rate * sum(self.inertia * blow**2 / 2 for blow in self.blows)
+        return self.rate * sum(self.inertia * jump**2 / 2 for jump in self.jumps)
 
 
 def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) -> dict[str, ToothImpact]:
@@ -58,23 +58,23 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
     weight = np.array([inertias.get(link, 0.0) for link in spread.links])
     found = {}
     for source in motion._forward.sources:
-        law = source.law
-        leaps = law.speed_leaps()
+        transmission = source.transmission
+        leaps = transmission.speed_leaps()
         if leaps is None:
             continue
         unit = np.zeros((len(spread.pairs), 1))
         unit[source.pair] = 1.0
         struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
         driver = abs(source.mean * speed)
-        blows = tuple(leap.size * driver for leap in leaps)
-        found[source.id] = ToothImpact(struck, driver / law.period, blows)
+        jumps = tuple(leap.size * driver for leap in leaps)
+        found[source.id] = ToothImpact(struck, driver / transmission.period, jumps)
     return found
 
 
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:
     """Energies of one pitch's collisions (J): handed to the driven side, dissipated, and their sum, the driver's work.
 
-    J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic blows, the driver at constant speed
+    J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts, the driver at constant speed
     omega1 (rad/s), `inertia` J (kg m2) all that turns with the driven wheel. The source of triangular teeth counts
     the first as lost; what is lost is the second.
     """
@@ -104,7 +104,7 @@ class PairImpacts(Result):
 
     KEYS = (
         *("inertia", "rate", "handed", "dissipated", "work"),
-        *(Key("load_to_stay_in_contact", "least_load"), Key("void_above", "void")),
+        *(Key("load_to_stay_in_contact", "minimum_load"), Key("void_above", "void")),
     )
 
     inertia: float
@@ -117,20 +117,20 @@ class PairImpacts(Result):
     """Energy of one pitch dissipated by collisions [J]."""
     work: float | None = None
     """Sum of the energies handed and dissipated in one pitch [J]."""
-    least_load: float | None = None
+    minimum_load: float | None = None
     """Load torque (N m) that keeps the teeth in contact at this rate."""
     void: float | None = None
     """Driver's speed (turns per second) above which they part under the declared load."""
 
 
-def find_pair_impacts(law: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:
+def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:
     """What collisions cost; None where no inertia is known, or the law has no account of its collisions."""
     inertia, load, omega1 = operation.inertia, operation.load, operation.omega1
-    leaps, steepest = law.speed_leaps(), law.steepest_fall()
+    leaps, steepest = transmission.speed_leaps(), transmission.steepest_fall()
     if inertia is None or leaps is None or steepest is None:
         return None
     void = sqrt(load / (inertia * steepest)) / (2 * pi) if load is not None and steepest > 0 else None
     if omega1 is None:
         return PairImpacts(inertia, void=void)
     energies = collision_energies(leaps, inertia, omega1)
-    return PairImpacts(inertia, operation.rate, *energies, least_load=inertia * omega1**2 * steepest, void=void)
+    return PairImpacts(inertia, operation.rate, *energies, minimum_load=inertia * omega1**2 * steepest, void=void)

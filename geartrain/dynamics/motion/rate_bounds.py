@@ -26,35 +26,35 @@ if TYPE_CHECKING:
 class RangeExtremes:
     """Extremes of runs of cells, each with a least and a greatest value, (n,), the first following the last."""
 
-    def __init__(self, least: Floats, most: Floats) -> None:
-        self.count = len(least)
-        self._first = least, most
+    def __init__(self, minimum: Floats, most: Floats) -> None:
+        self.count = len(minimum)
+        self._first = minimum, most
 
     @cached_property
     def _levels(self) -> tuple[Floats, Floats]:
         """Extremes of the 2^k cells from each one on, (levels, n)."""
-        least, most = [self._first[0]], [self._first[1]]
+        minimum, most = [self._first[0]], [self._first[1]]
         length = 1
         while 2 * length <= self.count:
-            least.append(np.minimum(least[-1], np.roll(least[-1], -length)))
+            minimum.append(np.minimum(minimum[-1], np.roll(minimum[-1], -length)))
             most.append(np.maximum(most[-1], np.roll(most[-1], -length)))
             length *= 2
-        return np.stack(least), np.stack(most)
+        return np.stack(minimum), np.stack(most)
 
     def over(self, first: Ints, last: Ints) -> tuple[Floats, Floats]:
         """Least and greatest value over cells `first` to `last`, any whole numbers, first <= last."""
         length = np.clip(last - first + 1, 1, self.count)
         level = np.frexp(length)[1] - 1
         one, other = first % self.count, (first + length - (1 << level)) % self.count
-        least, most = self._levels
+        minimum, most = self._levels
         return (
-            np.minimum(least[level, one], least[level, other]),
+            np.minimum(minimum[level, one], minimum[level, other]),
             np.maximum(most[level, one], most[level, other]),
         )
 
 
 _CELLS = 1024  # of a period, of a table of the speed ratio
-_A_CORNER = 64  # cells for each corner of a law, where that is more
+_A_KINK = 64  # cells for each corner of a law, where that is more
 _WITHIN = 4  # values of the speed ratio in a cell
 _MARGIN = 0.25  # of what it changes within a cell: it may go so far beyond these values
 _BESIDE = 1e-9  # of a period: so near to a corner is its limit from one side
@@ -93,21 +93,21 @@ class Interval(NamedTuple):
 class SpeedRanges:
     """Between which values the speed ratio of a law lies while its driver goes from one angle to another."""
 
-    def __init__(self, law: TransmissionFunction) -> None:
-        self.period = law.period
-        corners = np.mod(np.asarray(law.corners(), dtype=float), law.period)
-        self.cells = max(_CELLS, _A_CORNER * len(corners))
-        width = law.period / self.cells
+    def __init__(self, transmission: TransmissionFunction) -> None:
+        self.period = transmission.period
+        kinks = np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period)
+        self.cells = max(_CELLS, _A_KINK * len(kinks))
+        width = transmission.period / self.cells
         inside = (np.arange(_WITHIN) / (_WITHIN - 1)) * (1 - 2 * _BESIDE) + _BESIDE
-        values = law.speed((np.arange(self.cells)[:, None] + inside) * width)
-        least, most = np.nanmin(values, axis=1), np.nanmax(values, axis=1)
+        values = transmission.speed((np.arange(self.cells)[:, None] + inside) * width)
+        minimum, most = np.nanmin(values, axis=1), np.nanmax(values, axis=1)
         for side in (-_BESIDE, _BESIDE):
-            at = corners + side * law.period
-            cell, value = np.floor(at / width).astype(int) % self.cells, law.speed(at)
-            np.fmin.at(least, cell, value)
+            at = kinks + side * transmission.period
+            cell, value = np.floor(at / width).astype(int) % self.cells, transmission.speed(at)
+            np.fmin.at(minimum, cell, value)
             np.fmax.at(most, cell, value)
-        spread = _MARGIN * (most - least)
-        self._extremes = RangeExtremes(least - spread, most + spread)
+        spread = _MARGIN * (most - minimum)
+        self._extremes = RangeExtremes(minimum - spread, most + spread)
 
     def over(self, phase: Floats, travel: Interval) -> Interval:
         """While it goes from `phase` + travel.low to `phase` + travel.high (rad)."""
@@ -120,7 +120,7 @@ class SpeedRanges:
 
 def error_difference(one: ErrorSamples, other: ErrorSamples) -> ErrorSamples:
     """Errors of outputs less other errors of them at the same positions; where a driver turns back in either, told."""
-    both = one.turned_back | other.turned_back
+    both = one.reversing_drivers | other.reversing_drivers
     return ErrorSamples(one.turns, one.error - other.error, one.rate - other.rate, both)
 
 
@@ -140,15 +140,15 @@ class StepBounds(NamedTuple):
     def errors(self) -> Interval:
         """Bounds on the errors."""
         angle = 2 * np.pi * (self.high.turns - self.low.turns)
-        start, end, (least, most) = self.low.error, self.high.error, self.rate
+        start, end, (minimum, most) = self.low.error, self.high.error, self.rate
         with np.errstate(all="ignore"):
             # two lines from the ends, as steep as may be, meet at the bound (Piyavskii)
-            up = np.clip((end - start - least * angle) / (most - least), 0, angle)
-            down = np.clip((most * angle - (end - start)) / (most - least), 0, angle)
-            above = np.where(most > least, start + most * up, np.maximum(start, end))
-            below = np.where(most > least, start + least * down, np.minimum(start, end))
+            up = np.clip((end - start - minimum * angle) / (most - minimum), 0, angle)
+            down = np.clip((most * angle - (end - start)) / (most - minimum), 0, angle)
+            above = np.where(most > minimum, start + most * up, np.maximum(start, end))
+            below = np.where(most > minimum, start + minimum * down, np.minimum(start, end))
         lower, upper = np.minimum(start, end), np.maximum(start, end)
-        known = np.isfinite(least) & np.isfinite(most)
+        known = np.isfinite(minimum) & np.isfinite(most)
         return Interval(
             np.where(known, np.minimum(below, lower), -np.inf), np.where(known, np.maximum(above, upper), np.inf)
         )
@@ -178,7 +178,7 @@ class RateBounds:
 
     @cached_property
     def _ranges(self) -> dict[int, SpeedRanges]:
-        return {at: SpeedRanges(source.law) for at, source in self._sources.items()}
+        return {at: SpeedRanges(source.transmission) for at, source in self._sources.items()}
 
     @property
     def chunk(self) -> int:
@@ -191,7 +191,7 @@ class RateBounds:
         edges, at_edge = np.unique(np.concatenate([low, high]), return_inverse=True)
         found = self._whole.at(edges)
         ends = [
-            ErrorSamples(edges[which], found.error[:, which], found.rate[:, which], found.turned_back)
+            ErrorSamples(edges[which], found.error[:, which], found.rate[:, which], found.reversing_drivers)
             for which in np.split(at_edge, 2)
         ]
         own = len(self.composition.outputs)
@@ -264,14 +264,18 @@ class RateBounds:
         found = []
         for at, speed in zip(step.sources, turning, strict=True):
             source, (first, last) = self._sources[at], shifts[at]
-            law = source.law
-            start = np.mod(phase.cycles(source.cycles) * law.period + source.start + first, law.period)
+            transmission = source.transmission
+            start = np.mod(
+                phase.cycles(source.cycles) * transmission.period + source.start + first, transmission.period
+            )
             travel = source.mean * angle + (last - first)
-            back = np.nan_to_num(np.maximum(0.0, -speed.low) * angle, nan=law.period, posinf=law.period)
+            back = np.nan_to_num(
+                np.maximum(0.0, -speed.low) * angle, nan=transmission.period, posinf=transmission.period
+            )
             ratio = self._ranges[at].over(
                 start, Interval(np.minimum(0.0, travel) - back, np.maximum(0.0, travel) + back)
             )
-            mean = float(law.ratio)
+            mean = float(transmission.ratio)
             found.append(Interval(ratio.low - mean, ratio.high - mean).scaled(float(source.sense)))
         return found
 

@@ -71,7 +71,7 @@ class RunningStatistics(Result):
     """Mean of the error [rad]."""
     square: float = 0.0
     """Sum of the squared differences of the error from its mean [rad^2]."""
-    least: float = inf
+    minimum: float = inf
     """Least error [rad]."""
     most: float = -inf
     """Greatest error [rad]."""
@@ -113,7 +113,7 @@ class RunningStatistics(Result):
         error, rate : array of float, (n,)
             As for `add`.
         """
-        self.least, self.most = min(self.least, float(error.min())), max(self.most, float(error.max()))
+        self.minimum, self.most = min(self.minimum, float(error.min())), max(self.most, float(error.max()))
         self.slow, self.fast = min(self.slow, float(rate.min())), max(self.fast, float(rate.max()))
 
     @property
@@ -124,7 +124,7 @@ class RunningStatistics(Result):
     @property
     def peak_to_peak(self) -> float:
         """Greatest less least error (rad)."""
-        return self.most - self.least
+        return self.most - self.minimum
 
     @property
     def rms(self) -> float:
@@ -201,7 +201,7 @@ def count_extremes(
     search.over(low, high)
     if search.doubt.any():
         search.around(peaks.turns.reshape(len(tallies), -1), abs(step), low, high)
-    for tally, (most, least, fast, slow), doubt in zip(tallies, search.values.tolist(), search.doubt, strict=True):
-        tally.reach(np.array([most, -least]), np.array([fast, -slow]))
+    for tally, (most, minimum, fast, slow), doubt in zip(tallies, search.values.tolist(), search.doubt, strict=True):
+        tally.reach(np.array([most, -minimum]), np.array([fast, -slow]))
         within = float(doubt[:2].max()), float(doubt[2:].max())
         tally.error_within, tally.speed_within = (each if isfinite(each) else None for each in within)

@@ -39,13 +39,13 @@ class Superposition:
     @cached_property
     def ranges(self) -> Floats:
         """Range of each pair's error (rad of its driven side)."""
-        ends = [source.law.error_range() for source in self.sources]
+        ends = [source.transmission.error_range() for source in self.sources]
         return np.array([high - low for low, high in ends])
 
     @cached_property
     def moments(self) -> Floats:
         """Mean and rms of each pair's error (rad of its driven side), (2, pairs)."""
-        return np.array([source.law.error_moments() for source in self.sources]).reshape(-1, 2).T
+        return np.array([source.transmission.error_moments() for source in self.sources]).reshape(-1, 2).T
 
     @property
     def bounds(self) -> list[float]:
@@ -71,9 +71,9 @@ class Superposition:
         angle = InputPhase(turns)
         found = np.zeros((len(self.response), len(turns)))
         for at, source in enumerate(self.sources):
-            S = angle.cycles(source.cycles) * source.law.period
+            S = angle.cycles(source.cycles) * source.transmission.period
             S += source.start + self.lags[at] if lagged else source.phase
-            found += (source.sense * self.response[:, at])[:, None] * source.law.error(S)
+            found += (source.sense * self.response[:, at])[:, None] * source.transmission.error(S)
         return found
 
 
@@ -84,16 +84,16 @@ class SuperpositionEstimate(Result):
     KEYS = (
         Key("peak_to_peak", "own.peak_to_peak"),
         Key("rms", "own.rms"),
-        group("difference", "greatest", Key("rms", "off.rms")),
+        group("difference", "maximum", Key("rms", "off.rms")),
     )
 
     own: RunningStatistics
     off: RunningStatistics
 
     @property
-    def greatest(self) -> float:
+    def maximum(self) -> float:
         """Greatest difference from the composed motion, about its mean (rad)."""
-        return max(self.off.centre - self.off.least, self.off.most - self.off.centre)
+        return max(self.off.centre - self.off.minimum, self.off.most - self.off.centre)
 
 
 @dataclass(frozen=True)

@@ -325,13 +325,13 @@ def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
     """The way of every pair under any mixture of some loads."""
     found: dict[str, FlowDirections] = {}
-    for asked in _sources(setting) if loads else ():
-        like = _peers(build_balance(setting, {}, asked))
+    for requested in _sources(setting) if loads else ():
+        like = _peers(build_balance(setting, {}, requested))
         spread = {name: _spread(each, like) for name, each in loads.items()}
         loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
         # equal planets stay equal under equal loads; the numbers only tell apart what is loaded
         number = {peer: Fraction(at) for at, link in enumerate(loaded, 2) for peer in like.get(link, (link,))}
-        shares = find_load_influence(balance := build_balance(setting, number, asked), spread)
+        shares = find_load_influence(balance := build_balance(setting, number, requested), spread)
         for mesh in balance.meshes if shares is not None else ():
             plus, minus, shared = (shares or {})[mesh.id]
             way = FlowDirections(minus, plus, shared) if mesh.turn > 0 else FlowDirections(plus, minus, shared)

@@ -266,8 +266,8 @@ class _Floats:
         self.block = block
         self.turns = np.array([columns[column].turn for column in block.columns])
         # patterns depend on signs alone; loads of any size are brought within the range of floats
-        greatest = max(map(abs, known.values()))
-        self.right = np.array([-float(known[row] / greatest) for row in block.rows])
+        maximum = max(map(abs, known.values()))
+        self.right = np.array([-float(known[row] / maximum) for row in block.rows])
         size = len(block.rows)
         self.pieces = np.zeros((3, size, size))  # by side: 0, 1, and -1 in the last
         for at, column in enumerate(block.columns):

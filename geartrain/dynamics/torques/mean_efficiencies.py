@@ -74,9 +74,9 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     """The slot is first. A follower passes no power on average: what its pin loses is no share of anything."""
     joint = setting.joints.get(circuit.id)
-    if joint is None or not joint.law.friction or not circuit.b:
+    if joint is None or not joint.transmission.friction or not circuit.b:
         return MeanEfficiencies()
-    return _of_both(SlidingEfficiency(joint.reversed), SlidingEfficiency(joint.law))
+    return _of_both(SlidingEfficiency(joint.reversed), SlidingEfficiency(joint.transmission))
 
 
 def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficiencies:

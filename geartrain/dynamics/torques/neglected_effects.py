@@ -67,7 +67,7 @@ class _Uneven:
     """A pair whose speed ratio is not constant: its row has factor (tau - m) times the speed of its driver."""
 
     id: str
-    law: TransmissionFunction | None
+    transmission: TransmissionFunction | None
     """None where it is not known: a pin without dimensions, teeth that cannot turn."""
     driver: str
     """Seen from the carrier; `mean` is m."""
@@ -78,9 +78,9 @@ class _Uneven:
     @property
     def swing(self) -> SpeedBounds:
         """Bounds of tau - m."""
-        if self.law is None:
+        if self.transmission is None:
             return SpeedBounds(-inf, inf)
-        low, high = self.law.speed_range()
+        low, high = self.transmission.speed_range()
         return SpeedBounds(low - float(self.mean), high - float(self.mean))
 
 
@@ -105,16 +105,20 @@ def _uneven(setting: LoadCase) -> Iterator[_Uneven]:
     for circuit in setting.circuits:
         if circuit.swings:
             joint = setting.joints.get(circuit.id)
-            law = joint.law if joint else None
-            yield _Uneven(circuit.id, law, circuit.j, circuit.carrier, Fraction(circuit.a), Fraction(-circuit.b))
+            transmission = joint.transmission if joint else None
+            yield _Uneven(
+                circuit.id, transmission, circuit.j, circuit.carrier, Fraction(circuit.a), Fraction(-circuit.b)
+            )
             continue
         tooth = setting.meshes.get(circuit.id)
         if tooth is None or tooth.rigid:
             continue
         first = tooth.driver == circuit.wheels[0]
         driver, own = (circuit.i, circuit.a) if first else (circuit.j, circuit.b)
-        mean = Fraction(tooth.law.ratio)
-        yield _Uneven(circuit.id, tooth.law if tooth.verdict else None, driver, circuit.carrier, -own / mean, mean)
+        mean = Fraction(tooth.transmission.ratio)
+        yield _Uneven(
+            circuit.id, tooth.transmission if tooth.verdict else None, driver, circuit.carrier, -own / mean, mean
+        )
 
 
 def _gains(setting: LoadCase, uneven: Sequence[_Uneven]) -> Mapping[str, Mapping[int, float]]:
@@ -189,11 +193,11 @@ def _with_mean(
     ((number, gain),) = own.items()
     pair = uneven[number]
     speed = setting.relative(pair.driver, pair.carrier)
-    if pair.law is None or speed is None or _between(gains, pair.driver, pair.carrier):
+    if pair.transmission is None or speed is None or _between(gains, pair.driver, pair.carrier):
         return bounds
     # midpoint rule: for a periodic function with kinks as good as any
-    S = (np.arange(_SAMPLES) + 0.5) * (pair.law.period / _SAMPLES)
-    found = np.abs(_number(mean) + gain * (pair.law.speed(S) - float(pair.mean)) * _number(speed))
+    S = (np.arange(_SAMPLES) + 0.5) * (pair.transmission.period / _SAMPLES)
+    found = np.abs(_number(mean) + gain * (pair.transmission.speed(S) - float(pair.mean)) * _number(speed))
     return SpeedBounds(bounds.low, bounds.high, float(found.mean()), max(-bounds.low, bounds.high))
 
 

@@ -100,10 +100,10 @@ def find_circulation(
     left = [stream.power for stream in streams]
     rounds: list[tuple[PowerNode, Fraction]] = []
     while way := _widest(streams, left):
-        least = min(left[at] for at in way)
+        minimum = min(left[at] for at in way)
         for at in way:
-            left[at] -= least
-        rounds.append((streams[way[0]].source, least))
+            left[at] -= minimum
+        rounds.append((streams[way[0]].source, minimum))
     marked = [replace(stream, circling=stream.power - rest) for stream, rest in zip(streams, left, strict=True)]
     loops: dict[frozenset[PowerNode], Fraction] = {}
     for node, power in rounds:

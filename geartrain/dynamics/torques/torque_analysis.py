@@ -12,12 +12,6 @@ from fractions import Fraction
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies, balancing_torque, unbalanced_motions
-from geartrain.dynamics.torques.mean_efficiencies import (
-    all_mean_efficiencies,
-    find_mean_efficiencies,
-    settle_mean_efficiencies,
-)
-from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 from geartrain.dynamics.torques.torque_balance import LoadedPair, LoadShares, TorqueBalance, generic_balance, idle_pairs
 from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
 from geartrain.kinematics.circuits import Circuit
@@ -76,9 +70,9 @@ class LoadedBalance:
         return find_flow_patterns(replace(self.balance, known=known))[0]
 
 
-def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], asked: Sequence[str]) -> TorqueVerdict | None:
+def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
     """The verdict on loads that the links asked for cannot hold, losses apart; None where they can."""
-    motions = unbalanced_motions(setting.system, known, asked)
+    motions = unbalanced_motions(setting.system, known, requested)
     if not motions:
         return None
     moving = {link for motion in motions if motion.power for link in motion.speeds}
@@ -91,7 +85,7 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], asked: Sequ
         f"{decimal(torque, 6)} more at {link}" for link, torque in torques.items()
     ]
     fix = f"; it would take {' or '.join(amounts[:3])}" if amounts else ""
-    held = f"with {', '.join(asked)} held still they" if asked else "they"
+    held = f"with {', '.join(requested)} held still they" if requested else "they"
     text = f"the loads do not balance: {held} set {_some(likely or sorted(moving))} turning{fix}"
     return TorqueVerdict("unbalanced", text, tuple(helpful))
 
@@ -276,7 +270,7 @@ class TorqueQuestion:
     """What is asked in one case: loads that act, and the links whose torque is to be found."""
 
     loads: Mapping[str, Fraction]
-    asked: UnknownLinks
+    requested: UnknownLinks
 
 
 def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
@@ -287,7 +281,7 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return Torques(setting.case.state, question)
-    return _balanced(setting, question.loads, question.asked, flows_only=flows_only)
+    return _balanced(setting, question.loads, question.requested, flows_only=flows_only)
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
@@ -301,7 +295,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
     if isinstance(question, TorqueVerdict):
         return ()
     known = _acting(question.loads, _rubbing(setting))
-    return idle_pairs(generic_balance(build_balance(setting, known, question.asked.links)))
+    return idle_pairs(generic_balance(build_balance(setting, known, question.requested.links)))
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
@@ -310,11 +304,11 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
         return TorqueVerdict("unloaded", text)
-    asked = _asked(setting, loads, solve_for)
-    verdict = _summed(setting, (*loads, *asked.links))
+    requested = _requested(setting, loads, solve_for)
+    verdict = _summed(setting, (*loads, *requested.links))
     if verdict is None:
-        verdict = _still(setting, asked.links)
-    return TorqueQuestion(loads, asked) if verdict is None else verdict
+        verdict = _still(setting, requested.links)
+    return TorqueQuestion(loads, requested) if verdict is None else verdict
 
 
 def torques_unknown(state: str | None) -> Torques:
@@ -330,11 +324,11 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
         if not setting.speeds.get(link):
             why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
             return Torques(setting.case.state, TorqueVerdict("still", f"'{link}' {why}"))
-    asked = UnknownLinks((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
-    return _balanced(setting, {load: -1 / setting.speeds[load]}, asked, bearings=False)
+    requested = UnknownLinks((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
+    return _balanced(setting, {load: -1 / setting.speeds[load]}, requested, bearings=False)
 
 
-def _asked(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
+def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
     """The links whose torque is unknown: as many as there are inputs, or fewer where that is all that is plain."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
@@ -385,68 +379,72 @@ def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
     return None
 
 
-def _still(setting: LoadCase, asked: tuple[str, ...]) -> TorqueVerdict | None:
+def _still(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
     """A link at rest moves nothing; a single input at rest is a train at rest, which balances."""
     speeds = setting.speeds
-    if len(asked) == 1 and speeds.get(asked[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
-        return TorqueVerdict("still", f"'{asked[0]}' does not turn, so no torque on it does any work")
+    if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
+        return TorqueVerdict("still", f"'{requested[0]}' does not turn, so no torque on it does any work")
     return None
 
 
 def _balanced(
     setting: LoadCase,
     loads: Mapping[str, Fraction],
-    asked: UnknownLinks,
+    requested: UnknownLinks,
     bearings: bool = True,
     flows_only: bool = False,
 ) -> Torques:
     rubbing = _rubbing(setting) if bearings else {}
     known = _acting(loads, rubbing)
     state = setting.case.state
-    if not asked.enough and (lacking := find_imbalance(setting, known, asked.links)) is not None:
-        return Torques(state, _with_reason(asked, lacking), asked.links)
+    if not requested.enough and (lacking := find_imbalance(setting, known, requested.links)) is not None:
+        return Torques(state, _with_reason(requested, lacking), requested.links)
+    from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies, settle_mean_efficiencies
+
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
-    balance, neither = settle_mean_efficiencies(build_balance(setting, known, asked.links, means), means, driving)
+    balance, neither = settle_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
-    question = LoadedBalance(balance, setting.speeds, loads, rubbing, asked.enough, setting.open)
+    question = LoadedBalance(balance, setting.speeds, loads, rubbing, requested.enough, setting.open)
     # all else being known, the power asked for tells the order of losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
     left_out: tuple[NeglectedEffect, ...] = ()
     if not flows_only:
+        from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
+
         missed = [name for name in idle if name not in loose]
         left_out = find_neglected_effects(setting, means, neither, missed, bearings)
     verdict = find_torque_verdict(question, flows, complete, left_out)
     if not flows:
-        verdict = _with_reason(asked, verdict)
-        return Torques(state, verdict, asked.links, left_out=left_out)
+        verdict = _with_reason(requested, verdict)
+        return Torques(state, verdict, requested.links, left_out=left_out)
     return _torques(setting, balance, flows[0], rubbing, verdict, left_out)
 
 
-def _with_reason(asked: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
+def _with_reason(requested: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
     """Which torque might be named, before what is lacking without it; the latter alone where naming one is no help."""
-    if asked.undecided is None:
+    if requested.undecided is None:
         return lacking
-    untried = [link for link in asked.undecided.candidates if link not in asked.links]
+    untried = [link for link in requested.undecided.candidates if link not in requested.links]
     if not untried and not lacking.candidates:
         return lacking
-    text = f"{asked.undecided.text}; {lacking.text}"
+    text = f"{requested.undecided.text}; {lacking.text}"
     return TorqueVerdict("undecided", text, tuple(untried) or lacking.candidates)
 
 
 def build_balance(
     setting: LoadCase,
     known: Mapping[str, Fraction],
-    asked: tuple[str, ...],
+    requested: tuple[str, ...],
     means: Mapping[str, MeanEfficiencies] | None = None,
 ) -> TorqueBalance:
     """The balance of a train with some torques known and some asked for; as if nothing rubbed where no means are."""
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
     locks = _locks(setting)
-    held = {*asked, *case.fixed, *(link for lock in locks for link in lock)}
+    held = {*requested, *case.fixed, *(link for lock in locks for link in lock)}
     shares = find_shares(train, setting.circuits, {*held, *known})
     shared = {name for _, parts in shares for name in parts}
     planets = {link for mesh in meshes if mesh.id in shared for link in mesh.links[:2]}
@@ -454,7 +452,7 @@ def build_balance(
         tuple(link for link in train.links if link != train.frame),
         meshes,
         known,
-        asked,
+        requested,
         _brakes(setting),
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
         find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
@@ -543,7 +541,7 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
         mesh.rolling if setting.relative(circuit.i, circuit.carrier) is not None else None,
         mesh.efficiency(ahead),
         mesh.id in flow.solved.loose,
-        find_mean_efficiencies(setting, circuit).exact,
+        setting.means[mesh.id].exact,
     )
 
 

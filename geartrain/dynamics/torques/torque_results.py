@@ -17,13 +17,13 @@ from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief,
 class LinkTorque(Result):
     """An external torque on a link, its power (None where the speed is open), and whether it was asked for."""
 
-    KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "asked")
+    KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "requested")
 
     torque: Fraction
     """External torque on the link."""
     power: Fraction | None
     """Power that it puts into the train; None where the speed is not determined."""
-    asked: bool
+    requested: bool
     """True if the torque was requested, False if it was given."""
 
 
@@ -299,7 +299,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     """The state; None for a train without states."""
     verdict: TorqueVerdict
     """Whether the torques follow from the loads. Where they do not, nothing but this and `left_out` is given."""
-    asked: tuple[str, ...] = ()
+    requested: tuple[str, ...] = ()
     """The links whose torque was found."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
     """Torque from outside on every link that has one: loads, what was asked for, brakes."""
@@ -329,7 +329,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         return {"torque": torque, "speed": speed, "power": f"{torque} x {speed}"}
 
     def _summary(self) -> str:
-        figures = [f"{link} {brief(as_float(self.external[link]))}" for link in self.asked if link in self.external]
+        figures = [f"{link} {brief(as_float(self.external[link]))}" for link in self.requested if link in self.external]
         if self.verdict and (efficiency := self.efficiency) is not None:
             figures.append(f"efficiency {as_float(efficiency):.6g}")
         return f"{self._named}: {', '.join([self.verdict.kind, *figures])}".strip()
@@ -344,7 +344,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         """External torques by link."""
         powers = self.powers
         return {
-            link: LinkTorque(torque, powers.get(link), link in self.asked) for link, torque in self.external.items()
+            link: LinkTorque(torque, powers.get(link), link in self.requested) for link, torque in self.external.items()
         }
 
     @property
@@ -403,7 +403,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     def efficiency(self) -> Fraction | float | None:
         """Power out over power in, a float where pairs have means over teeth; None where nothing goes in, or an asked
         torque or a loaded link's speed is open."""
-        if not self.power_in or self.open_speeds or any(link not in self.external for link in self.asked):
+        if not self.power_in or self.open_speeds or any(link not in self.external for link in self.requested):
             return None
         found = 1 - self._missing / self.power_in
         return found if all(pair.exact for pair in self.pairs.values()) else float(found)

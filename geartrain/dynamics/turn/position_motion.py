@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.corner_positions import CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, common_period
+from geartrain.dynamics.motion.kink_positions import KinkSearch
 from geartrain.teeth.transmission import DerivedTransmission
 
 if TYPE_CHECKING:
@@ -35,21 +35,24 @@ class FlankChoice(DerivedTransmission):
     coasting   where the coast flanks touch: one for each angle
     """
 
-    def __init__(self, law: TransmissionFunction, coasting: Bools) -> None:
-        super().__init__(law)
-        self.coasting, self.friction = coasting, law.friction
+    def __init__(self, transmission: TransmissionFunction, coasting: Bools) -> None:
+        super().__init__(transmission)
+        self.coasting, self.friction = coasting, transmission.friction
 
     def picked(self, columns: Ints) -> FlankChoice:
         """For some of the angles."""
-        return FlankChoice(self.law, self.coasting[columns])
+        return FlankChoice(self.transmission, self.coasting[columns])
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Of either flank where it touches: the play lies between them."""
         S = np.asarray(S, dtype=float)
         error, speed = np.empty_like(S), np.empty_like(S)
-        for law, where in ((self.law, ~self.coasting), (self.law.turned_back(), self.coasting)):
+        for transmission, where in (
+            (self.transmission, ~self.coasting),
+            (self.transmission.reversed_motion(), self.coasting),
+        ):
             if where.any():
-                error[where], speed[where] = law.error_and_speed(S[where])
+                error[where], speed[where] = transmission.error_and_speed(S[where])
         return error, speed
 
     def error(self, S: ArrayLike) -> Floats:
@@ -62,19 +65,19 @@ class FlankChoice(DerivedTransmission):
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Of the drive flanks."""
-        return self.law.efficiency(S)
+        return self.transmission.efficiency(S)
 
     def efficiency_mean(self) -> float:
         """Of the drive flanks."""
-        return self.law.efficiency_mean()
+        return self.transmission.efficiency_mean()
 
     def efficiency_at_constant_load(self) -> float:
         """Of the drive flanks."""
-        return self.law.efficiency_at_constant_load()
+        return self.transmission.efficiency_at_constant_load()
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Of the drive flanks."""
-        return self.law.efficiency_least()
+        return self.transmission.efficiency_minimum()
 
 
 class LinkMotion(NamedTuple):
@@ -97,7 +100,7 @@ class PositionMotion:
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
         self.motion = motion
-        self._corners: dict[tuple[frozenset[str], float], Floats] = {}
+        self._kinks: dict[tuple[frozenset[str], float], Floats] = {}
         self.composition = motion._with_sources(pairs)
         self.sources: Mapping[str, PairErrorSource] = {
             source.id: source for source in self.composition.sources if source.id in pairs
@@ -139,8 +142,8 @@ class PositionMotion:
 
         coasting   by pair, the positions at which its coast flanks touch
         """
-        composition = self._with_laws(
-            {name: FlankChoice(self.sources[name].law, where) for name, where in coasting.items()}
+        composition = self._with_transmissions(
+            {name: FlankChoice(self.sources[name].transmission, where) for name, where in coasting.items()}
         )
         found = composition.at(turns)
         # a pointer that is set turns no driver
@@ -150,20 +153,22 @@ class PositionMotion:
         angles = {name: composition.driver_angle(each, phase, error) for name, each in self.sources.items()}
         return LinkMotion(turns, self.senses[:, None] * (self.means[:, None] + found.rate), angles)
 
-    def corners(self, coasting: frozenset[str], span: float) -> Floats:
+    def kinks(self, coasting: frozenset[str], span: float) -> Floats:
         """Turns of the input, from 0 to `span`, at which a law has a corner while some pairs coast all along."""
-        if (coasting, span) not in self._corners:
+        if (coasting, span) not in self._kinks:
             composition = self.coasting_all_along(coasting)
-            self._corners[coasting, span] = CornerSearch(composition).over(0.0, span).turns
-        return self._corners[coasting, span]
+            self._kinks[coasting, span] = KinkSearch(composition).over(0.0, span).turns
+        return self._kinks[coasting, span]
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
         """The composition with the coast flanks of some pairs touching everywhere."""
-        return self._with_laws({name: self.sources[name].law.turned_back() for name in pairs})
+        return self._with_transmissions({name: self.sources[name].transmission.reversed_motion() for name in pairs})
 
-    def _with_laws(self, laws: Mapping[str, TransmissionFunction]) -> ErrorComposition:
+    def _with_transmissions(self, transmissions: Mapping[str, TransmissionFunction]) -> ErrorComposition:
         composition = self.composition
-        if not laws:
+        if not transmissions:
             return composition
-        sources = tuple(replace(each, law=laws.get(each.id, each.law)) for each in composition.sources)
+        sources = tuple(
+            replace(each, transmission=transmissions.get(each.id, each.transmission)) for each in composition.sources
+        )
         return ErrorComposition(composition.spread, sources, composition.outputs, composition.offsets)

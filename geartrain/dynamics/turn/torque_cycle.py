@@ -40,7 +40,7 @@ class CycleFigures(NamedTuple):
     """
 
     mean: float | None
-    greatest: float | None
+    maximum: float | None
     starting: float | None
     efficiency: float | None
 
@@ -122,7 +122,7 @@ class PairCycle(Result):
     TorqueCycle.parts : where these stand.
     """
 
-    KEYS = ("kind", "loss", "passed", "flank_changes", "greatest")
+    KEYS = ("kind", "loss", "passed", "flank_changes", "maximum")
 
     kind: str
     """`mesh`, `pin` or `bearing`."""
@@ -133,7 +133,7 @@ class PairCycle(Result):
     flank_changes: int = 0
     """How often the torque through it changes its sense: each time the play of real teeth is crossed. In a run of
     whole periods the change from its end to its start counts."""
-    greatest: float = 0.0
+    maximum: float = 0.0
     """Greatest torque on its driven side at any position, whichever its sense [N m, or plain]; of a bearing 0."""
 
 
@@ -160,7 +160,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     ... outputs: {b: {}}
     ... loads: {b: -10 N m}
     ... ''').torques(turns=1)
-    >>> found.link, round(found.mean, 6), round(found.greatest.torque, 6), round(found.efficiency, 6)
+    >>> found.link, round(found.mean, 6), round(found.maximum.torque, 6), round(found.efficiency, 6)
     ('a', 12.098195, 50.978459, 0.82657)
     """
 
@@ -173,8 +173,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         "verdict",
         group(
             "input",
-            *("link", "mean", Key("greatest", "greatest_torque"), Key("least", "least_torque")),
-            *(Key("greatest_at", "greatest_place"), Key("least_at", "least_place")),
+            *("link", "mean", Key("maximum", "maximum_torque"), Key("minimum", "minimum_torque")),
+            *(Key("maximum_at", "maximum_place"), Key("minimum_at", "minimum_place")),
         ),
         Key("starting", "starting_torque"),
         Key("starting_at", "starting_place"),
@@ -216,9 +216,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """Power lost over the speed of the input, (part, position) [N m, or plain]."""
     mean: float | None = None
     """Mean of the torque over the run; None where the train locks."""
-    greatest: TorqueExtreme | None = None
+    maximum: TorqueExtreme | None = None
     """Greatest torque, of all patterns where several balance; None where the train locks."""
-    least: TorqueExtreme | None = None
+    minimum: TorqueExtreme | None = None
     """Least torque, of all patterns where several balance."""
     starting: TorqueExtreme | None = None
     """What starts the train at the worst position; None where it locks there."""
@@ -254,8 +254,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         figures = [self.verdict.kind]
         if self.mean is not None:
             figures.append(f"mean {self.mean:.6g} {self.unit}".rstrip())
-        if self.least is not None and self.greatest is not None:
-            figures.append(f"{self.least.torque:.6g} to {self.greatest.torque:.6g}")
+        if self.minimum is not None and self.maximum is not None:
+            figures.append(f"{self.minimum.torque:.6g} to {self.maximum.torque:.6g}")
         if (efficiency := self.efficiency) is not None:
             figures.append(f"efficiency {efficiency:.6g}")
         turns = f"{self.span:g} turn{'' if self.span == 1 else 's'}"
@@ -273,24 +273,24 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         return "N m" if self.newton_metres else ""
 
     @property
-    def greatest_torque(self) -> float | None:
+    def maximum_torque(self) -> float | None:
         """The greatest torque."""
-        return None if self.greatest is None else self.greatest.torque
+        return None if self.maximum is None else self.maximum.torque
 
     @property
-    def greatest_place(self) -> PlaceInRun | None:
+    def maximum_place(self) -> PlaceInRun | None:
         """Where the torque is greatest."""
-        return _place(self.greatest)
+        return _place(self.maximum)
 
     @property
-    def least_torque(self) -> float | None:
+    def minimum_torque(self) -> float | None:
         """The least torque; below 0 the loads drive there."""
-        return None if self.least is None else self.least.torque
+        return None if self.minimum is None else self.minimum.torque
 
     @property
-    def least_place(self) -> PlaceInRun | None:
+    def minimum_place(self) -> PlaceInRun | None:
         """Where the torque is least."""
-        return _place(self.least)
+        return _place(self.minimum)
 
     @property
     def starting_torque(self) -> float | None:

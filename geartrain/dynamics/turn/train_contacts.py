@@ -77,11 +77,11 @@ class ContactLosses(ABC):
 
     @abstractmethod
     def torques(
-        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+        self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
         """Torques per unit of the multiplier.
 
-        tau   ratio of the flank that touches, and `law` what gives it
+        tau   ratio of the flank that touches, and `transmission` what gives it
         way   1 where the law's driver drives, -1 where the other side does, 0 where they do not turn against each other
         """
 
@@ -100,10 +100,10 @@ class NoLosses(ContactLosses):
         return False
 
     def torques(
-        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+        self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
         """As the ratio has it."""
-        del law, at, way, static
+        del transmission, at, way, static
         return ContactTorques(np.ones_like(tau), tau)
 
 
@@ -115,10 +115,10 @@ class BasicEfficiency(ContactLosses):
     driven: float
 
     def torques(
-        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+        self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
         """The part that arrives."""
-        del law, at, static
+        del transmission, at, static
         ahead, back = way > 0, way < 0
         barred = (ahead & (self.driver <= 0)) | (back & (self.driven <= 0))
         arrives = np.where(ahead, self.driver if self.driver > 0 else 1.0, 1.0)
@@ -142,11 +142,11 @@ class ToothFriction(ContactLosses):
         return self.sliding != self.static
 
     def torques(
-        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+        self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
         """Contacts at once take equal shares of the torque of the side that drives."""
-        assert law is not None
-        sliding, into, out = law.rubbing(at.S)
+        assert transmission is not None
+        sliding, into, out = transmission.rubbing(at.S)
         touching = ~np.isnan(out)
         f = (self.static if static else self._coefficient(sliding, at.turning)) * way
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -169,7 +169,7 @@ class ToothFriction(ContactLosses):
 class PinFriction(ContactLosses):
     """Friction of a pin along its slot: T_p = (r/rho)(T_s cos d + f |T_s sin d| sgn S'), equation (25)."""
 
-    law: PinTransmission
+    transmission: PinTransmission
     sliding: float
     static: float
 
@@ -184,11 +184,11 @@ class PinFriction(ContactLosses):
         return self.static != self.sliding
 
     def torques(
-        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+        self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
         """By arms, which hold through dead points too."""
-        del law
-        r, e = self.law.r, self.law.e
+        del transmission
+        r, e = self.transmission.r, self.transmission.e
         half = np.sin(at.S / 2)
         # rho^2 as a sum: near r = e the difference would cancel
         square = (r - e) ** 2 + 4 * r * e * half**2
@@ -240,16 +240,22 @@ class PairContact:
     @property
     def has_flanks(self) -> bool:
         """True for teeth with play: a pin has none."""
-        return self.source is not None and self.source.law.turned_back() is not self.source.law
+        return self.source is not None and self.source.transmission.reversed_motion() is not self.source.transmission
 
     def torques(self, side: int, at: DriverState, static: bool = False) -> PairForce:
         """What a unit of the multiplier does.
 
         side   1 for the drive flanks, -1 for the coast flanks
         """
-        law = None if self.source is None else self.source.law if side > 0 else self.source.law.turned_back()
-        tau = np.full(len(at.turning), self.ratio) if law is None else law.speed(at.S)
-        found = self.losses.torques(tau, law, at, side * np.sign(at.turning), static)
+        transmission = (
+            None
+            if self.source is None
+            else self.source.transmission
+            if side > 0
+            else self.source.transmission.reversed_motion()
+        )
+        tau = np.full(len(at.turning), self.ratio) if transmission is None else transmission.speed(at.S)
+        found = self.losses.torques(tau, transmission, at, side * np.sign(at.turning), static)
         driven, driver = self.sense * found.driven, -self.way * found.driver
         return PairForce(driver, driven, found.barred) if self.first else PairForce(driven, driver, found.barred)
 
@@ -296,7 +302,9 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
     first = circuit.kind == "gear" and (mesh is None or mesh.driver == circuit.wheels[0])
     losses = _pin_losses(setting, circuit) if circuit.kind != "gear" else _losses(setting, circuit, first, source, mesh)
     if source is not None:
-        return PairContact(circuit, first, source.forward, source.sense, float(source.law.ratio), losses, source)
+        return PairContact(
+            circuit, first, source.forward, source.sense, float(source.transmission.ratio), losses, source
+        )
     own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
     return PairContact(circuit, first, 1, -1 if circuit.a * circuit.b > 0 else 1, abs(own / other), losses)
 
@@ -305,7 +313,7 @@ def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     joint, friction = setting.joints.get(circuit.id), setting.train.friction_of(setting.couplings[circuit.id])
     if joint is None or friction is None or not friction.rubs:
         return NoLosses()
-    return PinFriction(joint.law, joint.law.friction, friction.static)
+    return PinFriction(joint.transmission, joint.transmission.friction, friction.static)
 
 
 def _losses(
@@ -320,13 +328,13 @@ def _losses(
 
 
 def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:
-    law, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
+    transmission, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
     declared = setting.train.friction_of(setting.gears[circuit.id])
     static = coefficient if declared is None else declared.static
-    if law is None:
+    if transmission is None:
         return ToothFriction(coefficient, static)
     pitch_line = pitch_line_speed(setting, circuit, mesh).known() / (source.mean or 1.0)
-    return ToothFriction(lambda sliding, turning: PairFriction(law, pitch_line * turning)(sliding), static)
+    return ToothFriction(lambda sliding, turning: PairFriction(transmission, pitch_line * turning)(sliding), static)
 
 
 class BearingTorques(NamedTuple):
@@ -360,7 +368,7 @@ def dragging_links(setting: LoadCase) -> tuple[str, ...]:
 def _radians_per_second(setting: LoadCase) -> float | None:
     """Of the input, by magnitude; None where speeds or torques are plain numbers."""
     unit = radians_per_second(setting.train, setting.case)
-    lead = next((speed for speed in setting.case.inputs.values() if speed), None)
-    if unit is None or lead is None or not has_torque_units(setting.train, setting.case.state):
+    driving_speed = next((speed for speed in setting.case.inputs.values() if speed), None)
+    if unit is None or driving_speed is None or not has_torque_units(setting.train, setting.case.state):
         return None
-    return unit * abs(float(lead))
+    return unit * abs(float(driving_speed))

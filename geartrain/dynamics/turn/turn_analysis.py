@@ -121,9 +121,9 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return question
-    if not question.asked.enough:
+    if not question.requested.enough:
         text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
-        return question.asked.undecided or TorqueVerdict("undecided", text)
+        return question.requested.undecided or TorqueVerdict("undecided", text)
     return build_turn_balance(setting, problem, question)
 
 
@@ -136,11 +136,11 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
         for end in (link, setting.tree.parent[link][0]):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
-    bases = {link: setting.reacts_on(link) for link in question.asked.links}
+    bases = {link: setting.reacts_on(link) for link in question.requested.links}
     reactions = {
         link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items() if base != frame
     }
-    balanced = replace(build_balance(setting, known, question.asked.links), reactions=reactions)
+    balanced = replace(build_balance(setting, known, question.requested.links), reactions=reactions)
     whole = generic_balance(balanced)
     balance = without_pairs(whole, idle_pairs(whole))
     busy = replace(
@@ -170,38 +170,38 @@ class _Answer:
     def figures(self, of: str | None) -> CycleFigures:
         """Mean, greatest, starting torque, efficiency."""
         train, found = self.run.train, self.run.found
-        own = self._asked(of)
+        own = self._requested(of)
         if self.run.share(~found.valid):
             return CycleFigures(
-                None, None, None if (least := self._starting(own, None)) is None else least.torque, None
+                None, None, None if (minimum := self._starting(own, None)) is None else minimum.torque, None
             )
-        greatest = self._extreme(own, 1, False)
-        starting = self._starting(own, greatest)
+        maximum = self._extreme(own, 1, False)
+        starting = self._starting(own, maximum)
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         return CycleFigures(
             self._mean(own),
-            None if greatest is None else greatest.torque,
+            None if maximum is None else maximum.torque,
             None if starting is None else starting.torque,
             self._energy(self._parts(names)).efficiency,
         )
 
-    def _asked(self, of: str | None) -> _Asked:
+    def _requested(self, of: str | None) -> _Request:
         train = self.run.train
-        row = train.asked.index(of) if of in train.asked else 0
-        link, setting = train.asked[row], train.setting
+        row = train.requested.index(of) if of in train.requested else 0
+        link, setting = train.requested[row], train.setting
         speed = setting.relative(link, setting.reacts_on(link)) or 0
-        return _Asked(row, -1 if setting.sense(link) * speed < 0 else 1)
+        return _Request(row, -1 if setting.sense(link) * speed < 0 else 1)
 
-    def _mean(self, own: _Asked) -> float:
+    def _mean(self, own: _Request) -> float:
         return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
 
     def told(self, of: str | None) -> TorqueCycle:
         """The answer."""
         train, found = self.run.train, self.run.found
-        own = self._asked(of)
-        link = train.asked[own.row]
+        own = self._requested(of)
+        link = train.requested[own.row]
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
-        greatest = None if locked else self._extreme(own, 1, False)
+        maximum = None if locked else self._extreme(own, 1, False)
         torque, left_out, period = own.torque(found), self._left_out(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
@@ -221,9 +221,9 @@ class _Answer:
             labelled_array(found.powers, link=train.outside, position=labels),
             labelled_array(found.losses, part=names, position=labels),
             None if locked else self._mean(own),
-            greatest,
+            maximum,
             self._extreme(own, -1, False),
-            self._starting(own, greatest),
+            self._starting(own, maximum),
             None if locked else self._energy(parts),
             parts,
             locked,
@@ -252,9 +252,9 @@ class _Answer:
         return found
 
     def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
-        asked = ", ".join(self.run.train.asked)
+        requested = ", ".join(self.run.train.requested)
         if locked:
-            text = f"no torque on {asked} balances over {locked:.4%} of the run: the train locks there"
+            text = f"no torque on {requested} balances over {locked:.4%} of the run: the train locks there"
             return TorqueVerdict("self-locking", text)
         if shared := self.run.train.shared:
             text = f"how {', '.join(shared)} share their load is not determined: redundant pairs; `share` declares it"
@@ -271,10 +271,10 @@ class _Answer:
         train = self.run.train.setting.train
         if train.unit_days is None:
             return PlaceInRun(turns)
-        speed = abs(float(self.run.train.setting.speeds[self.run.train.motion.motion._problem.lead]))
+        speed = abs(float(self.run.train.setting.speeds[self.run.train.motion.motion._problem.driving_link]))
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
-    def _extreme(self, own: _Asked, way: int, static: bool) -> TorqueExtreme | None:
+    def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:
         """The greatest torque (the least with -1), sharpened between positions."""
 
         def torque(found: PositionTorques) -> Floats:
@@ -288,17 +288,17 @@ class _Answer:
         )
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
-    def _starting(self, own: _Asked, greatest: TorqueExtreme | None) -> TorqueExtreme | None:
+    def _starting(self, own: _Request, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
         """The greatest torque with friction at rest; None where the train does not start everywhere."""
         if not self.run.standing.valid.all():
             return None
-        return self._extreme(own, 1, True) if self.run.train.starts_harder else greatest
+        return self._extreme(own, 1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
         """Energies over the run, from powers over the input's speed: angles are in radians."""
-        found, asked = self.run.found, len(self.run.train.asked)
+        found, requested = self.run.found, len(self.run.train.requested)
         weights = self.run.cells.weights * 2 * np.pi
-        driving, loading = found.powers[:asked], found.powers[asked:]
+        driving, loading = found.powers[:requested], found.powers[requested:]
 
         def summed(powers: Floats) -> float:
             """Of what is above 0."""
@@ -325,11 +325,11 @@ class _Answer:
         changes = [_changes(row, self._closes) for row in sign_beyond(found.pressed, RunScales.of(found).pressed)]
         bearings = len(self.run.train.bearings)
         changes += [0] * bearings
-        greatest = [
+        maximum = [
             *np.abs(np.where(found.valid, found.pressed, 0)).max(axis=1, initial=0.0).tolist(),
             *[0.0] * bearings,
         ]
-        rows = zip(names, kinds, losses.tolist(), passed.tolist(), changes, greatest, strict=True)
+        rows = zip(names, kinds, losses.tolist(), passed.tolist(), changes, maximum, strict=True)
         return {name: PairCycle(kind, *figures) for name, kind, *figures in rows}
 
     @property
@@ -340,10 +340,10 @@ class _Answer:
 
     def _held(self) -> float:
         """Share of the run in which loads put power in and what is asked for does too."""
-        found, asked = self.run.found, len(self.run.train.asked)
-        driving, loading = found.powers[:asked].sum(axis=0), found.powers[asked:].sum(axis=0)
-        least = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
-        return self.run.share((driving > least) & (loading > least))
+        found, requested = self.run.found, len(self.run.train.requested)
+        driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
+        minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
+        return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
         """Where nothing balances."""
@@ -354,7 +354,7 @@ class _Answer:
         )
 
 
-class _Asked(NamedTuple):
+class _Request(NamedTuple):
     """The link that is told of, by number, and the sense of its mean motion."""
 
     row: int

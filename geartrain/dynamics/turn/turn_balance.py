@@ -297,14 +297,14 @@ class TurnBalance:
         return tuple(self.contacts)
 
     @property
-    def asked(self) -> tuple[str, ...]:
+    def requested(self) -> tuple[str, ...]:
         """The links whose torque is found."""
         return self.balance.unknown
 
     @cached_property
     def outside(self) -> tuple[str, ...]:
         """The links with a torque from outside that may do work."""
-        return tuple(dict.fromkeys((*self.asked, *self.loads)))
+        return tuple(dict.fromkeys((*self.requested, *self.loads)))
 
     @cached_property
     def shared(self) -> tuple[str, ...]:
@@ -357,7 +357,7 @@ class TurnBalance:
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
-        settled: list[tuple[Indices, PositionTorques]] = []
+        converged: list[tuple[Indices, PositionTorques]] = []
         way = np.zeros((len(self.bearings), len(turns)))
         for round_ in range(ROUNDS):
             touching = {name: row for name, row in zip(self.flanked, coasting, strict=True) if row.any()}
@@ -369,15 +369,15 @@ class TurnBalance:
             if round_ == 0:
                 first = told
             changed = (found != coasting).any(axis=0)
-            settled.append((left[~changed], some(told, ~changed)))
+            converged.append((left[~changed], some(told, ~changed)))
             turned = np.sign(told.slipping) * way < 0
             resting = (resting | turned if round_ > 0 else resting)[:, changed]
             left, coasting, way = left[changed], found[:, changed], np.sign(told.slipping)[:, changed]
             if not len(left):
                 break
-        settled.append((left, some(first, left)._replace(adrift=np.ones(len(left), bool))))
-        order = np.argsort(np.concatenate([at for at, _ in settled]))
-        return some(joined([part for _, part in settled]), order)
+        converged.append((left, some(first, left)._replace(adrift=np.ones(len(left), bool))))
+        order = np.argsort(np.concatenate([at for at, _ in converged]))
+        return some(joined([part for _, part in converged]), order)
 
     def _coasting(self, best: BalanceLayer) -> Bools:
         """Where pairs press on their coast flanks, (pairs, n)."""
@@ -410,7 +410,7 @@ class TurnBalance:
     def outside_speeds(self, speeds: Floats) -> Floats:
         """Of the links outside about their own axes, relative to what takes the reactions of their torques."""
         setting, row = self.setting, self.motion.links
-        bases = [setting.reacts_on(link) if link in self.asked else setting.train.frame for link in self.outside]
+        bases = [setting.reacts_on(link) if link in self.requested else setting.train.frame for link in self.outside]
         senses = np.array([setting.sense(link) for link in self.outside], dtype=float)
         against: Floats = speeds[[row[base] for base in bases]]
         return senses[:, None] * (speeds[[row[link] for link in self.outside]] - against)
@@ -489,8 +489,8 @@ class TurnBalance:
         """At each position the solution in which least power is asked for; with -1 the one in which most is."""
         if len(layers) == 1:
             return layers[0]
-        speeds = self.outside_speeds(state.motion.speeds)[: len(self.asked)]
-        power = [way * (each.values[self.asked_columns] * speeds).sum(axis=0) for each in layers]
+        speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]
+        power = [way * (each.values[self.requested_columns] * speeds).sum(axis=0) for each in layers]
         which = np.argmin([np.where(each.valid, p, np.inf) for each, p in zip(layers, power, strict=True)], axis=0)
         found = layers[0].copy()
         for at, layer in enumerate(layers[1:], 1):
@@ -499,20 +499,20 @@ class TurnBalance:
         return found
 
     @cached_property
-    def asked_columns(self) -> list[int]:
+    def requested_columns(self) -> list[int]:
         """The columns of the torques asked for."""
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
-        return list(range(first, first + len(self.asked)))
+        return list(range(first, first + len(self.requested)))
 
     # ------------------------------------------------------------------------------------------------------- answers
 
     def _told(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
         motion, size = state.motion, len(state.motion.turns)
-        torque = np.where(best.valid, best.values[self.asked_columns], np.nan)
+        torque = np.where(best.valid, best.values[self.requested_columns], np.nan)
         worst = self._extreme(layers, state, -1)
         speeds = self.outside_speeds(motion.speeds)
         acting = np.zeros_like(speeds)
-        acting[: len(self.asked)] = torque
+        acting[: len(self.requested)] = torque
         for link, load in self.loads.items():
             acting[self.outside.index(link)] += load
         slipping = [self._speed(motion, link, self.setting.tree.parent[link][0]) for link in self.bearings]
@@ -527,7 +527,7 @@ class TurnBalance:
             np.zeros(size, bool),
             np.sum([each.valid for each in layers], axis=0).astype(float),
             torque,
-            np.where(worst.valid, worst.values[self.asked_columns], np.nan),
+            np.where(worst.valid, worst.values[self.requested_columns], np.nan),
             speeds,
             acting * speeds,
             _stack([*(loss for loss, _ in flows), *rubbed], size),

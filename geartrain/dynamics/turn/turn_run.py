@@ -61,7 +61,7 @@ class RunCells:
         return found.ravel()
 
     @property
-    def asked(self) -> Floats:
+    def requested(self) -> Floats:
         """Positions, where torques are asked for: a little aside of the ends of cells."""
         return (self.turns.reshape(-1, NODES) + self.aside * np.array([1.0, 0.0, 0.0, 0.0, -1.0])).ravel()
 
@@ -119,7 +119,7 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
 
     signs_at   of some positions, (signs, n); `signs`, those at the positions of the cells
     """
-    turns = cells.asked
+    turns = cells.requested
     changed = (signs[:, 1:] != signs[:, :-1]).any(axis=0) & (np.diff(turns) > 0)
     # over the break between two cells nothing new is to be found
     changed[NODES - 1 :: NODES] = False
@@ -152,7 +152,7 @@ class TurnRun:
     samples: int
 
     @cached_property
-    def corners(self) -> Floats:
+    def kinks(self) -> Floats:
         """Positions at which a law has a corner, with the drive flanks touching, and with each usual set of flanks."""
         train = self.train
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
@@ -163,7 +163,7 @@ class TurnRun:
             names = frozenset(name for name, coasts in zip(train.flanked, column, strict=True) if coasts)
             sets[names] = sets.get(names, 0) + 1
         usual = sorted(sets, key=lambda names: -sets[names])[:_MOST_SETS]
-        return np.concatenate([train.motion.corners(names, self.span) for names in usual])
+        return np.concatenate([train.motion.kinks(names, self.span) for names in usual])
 
     @cached_property
     def narrowest(self) -> float:
@@ -174,11 +174,11 @@ class TurnRun:
     @cached_property
     def _followed(self) -> tuple[RunCells, PositionTorques]:
         """Cells in order, kinks among their ends, as narrow as integrals ask for; and all at their positions."""
-        cells = run_cells(self.span, max(1, self.samples // NODES), self.corners, self.narrowest)
-        found = self.train.at(cells.asked)
+        cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
+        found = self.train.at(cells.requested)
         scales, total = RunScales.of(found), float(cells.weights @ np.nan_to_num(np.abs(found.powers)).sum(axis=0))
         kept: list[tuple[RunCells, PositionTorques]] = []
-        count, most = 0, _MOST_TIMES * len(cells.asked)
+        count, most = 0, _MOST_TIMES * len(cells.requested)
         for depth in range(_DEPTH + 1):
             cell, at = self._cuts(cells, found, scales, total, depth) if count <= most else _NONE
             whole = np.ones(len(cells.low), bool)
@@ -186,9 +186,9 @@ class TurnRun:
             kept.append((cells.some(whole), some(found, np.repeat(whole, NODES))))
             if not len(cell):
                 break
-            count += len(cells.asked)
+            count += len(cells.requested)
             cells = cells.parted(cell, at)
-            found = self.train.at(cells.asked)
+            found = self.train.at(cells.requested)
         low, high = (np.concatenate([getattr(each, name) for each, _ in kept]) for name in ("low", "high"))
         order = np.argsort(low)
         nodes = (order[:, None] * NODES + np.arange(NODES)).ravel()
@@ -211,7 +211,7 @@ class TurnRun:
 
     def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
         """The cells too wide for what is put in or for what is lost."""
-        integrands = found.powers[: len(self.train.asked)].sum(axis=0), found.losses.sum(axis=0)
+        integrands = found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)
         rough = np.max([cells.roughness(np.nan_to_num(each)) for each in integrands], axis=0)
         found_coarse: Bools = rough > total * (_ACCURACY * (cells.high - cells.low) / self.span + _ROUNDING)
         return found_coarse
@@ -229,7 +229,7 @@ class TurnRun:
     def signs(self, found: PositionTorques, scales: RunScales) -> Ints:
         """Whatever has a kink where its sign changes."""
         outside = found.powers.shape[0]
-        asked = len(self.train.asked)
+        requested = len(self.train.requested)
         return np.concatenate(
             [
                 sign_beyond(found.pressed, scales.pressed),
@@ -237,8 +237,8 @@ class TurnRun:
                 np.sign(found.slipping),
                 np.sign(found.kinks),
                 found.layers[None],
-                sign_beyond(found.powers[:asked], scales.power),
-                sign_beyond(found.powers[asked:outside], scales.power),
+                sign_beyond(found.powers[:requested], scales.power),
+                sign_beyond(found.powers[requested:outside], scales.power),
             ]
         ).astype(np.int64)
 
@@ -249,7 +249,7 @@ class TurnRun:
     @cached_property
     def standing(self) -> PositionTorques:
         """With the friction of what is about to move."""
-        return self.train.at(self.cells.asked, static=True) if self.train.starts_harder else self.found
+        return self.train.at(self.cells.requested, static=True) if self.train.starts_harder else self.found
 
 
 @dataclass(frozen=True)

@@ -535,8 +535,8 @@ class _EqualPlanets:
 
     def _uneven(self, rule: str) -> BuildFinding:
         """Planets that cannot stand evenly: an error where they have no room elsewhere either."""
-        least = max((self._least_turn(planet, _STUB) for planet in self.planet.walk()), default=0.0)
-        steps = max(1, ceil(least * self.step - 1e-9))
+        minimum = max((self._minimum_turn(planet, _STUB) for planet in self.planet.walk()), default=0.0)
+        steps = max(1, ceil(minimum * self.step - 1e-9))
         fits = self.number * steps <= self.step
         whole, rest = divmod(self.step, self.number)
         even = [count for count in range(2, self._most() + 1) if self.step % count == 0]
@@ -669,7 +669,7 @@ class _EqualPlanets:
             squares.append(sum(terms))
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
-    def _least_turn(self, planet: Planet, addendum: float = _FULL) -> float:
+    def _minimum_turn(self, planet: Planet, addendum: float = _FULL) -> float:
         """The least angle (turns) between neighbours that leaves their tips apart; `addendum` as of `_tips`."""
         found = 0.0
         for mesh in _once(planet):
@@ -680,8 +680,8 @@ class _EqualPlanets:
 
     def _most(self) -> int:
         """Planets that have room, evenly spaced."""
-        least = max((self._least_turn(planet) for planet in self.planet.walk()), default=0.0)
-        return max(1, int(1 / least + 1e-9)) if least else self.number
+        minimum = max((self._minimum_turn(planet) for planet in self.planet.walk()), default=0.0)
+        return max(1, int(1 / minimum + 1e-9)) if minimum else self.number
 
 
 def _once(planet: Planet) -> list[AssemblyMesh]:

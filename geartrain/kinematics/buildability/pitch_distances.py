@@ -79,7 +79,7 @@ def _involute(angle: float) -> float:
     return tan(angle) - angle
 
 
-def least_ring(planet: int) -> int:
+def minimum_ring(planet: int) -> int:
     """Teeth of the smallest ring in which standard teeth of a planet pass the ring's tips."""
     # a ring of fewer than 34 teeth has its tip circle within its base circle
     first = max(planet + 1, 34)
@@ -99,14 +99,15 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
             why = (
                 f"the distance of their axes would be ({ring} - {planet})/2 modules, and a ring is larger than its mate"
             )
-            fix = f"make the other wheel the ring, or write a ring of at least {least_ring(planet)}"
+            fix = f"make the other wheel the ring, or write a ring of at least {minimum_ring(planet)}"
             what = f"pair '{pair.name}': ring '{name}' {ring} does not hold '{mate}' {planet}"
             yield BuildFinding("R1", "error", Problem(what, why, fix, pair.place))
-        elif judged and 33 < ring < least_ring(planet):
+        elif judged and 33 < ring < minimum_ring(planet):
             what = f"pair '{pair.name}': tips of '{mate}' {planet} run into tips of the ring '{name}' {ring}"
             why = "standard teeth of 20 degrees cross outside the mesh (trochoid interference)"
             fix = (
-                f"declare a tooth form with shorter addenda or a larger angle, or write a ring of {least_ring(planet)}"
+                f"declare a tooth form with shorter addenda or a larger angle, or write a ring of "
+                f"{minimum_ring(planet)}"
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
         elif judged and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
@@ -118,7 +119,7 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
 
 def _radial_ring(planet: int) -> int:
     """Teeth of the smallest ring that a planet with standard teeth is put into across its axis."""
-    return next(z for z in count(max(least_ring(planet), 34)) if radial_room(planet, z, PRESSURE, 1.0, 1.0) >= 0)
+    return next(z for z in count(max(minimum_ring(planet), 34)) if radial_room(planet, z, PRESSURE, 1.0, 1.0) >= 0)
 
 
 SLACK = Fraction(1, 50)
@@ -438,8 +439,8 @@ class PitchDistances:
             return
         off, other, scale = best
         low, high = pair.bounds
-        least, most = (bound * scale for bound in other.bounds)
-        level: BuildLevel = "note" if max(low, least) <= min(high, most) else "error"
+        minimum, most = (bound * scale for bound in other.bounds)
+        level: BuildLevel = "note" if max(low, minimum) <= min(high, most) else "error"
         yield BuildFinding("P2", level, self._two_distances(pair, other, scale, off, level == "error"))
 
     def _two_distances(self, pair: PitchPair, other: PitchPair, scale: Fraction, off: Fraction, grave: bool) -> Problem:

@@ -457,8 +457,8 @@ def _equations(
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
     circuits = [circuit.with_counts(sizes) for circuit in find_circuits(stand_in, tree)]
-    asked = {link for name, output in case.outputs.items() for link in output.links(name, train.frame)}
-    kept = {train.frame, *asked, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)}
+    requested = {link for name, output in case.outputs.items() for link in output.links(name, train.frame)}
+    kept = {train.frame, *requested, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)}
     circuits = relevant_circuits(circuits, kept)
     kept |= {link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier)}
     links = [link for link in train.links if link in kept]

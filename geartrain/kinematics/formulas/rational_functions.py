@@ -117,8 +117,8 @@ def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
     for list_, found in classes.items():
         sign = 1 if next(iter(found.values())) > 0 else -1
         members.append({variable: sign * size for variable, size in found.items()})
-        least = min(sign * step for step in list_)
-        lists.append([sign * step - least for step in list_])
+        minimum = min(sign * step for step in list_)
+        lists.append([sign * step - minimum for step in list_])
     powers_of: Iterator[Exponents] = iter(zip(*lists, strict=True) if lists else [()] * len(terms))
     rewritten = tuple(
         Laurent(len(members), {next(powers_of): value for value in p.terms.values()}) for p in polynomials

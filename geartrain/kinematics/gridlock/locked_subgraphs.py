@@ -193,16 +193,16 @@ def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemo
     gears = [circuit.id for circuit in toothed.circuits if circuit.kind == "gear" and circuit.id in bound]
     if len(gears) > MOST_COUPLED or not _frees(part, gears):
         return None
-    least = max(1, at_least)
-    singles = [gear for gear in gears if _frees(part, {gear})] if least == 1 and len(gears) <= _ONE_BY_ONE else []
+    minimum = max(1, at_least)
+    singles = [gear for gear in gears if _frees(part, {gear})] if minimum == 1 and len(gears) <= _ONE_BY_ONE else []
     if singles:
         return MeshRemoval((singles[0],), "one", 1, tuple(singles))
     needed = _needed(part, sorted(gears, key=lambda name: name not in gone))
     # each mesh was tried alone, and none of them frees the train
-    least = max(least, 2) if len(gears) <= _ONE_BY_ONE else least
-    if sum(comb(len(gears), size) for size in range(least, len(needed))) > _TRIALS:
-        return MeshRemoval(tuple(needed), "greedy", least)
-    return _searched(part, gears, needed, range(least, len(needed)))
+    minimum = max(minimum, 2) if len(gears) <= _ONE_BY_ONE else minimum
+    if sum(comb(len(gears), size) for size in range(minimum, len(needed))) > _TRIALS:
+        return MeshRemoval(tuple(needed), "greedy", minimum)
+    return _searched(part, gears, needed, range(minimum, len(needed)))
 
 
 def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:

@@ -47,7 +47,7 @@ class MeshRemoval(Result):
     Gridlock : an example
     """
 
-    KEYS = ("meshes", "method", "least", "at_least", "choices", "proofs")
+    KEYS = ("meshes", "method", "minimum", "at_least", "choices", "proofs")
 
     meshes: tuple[str, ...]
     """Ids of the pairs."""
@@ -66,7 +66,7 @@ class MeshRemoval(Result):
         return str(self)
 
     @property
-    def least(self) -> bool:
+    def minimum(self) -> bool:
         """True if no smaller set frees the train."""
         return self.at_least == len(self.meshes)
 
@@ -80,7 +80,7 @@ class MeshRemoval(Result):
 
     def _why(self) -> str:
         proof = ", and ".join(map(str, self.proofs)) if sum(p.at_least for p in self.proofs) == self.at_least else ""
-        if not self.least:
+        if not self.minimum:
             because = f", for {proof}" if proof else ""
             return f"none of them can stay, but a smaller set may do; at least {self.at_least} must go{because}"
         exact = {

@@ -114,9 +114,9 @@ def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list
     for order in ([*calm, *last], [*tree, *found.chords, *found.breaking]):
         first = _refused(network, order)
         better = _improved(network, first)
-        least = better if len(better) < len(first) else first
-        if best is None or len(least) < len(best):
-            best = least
+        minimum = better if len(better) < len(first) else first
+        if best is None or len(minimum) < len(best):
+            best = minimum
     return best or [], loops
 
 
@@ -193,10 +193,10 @@ def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
     for mesh in (*network.firm, *(mesh for mesh in order if mesh not in network.firm)):
         first, second = network.ends[mesh]
         (top, one), (other, two) = _top(up, gain, first), _top(up, gain, second)
-        asked = one * network.gains[mesh] if mesh in network.gains else one
+        requested = one * network.gains[mesh] if mesh in network.gains else one
         if top != other:
-            up[other], gain[other] = top, asked if two == 1 else asked * inverse(two)
-        elif asked != two:
+            up[other], gain[other] = top, requested if two == 1 else requested * inverse(two)
+        elif requested != two:
             refused.append(mesh)
     return refused
 
@@ -219,15 +219,15 @@ def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
     speed = list(walk_gain_graph(network, refused).speed)
     queue = [node for mesh in refused for node in network.ends[mesh]]
     for here in queue:
-        asked: dict[Gain, int] = {}
+        requested: dict[Gain, int] = {}
         for mesh in network.at[here]:
             there = network.other(mesh, here)
             # a firm mesh outvotes all others together
             value = speed[there] * network.gain(mesh, there)
-            asked[value] = asked.get(value, 0) + (len(network.ends) if mesh in network.firm else 1)
-        best = max(asked, key=lambda value: asked[value])
+            requested[value] = requested.get(value, 0) + (len(network.ends) if mesh in network.firm else 1)
+        best = max(requested, key=lambda value: requested[value])
         # only strictly more votes move a node: the sum of votes that are met grows each time, and the loop ends
-        if asked[best] > asked.get(speed[here], 0):
+        if requested[best] > requested.get(speed[here], 0):
             speed[here] = best
             queue += [network.other(mesh, here) for mesh in network.at[here]]
     held = [mesh for mesh, (i, _) in enumerate(network.ends) if _agrees(network, speed, mesh, i)]
@@ -488,8 +488,8 @@ def _choose_in_block(block: GainGraph) -> RemovalChoice:
         better = minimal_removal(plain, len(meshes), 10**9 if small else _BRANCHES // len(block.ends))
     except OverBudgetError:
         return _greedy(meshes, bound)
-    least = meshes if better is None else better
-    return RemovalChoice(sorted(least), "search", len(least), [], [bound] if bound.at_least == len(least) else [])
+    minimum = meshes if better is None else better
+    return RemovalChoice(sorted(minimum), "search", len(minimum), [], [bound] if bound.at_least == len(minimum) else [])
 
 
 def _greedy(meshes: list[int], bound: LoopPacking) -> RemovalChoice:
@@ -503,7 +503,7 @@ def _bound(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
     return LoopPacking(max((loops, more or []), key=len), 1)
 
 
-def _proofs(network: GainGraph, odd: Sequence[GainLoop], least: int) -> list[LoopPacking]:
+def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
     """Loops that prove a matching least, if any are found: the odd regions, or loops without a common mesh."""
     apart: list[GainLoop] = []
     used: set[int] = set()
@@ -512,10 +512,10 @@ def _proofs(network: GainGraph, odd: Sequence[GainLoop], least: int) -> list[Loo
             used.update(mesh for _, mesh in loop)
             apart.append(loop)
     for bound in (LoopPacking(apart, 1), LoopPacking(list(odd), 2)):
-        if bound.at_least == least:
+        if bound.at_least == minimum:
             return [bound]
     bound = _bound(network, apart)
-    return [bound] if bound.at_least == least else []
+    return [bound] if bound.at_least == minimum else []
 
 
 def _placed(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -> RemovalChoice:

@@ -398,7 +398,7 @@ class MeshPhasing(Result):
 
     problem: PhaseSystem = field(repr=False)
     """The phases of all meshes."""
-    plays: Mapping[str, float] = field(default_factory=dict)
+    backlashes: Mapping[str, float] = field(default_factory=dict)
     """Play of pairs whose teeth know it [pitch]."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
     """Gives wheel -> name under which its tooth number stands in `rule`."""
@@ -515,11 +515,11 @@ class MeshPhasing(Result):
         if not self.missing:
             return None if self.kind == "unclear" else True
         errors = self.errors
-        if any(abs(error) > self.plays[name] / 2 for name, error in errors.items() if name in self.plays):
+        if any(abs(error) > self.backlashes[name] / 2 for name, error in errors.items() if name in self.backlashes):
             return False
         # less than 1e-9 pitch is rounding, and needs no play
         off = [name for name, error in errors.items() if abs(error) > 1e-9]
-        return True if all(name in self.plays for name in off) else None
+        return True if all(name in self.backlashes for name in off) else None
 
     @cached_property
     def rule(self) -> DivisibilityRule | None:
@@ -556,7 +556,7 @@ class MeshPhasing(Result):
             yield f"  and {len(shown) - _SHOWN} more"
         if self.missing:
             yield f"  put in one after the other, the last meshes are off by up to {self.last:.6g} pitch"
-            yield f"  spread over all meshes, errors are up to {self.spread:.6g} pitch{self._play}"
+            yield f"  spread over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash}"
         if self.unjudged:
             goes = "loop goes" if self.unjudged == 1 else "loops go"
             yield f"  {self.unjudged} {goes} through pairs without a known place, not judged:"
@@ -567,8 +567,8 @@ class MeshPhasing(Result):
             yield "  loops were judged one by one: what they must only fulfil together was not looked for"
 
     @property
-    def _play(self) -> str:
-        if not self.plays:
+    def _backlash(self) -> str:
+        if not self.backlashes:
             return ""
         words = {
             True: "which the play takes up",
@@ -652,7 +652,7 @@ class SphericalGears(Protocol):
 
 
 def find_phasing(
-    train: Train, tree: Tree, circuits: Sequence[Circuit], plays: Mapping[str, float] | None = None
+    train: Train, tree: Tree, circuits: Sequence[Circuit], backlashes: Mapping[str, float] | None = None
 ) -> MeshPhasing:
     """Closure of a declared train, in the pose in which its moving axes are declared.
 
@@ -665,7 +665,7 @@ def find_phasing(
         every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
         whole = find_components(_links(train, every), train.frame, every)
         unjudged = max(len(whole.closing) - len(parts.closing), 0)
-    return MeshPhasing(PhaseSystem(parts, contacts), dict(plays or {}), lambda: _alike(train), unjudged)
+    return MeshPhasing(PhaseSystem(parts, contacts), dict(backlashes or {}), lambda: _alike(train), unjudged)
 
 
 def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
@@ -789,8 +789,8 @@ def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats
     They count from the first of two directions: the axis across the coordinate axis that is farthest from it.
     """
     # farthest from the axis, so that the vector product is never near 0
-    least = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
-    first = np.cross(axes, least)
+    minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
+    first = np.cross(axes, minimum)
     first /= np.linalg.norm(first, axis=1)[:, None]
     second = np.cross(axes, first)
     own, mate = axes[meshes], axes[meshes[:, ::-1]]

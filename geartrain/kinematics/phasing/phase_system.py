@@ -498,14 +498,14 @@ class PhaseSystem:
         links = np.array([(index[c.i], index[c.j], index[c.carrier]) for c in self.circuits]).reshape(-1, 3)
         teeth = self.contacts.teeth
         factors = np.column_stack([teeth, np.where(links[:, 2] == self.parts.frame, 0.0, -teeth.sum(axis=1))])
-        return SparseRows(links, self._asked(factors), len(self.parts.links))
+        return SparseRows(links, self._requested(factors), len(self.parts.links))
 
     @cached_property
     def _by_nodes(self) -> SparseRows:
         nodes = np.array(self.ends).reshape(-1, 2)
-        return SparseRows(nodes, self._asked(self.contacts.teeth), len(self.parts.node_parent))
+        return SparseRows(nodes, self._requested(self.contacts.teeth), len(self.parts.node_parent))
 
-    def _asked(self, factors: Floats) -> Floats:
+    def _requested(self, factors: Floats) -> Floats:
         """Rows of meshes that let loops stand only somewhere are not asked for anything."""
         found = factors.copy()
         found[list(self.parts.breaking)] = 0.0  # their loops are asked for no phase

@@ -56,7 +56,7 @@ class PlanClearance:
                 self.still[ends] = self.still[ends[::-1]] = True
         plain = [[disc for disc in problem.discs.get(label, ()) if not disc.inner] for label in labels]
         self.radius = np.array([max((disc.outer for disc in discs), default=0.0) for discs in plain])
-        self.need = _least_distances(plain, problem.mates)
+        self.need = _minimum_distances(plain, problem.mates)
         self.meet = np.zeros((len(labels), len(labels)), bool)
         axis = {disc.wheel: at for at, label in enumerate(labels) for disc in problem.discs.get(label, ())}
         for pair in problem.mates:
@@ -85,7 +85,7 @@ class PlanClearance:
         return np.asarray(near[np.hypot(away[:, 0], away[:, 1]) < reach])
 
 
-def _least_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[frozenset[str]]) -> Floats:
+def _minimum_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[frozenset[str]]) -> Floats:
     """Least distances of axes whose wheels share a level and do not mesh; 0 where nothing asks for any."""
     mates = _mates(pairs)
     need = np.zeros((len(discs), len(discs)))
@@ -133,7 +133,7 @@ class DistanceBound(NamedTuple):
     """An axis by number, and the least and greatest distance (mm) from it."""
 
     axis: int
-    least: float
+    minimum: float
     most: float
 
 
@@ -478,7 +478,7 @@ class _BeamSearch:
             turns = list(dict.fromkeys(round(turn * count) / count for turn in turns))
         found = [(x + far * cos(first + 2 * pi * turn), y + far * sin(first + 2 * pi * turn)) for turn in turns]
         for bound in step.bounds:  # arcs from which the rest still reaches may be narrow
-            found += crossings((x, y), far, points[bound.axis].tolist(), (bound.least + bound.most) / 2)
+            found += crossings((x, y), far, points[bound.axis].tolist(), (bound.minimum + bound.most) / 2)
         return found
 
 
@@ -488,5 +488,5 @@ def _missed(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
     for bound in (*step.tied, *step.bounds):
         apart = candidates - points[bound.axis]
         far = np.hypot(apart[:, 0], apart[:, 1])
-        total += _MISS * (np.maximum(far - bound.most, 0) + np.maximum(bound.least - far, 0))
+        total += _MISS * (np.maximum(far - bound.most, 0) + np.maximum(bound.minimum - far, 0))
     return total

@@ -36,7 +36,7 @@ _ROUNDS = 12  # over all distances; each changes what the others need
 _MOST = 300  # distances on closed chains up to which modules are balanced: time grows with their square
 _TIGHT = 0.97  # of the way round: a distance that is longer leaves wheels no room
 _LOOSE = 0.85  # what it is made then
-_LEAST = Fraction(1, 1000)  # factor by which a module may shrink in one step
+_MINIMUM = Fraction(1, 1000)  # factor by which a module may shrink in one step
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +96,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
         # the part of the way with the same module shrinks along; the floor keeps the factor's sign where both are even
         factor = _LOOSE * (way_length - same) / max(length - _LOOSE * same, 1e-9 * length)
         if 0 < factor < 1:
-            modules[one.root] *= _simple(factor) or _LEAST
+            modules[one.root] *= _simple(factor) or _MINIMUM
             return True
     loose = [other for other in rest if other.root in free]
     part = sum(other.length(modules) for other in loose)

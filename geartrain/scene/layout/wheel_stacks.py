@@ -133,10 +133,10 @@ class _OrderSearch:
         for at in self.order:
             self._settle(keys, at, 0.0)
         for held in _HELD if self._standing else (0.0,):
-            keys = self._settled(keys, held)
+            keys = self._converged(keys, held)
         return keys
 
-    def _settled(self, keys: Floats, held: float) -> Floats:
+    def _converged(self, keys: Floats, held: float) -> Floats:
         for _ in range(_PASSES):
             before = keys.copy()
             for at in self.order:

@@ -24,10 +24,10 @@ APART = 0.2  # mm between a column and a wheel of another axis
 HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and what turns before its head
 INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is cut from the arbor's solid
 HAND = 1.6  # mm that an arbor stands out beyond the pipe round it where both bear hands
-_LEAST = 0.8  # mm: the thinnest arbor
+_MINIMUM = 0.8  # mm: the thinnest arbor
 USUAL = 2 / 3
 """Diameter of an arbor over the root radius of its smallest wheel."""
-_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a wheel is in the way, thickest first
+_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: arbors that are tried where a wheel is in the way, thickest first
 _PIVOT = 0.55  # of its arbor: so that the shoulder bears
 _WIDEST = 6.0  # mm, of one whose size nobody gives
 
@@ -270,7 +270,7 @@ class ColumnProblem:
         found = [_WIDEST, *(USUAL * root for root in roots)]
         thick = [each.outer for each in self._members(order, 0.0, stud)]  # what pipes add
         found += [2 * root - outer for outer, root in zip(thick, roots, strict=True)]
-        return max(_LEAST, round(min(found), 2))
+        return max(_MINIMUM, round(min(found), 2))
 
     def _members(self, order: Sequence[CoaxialLink], core: float, stud: bool) -> tuple[ColumnMember, ...]:
         found: list[ColumnMember] = []

@@ -20,7 +20,7 @@ from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, c
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.teeth.outlines.contour import Contour
 
-_PILLAR_MOST, _PILLAR_LEAST = 4.0, 1.5  # mm: radius of a pillar
+_PILLAR_MOST, _PILLAR_MINIMUM = 4.0, 1.5  # mm: radius of a pillar
 _PILLAR_PART = 0.025  # of the width of all that turns between the plates: a clock's is 10 mm thick over 200 mm
 _LAND = 3.0  # mm of plate round a hole
 _WIDE = 6.0  # bores in the radius of a wave that is lightened
@@ -100,7 +100,7 @@ class FramePlates:
         low, high = (
             [way(at[k] + side * reach for at, reach in turning) for k in (0, 1)] for way, side in ((min, -1), (max, 1))
         )
-        return round(min(_PILLAR_MOST, max(_PILLAR_LEAST, _PILLAR_PART * dist(low, high))), 2)
+        return round(min(_PILLAR_MOST, max(_PILLAR_MINIMUM, _PILLAR_PART * dist(low, high))), 2)
 
     @property
     def _between(self) -> tuple[float, float]:

@@ -79,15 +79,15 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
     return np.asarray(middle + (far + _STEP) * along)
 
 
-def _around(tried: Floats, axes: Floats, count: int, least_edge: float, even: bool) -> Floats | None:
+def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
     """The shortest polygon of so many of the places, counted from the middle of the axes, that has all axes inside."""
-    best, least = None, np.inf
+    best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
     cross = cross - steps[:, :, None, 1] * (axes[None, None, :, 0] - tried[:, None, None, 0])
     left = np.all(cross > 0, axis=2)  # of the edge from one place to another
     length = np.hypot(steps[..., 0], steps[..., 1])
-    left &= length >= least_edge
+    left &= length >= minimum_edge
     for chosen in combinations(range(len(tried)), count):
         edges = list(zip(chosen, (*chosen[1:], chosen[0]), strict=True))
         if all(left[a, b] for a, b in edges):
@@ -95,8 +95,8 @@ def _around(tried: Floats, axes: Floats, count: int, least_edge: float, even: bo
             whole = sum(float(length[a, b]) for a, b in edges)
             if even:
                 whole += _UNEVEN * float(np.hypot(*places.mean(axis=0))) + _UPWARDS * float(abs(places[:, 1]).mean())
-            if whole < least:
-                best, least = places, whole
+            if whole < minimum:
+                best, minimum = places, whole
     return best
 
 

@@ -25,7 +25,7 @@ class Process:
     """Diametral clearance of what turns, and of what is joined (0: nominal sizes, fitted as `joint` says)."""
     press: float
     """Diametral clearance of what turns, and of what is joined (0: nominal sizes, fitted as `joint` says)."""
-    play: float
+    backlash: float
     """Of teeth along the pitch circle [modules]."""
     wall: float
     """The thinnest wall of a pipe."""

@@ -246,13 +246,13 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
     """How far from some circles (mm) a plate is that goes straight from its dials to the end of a foot."""
-    least = inf
+    minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):
             t = step / _STEPS
             at = x + t * (spot[0] - x), y + t * (spot[1] - y)
-            least = min(least, clear_of(at, others) - (radius + t * (FOOT_RADIUS + _EDGE - radius)))
-    return least
+            minimum = min(minimum, clear_of(at, others) - (radius + t * (FOOT_RADIUS + _EDGE - radius)))
+    return minimum
 
 
 def _tried(at: Point, radius: float) -> Iterator[Point]:

@@ -17,7 +17,7 @@ from geartrain.numerics.results import Shown
 from geartrain.scene.layout import Layout, WheelPlace
 from geartrain.scene.layout.wheel_modules import WIDE
 from geartrain.scene.parts.processes import process_named
-from geartrain.teeth.standard_teeth import DEDENDUM, PLAY
+from geartrain.teeth.standard_teeth import BACKLASH, DEDENDUM
 from geartrain.train import GearPair, Train
 from geartrain.train.wheel_stock import wheel_thickness
 
@@ -149,7 +149,7 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
     """With the play asked for, in modules, on every pair whose form says nothing of it."""
-    own = {gear.name: problem for gear in declared.gears if (problem := _own_play(declared, gear)) is not None}
+    own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
         places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
         raise QuestionError(replace(problem, place=places[name]) for name, problem in own.items())
@@ -163,25 +163,25 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
     form = declared.form_of(gear)
     if form is None:
         return gear
-    play = Fraction(str(PLAY)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
-    thinner = form.thinned(Quantity(play, None, f"{float(play):.9g}"))
+    share = Fraction(str(BACKLASH)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
+    thinner = form.thinned(Quantity(share, None, f"{float(share):.9g}"))
     return gear if thinner is form else gear.changed(tooth_form=thinner)
 
 
-def _own_play(declared: Train, gear: GearPair) -> Problem | None:
+def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
     """Why the play of a pair is not for a maker to say; None where it is."""
     form = declared.form_of(gear)
-    return None if form is None else form.own_play(gear.name)
+    return None if form is None else form.own_backlash(gear.name)
 
 
-def with_play(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
+def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
     """The sizes with the play of the process, where one is named and no play is given."""
     declared = train.declaration
-    own = [_own_play(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
+    own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
         return making
-    play = process_named(making.process).play * usual_module(layout) * scale_of(layout, making)
-    return replace(making, backlash=play)
+    backlash = process_named(making.process).backlash * usual_module(layout) * scale_of(layout, making)
+    return replace(making, backlash=backlash)
 
 
 def usual_module(layout: Layout) -> float:

@@ -22,7 +22,7 @@ from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs
 from geartrain.scene.solids.carrier_cages import Bracket, Cage, HangingParts, find_brackets, find_cages, hanging_solids
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
-from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
+from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_backlash
 from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
 from geartrain.scene.solids.standing_pins import (
     CouplingParts,
@@ -77,7 +77,7 @@ class SolidModel(Shown):
     @cached_property
     def sized(self) -> GearTrain:
         """The train with the modules and the play asked for."""
-        return sized(self.train, self._laid, with_play(self.train, self._laid, self.making))
+        return sized(self.train, self._laid, with_backlash(self.train, self._laid, self.making))
 
     @cached_property
     def layout(self) -> Layout:
@@ -196,7 +196,7 @@ class SolidModel(Shown):
 
     @cached_property
     def _toothed(self) -> Blanks:
-        return find_blanks(self.sized, self._spread, with_play(self.train, self._laid, self.making))
+        return find_blanks(self.sized, self._spread, with_backlash(self.train, self._laid, self.making))
 
     @cached_property
     def scene(self) -> Scene:

@@ -335,12 +335,12 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
         near = min((disc.room_for(at, _RADIUS) for disc in seen), default=_ENOUGH)
         return min(near, clear_of(at, [*rods, *slots]) - _RADIUS, _ENOUGH)
 
-    best, least = wheel.at, -wheel.root
+    best, minimum = wheel.at, -wheel.root
     away = wheel.root - _RADIUS - _EDGE
-    while away > 0 and least < _ENOUGH - APART:
+    while away > 0 and minimum < _ENOUGH - APART:
         at = max(_round(wheel.at, away), key=room)
-        if room(at) > least:
-            best, least = at, room(at)
+        if room(at) > minimum:
+            best, minimum = at, room(at)
         away -= _STEP
     return best
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.dynamics.cut_teeth import not_cut
-from geartrain.dynamics.train_teeth import PairPlay, find_train_teeth
+from geartrain.dynamics.train_teeth import PairBacklash, find_train_teeth
 from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
@@ -167,7 +167,7 @@ class Blanks:
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
-    plays: tuple[PairPlay, ...]
+    backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
     """Why by wheel; `flat`, the wheels whose teeth stand straight in a plane, cut or not."""
     flat: frozenset[str]
@@ -187,7 +187,7 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
             notices.append(told)
         wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
         notices += _leaning(name, wheel)
-    return Blanks(wheels, tuple(notices), toothed.plays, toothed.problems, toothed.flat)
+    return Blanks(wheels, tuple(notices), toothed.backlashes, toothed.problems, toothed.flat)
 
 
 def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:

@@ -59,11 +59,13 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 
-PLAY = 0.05
+BACKLASH = 0.05
 """Half modules by which positions may be off: they are rounded, and teeth have play."""
 
 
-def find_constraints(train: Train, free: Mapping[str, Counts], asked: ConstraintOptions) -> tuple[CountConstraint, ...]:
+def find_constraints(
+    train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
+) -> tuple[CountConstraint, ...]:
     """The rules that the free wheels of a train must keep, the cheapest first.
 
     free   wheel -> counts it may have; all other wheels have their declared counts
@@ -74,16 +76,16 @@ def find_constraints(train: Train, free: Mapping[str, Counts], asked: Constraint
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
     stand_in = with_counts(train, {wheel: counts[0] for wheel, counts in free.items()})
-    return tuple(_Asking(train, TrainAssembly.of(stand_in, free), asked).rules()) if free else ()
+    return tuple(_Requesting(train, TrainAssembly.of(stand_in, free), requested).rules()) if free else ()
 
 
 @dataclass(frozen=True)
-class _Asking:
+class _Requesting:
     """The rules of one train; in `fitting` its free wheels have stand-in counts."""
 
     declared: Train
     fitting: TrainAssembly
-    asked: ConstraintOptions
+    requested: ConstraintOptions
 
     def rules(self) -> Iterator[CountConstraint]:
         """All of them, in order."""
@@ -92,31 +94,33 @@ class _Asking:
         yield from sorted(linear, key=lambda rule: not isinstance(rule, CountEquation))
         yield from self._pairs()
         yield from self._planets()
-        if self.asked.closure:
-            yield from DeclaredPositions(self.fitting, self.asked.shift).conditions()
+        if self.requested.closure:
+            yield from DeclaredPositions(self.fitting, self.requested.shift).conditions()
 
     # ------------------------------------------------------------------------------------------------------- one wheel
 
     def _limits(self) -> Iterator[CountConstraint]:
-        asked = self.asked
-        rack = None if asked.undercut is None else least_teeth(turns(asked.undercut), asked.addendum)
+        requested = self.requested
+        rack = None if requested.undercut is None else minimum_teeth(turns(requested.undercut), requested.addendum)
         for name, (_, wheel) in self.fitting.train.wheels.items():
             if name not in self.fitting.free or wheel.kind == "worm":
                 continue
-            if asked.least is not None:
+            if requested.minimum is not None:
                 yield Condition(
-                    f"'{name}' has at least {asked.least} teeth", (name,), CountBounds(name, least=asked.least)
+                    f"'{name}' has at least {requested.minimum} teeth",
+                    (name,),
+                    CountBounds(name, minimum=requested.minimum),
                 )
-            if asked.most_teeth is not None:
-                what = f"'{name}' has at most {asked.most_teeth} teeth"
-                yield Condition(what, (name,), CountBounds(name, most=asked.most_teeth))
-            if asked.largest_radius is not None:
-                plain = "" if asked.largest_radius.unit else " modules"
-                what = f"'{name}' has a radius of at most {asked.largest_radius}{plain}"
-                yield Condition(what, (name,), CountBounds(name, most=self._most(name, asked.largest_radius)))
+            if requested.most_teeth is not None:
+                what = f"'{name}' has at most {requested.most_teeth} teeth"
+                yield Condition(what, (name,), CountBounds(name, most=requested.most_teeth))
+            if requested.largest_radius is not None:
+                plain = "" if requested.largest_radius.unit else " modules"
+                what = f"'{name}' has a radius of at most {requested.largest_radius}{plain}"
+                yield Condition(what, (name,), CountBounds(name, most=self._most(name, requested.largest_radius)))
             if rack is not None and wheel.kind == "spur" and not wheel.internal:
-                what = f"'{name}' is not undercut: at least {rack} teeth at {asked.undercut}"
-                yield Condition(what, (name,), CountBounds(name, least=rack))
+                what = f"'{name}' is not undercut: at least {rack} teeth at {requested.undercut}"
+                yield Condition(what, (name,), CountBounds(name, minimum=rack))
 
     def _most(self, wheel: str, radius: Quantity) -> int:
         """The largest count whose pitch radius, m z/2, is within bounds."""
@@ -136,7 +140,7 @@ class _Asking:
 
     def _coaxial(self) -> Iterator[CountConstraint]:
         """Meshes between the same two axes, of one measure: each has the centre distance of the first."""
-        if self.asked.coaxial is False:
+        if self.requested.coaxial is False:
             return
         first: dict[object, AssemblyMesh] = {}
         for mesh in self.fitting.meshes:
@@ -146,7 +150,7 @@ class _Asking:
 
     def _one_distance(self, before: AssemblyMesh, mesh: AssemblyMesh) -> Iterator[CountConstraint]:
         total = distance_of(before) - distance_of(mesh)
-        shift = self.asked.shift * min(before.module or 1, mesh.module or 1)
+        shift = self.requested.shift * min(before.module or 1, mesh.module or 1)
         if not (before.is_free or mesh.is_free) or self._is_broken(total, shift):
             return
         if not total.terms:
@@ -158,14 +162,16 @@ class _Asking:
             yield CountEquation(f"coaxial closure: {equality(found)}", dict(found.terms), found.constant)
             return
         scaled, room = whole(total, LinearSum({}, Fraction(shift)))
-        words = f"coaxial closure within {self.asked.shift} half modules: {equality(found)}"
+        words = f"coaxial closure within {self.requested.shift} half modules: {equality(found)}"
         yield Condition(words, scaled.wheels, NearZero(scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
         """True if the declared counts do not meet the rule, and it is not asked for: modules differ, or are shifted."""
         counts = {wheel: self._evident(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
-        return self.asked.coaxial is None and None not in counts.values() and abs(sum(known) + total.constant) > shift
+        return (
+            self.requested.coaxial is None and None not in counts.values() and abs(sum(known) + total.constant) > shift
+        )
 
     def _evident(self, wheel: str) -> int | None:
         """The declared count; None where it is to be searched for, and a value beside that only stands in."""
@@ -177,22 +183,22 @@ class _Asking:
     # ----------------------------------------------------------------------------------------------------------- pairs
 
     def _pairs(self) -> Iterator[CountConstraint]:
-        asked = self.asked
-        if asked.interference is not None:
-            pressure = turns(asked.interference)
+        requested = self.requested
+        if requested.interference is not None:
+            pressure = turns(requested.interference)
             for mesh in self.fitting.meshes:
-                yield from interference(mesh, pressure, asked.addendum, self._ring_addendum)
-        if asked.hunting:
+                yield from interference(mesh, pressure, requested.addendum, self._ring_addendum)
+        if requested.hunting:
             for mesh in self.fitting.meshes:
                 if mesh.is_free:
                     words = f"hunting tooth: '{mesh.wheels[0]}' and '{mesh.wheels[1]}' have no common divisor"
                     yield Condition(words, free_of(*mesh.parts), Coprime(*mesh.parts))
-        if asked.different:
+        if requested.different:
             yield from self._different()
 
     @property
     def _ring_addendum(self) -> Fraction:
-        return self.asked.addendum if self.asked.ring_addendum is None else self.asked.ring_addendum
+        return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
         """Of each free wheel and all fixed counts, then of each two free wheels."""
@@ -219,19 +225,19 @@ class _Asking:
 
     def _numbered(self) -> Iterator[tuple[PlanetSet, int]]:
         """Sets of planets and how many there are of each: as asked, else by `copies`."""
-        asked = self.asked.planets
-        if asked is None:
+        requested = self.requested.planets
+        if requested is None:
             for one in self.fitting.sets:
                 copies = max(self.declared.links[link].copies for link in one.links)
                 if copies > 1 and one.planets is not None:
                     yield one, copies
             return
         known = dict.fromkeys(one.carrier for one in self.fitting.sets)
-        unknown = [carrier for carrier in asked if carrier not in known] if isinstance(asked, Mapping) else []
+        unknown = [carrier for carrier in requested if carrier not in known] if isinstance(requested, Mapping) else []
         if unknown or not known:
             raise QuestionError(_no_planets(unknown, list(known)))
         for one in self.fitting.sets:
-            number = asked.get(one.carrier) if isinstance(asked, Mapping) else asked
+            number = requested.get(one.carrier) if isinstance(requested, Mapping) else requested
             if number is None:
                 continue
             if number < 1 or self._declared(one) not in (1, number) or one.planets is None:
@@ -256,7 +262,7 @@ class _Asking:
             rule = equal_planets(one, number, reason(one, number))
             if rule is not None:
                 yield rule
-        if self.asked.clearance is None:
+        if self.requested.clearance is None:
             return
         if not numbered:
             raise QuestionError(
@@ -267,7 +273,7 @@ class _Asking:
                 )
             )
         for one, number in numbered:
-            room = PlanetRoom(number, self.asked.addendum, self._ring_addendum, self.asked.clearance)
+            room = PlanetRoom(number, self.requested.addendum, self._ring_addendum, self.requested.clearance)
             yield from room.conditions(one, self.fitting)
 
 
@@ -400,7 +406,7 @@ class DeclaredPositions:
         wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
         if wheels:
             name = f"declared positions: '{mesh.name}' reaches as {what} says"
-            yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, PLAY + self.shift))
+            yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, BACKLASH + self.shift))
 
     def _length(self, mesh: AssemblyMesh) -> float:
         """Distance of the two axes of a mesh (m, or plain); 0 where a position is not declared."""
@@ -428,9 +434,9 @@ class DeclaredPositions:
             yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
             return
         sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
-        asked = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
-        if asked:
-            yield Condition(f"{name}: {rule.text}", asked, Divisible(tuple(sums)))
+        requested = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
+        if requested:
+            yield Condition(f"{name}: {rule.text}", requested, Divisible(tuple(sums)))
 
     def _sum(self, terms: Mapping[str, int]) -> WholeSum:
         (total,) = whole(LinearSum.of((factor, self.fitting.part(wheel)) for wheel, factor in terms.items()))
@@ -458,7 +464,7 @@ def _no_places(train: Train) -> Problem:
 # -------------------------------------------------- involute teeth: undercut, and tips beyond the involute of the mate
 
 
-def least_teeth(pressure: Fraction, addendum: Fraction) -> int:
+def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
     """Least teeth of a spur wheel that a rack does not undercut: z >= 2 h / sin(alpha)^2, rounded up.
 
     pressure   alpha, turns (0 to 1/4); addendum h of the rack, modules. 18 at 20 degrees (17.1), 32 at 14.5

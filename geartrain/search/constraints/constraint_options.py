@@ -49,7 +49,7 @@ class ConstraintOptions:
     ring_addendum: Fraction | None = None
     """Of rings [modules]; None for that of external wheels. Rings are often cut shorter: at 1 and 20 deg 18 teeth in
     60 interfere."""
-    least: int | None = None
+    minimum: int | None = None
     """Least tooth count of every free wheel, inclusive; worms are exempt."""
     most_teeth: int | None = None
     """Greatest tooth count of every free wheel, inclusive; worms are exempt."""

@@ -199,15 +199,15 @@ class CountBounds:
     """A count of a wheel within bounds, inclusive; None for no bound."""
 
     wheel: str
-    least: int | None = None
+    minimum: int | None = None
     most: int | None = None
 
     def __call__(self, columns: CandidateColumns) -> Bools:
         """True where it is, (candidates,)."""
         counts = columns[self.wheel]
         found = np.ones(counts.shape, dtype=bool)
-        if self.least is not None:
-            found &= counts >= self.least
+        if self.minimum is not None:
+            found &= counts >= self.minimum
         if self.most is not None:
             found &= counts <= self.most
         return found

@@ -145,19 +145,19 @@ def find_sets(
     ({'s': 16, 'p': 12, 'r': 40}, Fraction(7, 2))
     """
     kind = epicyclic_kind(kind) if isinstance(kind, str) else kind
-    asked = wanted if isinstance(wanted, TargetRatio) else TargetRatio(Fraction(wanted))
+    requested = wanted if isinstance(wanted, TargetRatio) else TargetRatio(Fraction(wanted))
     if tolerance is not None:
         tolerance = Fraction(tolerance)
-    _check(asked.value, planets, tolerance, best, slack)
+    _check(requested.value, planets, tolerance, best, slack)
     _check_words(by, ratio_is, clearance)
-    least = Fraction(clearance).limit_denominator(_FINEST)
+    minimum = Fraction(clearance).limit_denominator(_FINEST)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
-    search = _Search(kind, asked.value, tolerance, best, ratio_is, by, planets, sense or asked.sense)
-    for number, columns in blocks(kind, bounds, planets, least if spaced else None, slack):
+    search = _Search(kind, requested.value, tolerance, best, ratio_is, by, planets, sense or requested.sense)
+    for number, columns in blocks(kind, bounds, planets, minimum if spaced else None, slack):
         search.considered += number * len(chosen)
         search.charge(NO_PLACE, (number - _length(columns)) * len(chosen))
         if spaced:
-            columns = search.assembled(columns, least, len(chosen))
+            columns = search.assembled(columns, minimum, len(chosen))
         if _length(columns):
             for at, mode in enumerate(chosen):
                 search.judge(columns, at, mode)
@@ -287,13 +287,13 @@ class _Search:
         one = {wheel: columns[wheel][row : row + 1] for wheel in self.kind.wheels}
         top, beneath = (int(term[0]) for term in ratio_terms(self.kind, mode, one))
         ratio = Fraction(top, beneath)
-        asked = ratio if self.ratio_is == "input/output" else 1 / ratio
+        requested = ratio if self.ratio_is == "input/output" else 1 / ratio
         return EpicyclicSet(
             self.kind.name,
             mode,
             {wheel: int(column[0]) for wheel, column in one.items()},
             ratio,
-            abs(asked) / self.wanted - 1,
+            abs(requested) / self.wanted - 1,
             self.planets,
             int(places(self.kind, one)[0]),
             float(room(self.kind, one, self.planets)[0]),
@@ -552,9 +552,9 @@ def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fract
     Near ties are decided as the clearance of a declared train is, exactly; of bevel wheels, whose room is an angle, in
     floats.
     """
-    found, least = room(kind, columns, planets), float(clearance)
-    good = np.asarray(found >= least - _BEVEL)
-    near = np.flatnonzero(np.abs(found - least) <= _NEAR)
+    found, minimum = room(kind, columns, planets), float(clearance)
+    good = np.asarray(found >= minimum - _BEVEL)
+    near = np.flatnonzero(np.abs(found - minimum) <= _NEAR)
     if len(near) and not kind.bevel:
         good[near] = _clears_exactly(kind, {w: column[near] for w, column in columns.items()}, planets, clearance)
     return good
@@ -562,14 +562,14 @@ def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fract
 
 def _clears_exactly(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
     # all lengths are multiplied by the denominator, so that they are whole
-    unit, least = clearance.denominator, clearance.numerator
+    unit, minimum = clearance.denominator, clearance.numerator
     reaches = [unit * _distance(kind, columns, link) for link in kind.planets]
     tips = [unit * (np.maximum.reduce([columns[wheel] for wheel in link]) + int(TIPS)) for link in kind.planets]
     chord, good = sine(Fraction(1, 2 * planets)), np.ones(reaches[0].shape, dtype=bool)
     for reach, tip in zip(reaches, tips, strict=True):
-        good &= is_positive(neighbour_terms, [reach, tip + least], [chord], strictly=False)
+        good &= is_positive(neighbour_terms, [reach, tip + minimum], [chord], strictly=False)
     for a, b in kind.between:
-        mesh, both = unit * (columns[a] + columns[b]), tips[0] + tips[1] + 2 * least
+        mesh, both = unit * (columns[a] + columns[b]), tips[0] + tips[1] + 2 * minimum
         for turn in (Fraction(step, planets) for step in range(1, planets)):
             lengths = [reaches[0], reaches[1], mesh, both]
             good &= is_positive(passing_terms, lengths, [cosine(turn), sine(turn)], strictly=False)

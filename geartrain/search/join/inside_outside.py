@@ -30,7 +30,7 @@ from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlte
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Number of a graded demand in `JoinProblem.asked` -> how badly its values agree with it, 0 for perfectly."""
+"""Number of a graded demand in `JoinProblem.requested` -> how badly its values agree with it, 0 for perfectly."""
 CountWeights = Mapping[str, Tallies]
 """Wheel -> a weight for each of its counts, all of one dtype."""
 
@@ -232,10 +232,10 @@ class BestFirst:
         self._ahead.append(np.full(node.size, np.inf))
         self._below.append(())
         self._below[at] = tuple(self._add(child) for child, _ in node.children)
-        least = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
+        minimum = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
         for number, (_, to) in zip(self._below[at], node.children, strict=True):
-            least += self._ahead[number][to]
-        np.minimum.at(self._ahead[at], node.parents, least)
+            minimum += self._ahead[number][to]
+        np.minimum.at(self._ahead[at], node.parents, minimum)
         return at
 
     def __iter__(self) -> Iterator[GradedAssignment]:

@@ -76,9 +76,9 @@ class JoinProblem:
 
     domains: Domains
     """Wheel -> its counts, ascending."""
-    asked: tuple[IntervalConstraint, ...]
+    requested: tuple[IntervalConstraint, ...]
     rules: tuple[CountConstraint, ...]
-    """Constraints on counts; these, then `asked`, are numbered in this order."""
+    """Constraints on counts; these, then `requested`, are numbered in this order."""
     late: tuple[CountConstraint, ...]
     """Rules that are asked last, of assignments of all wheels."""
     recipes: tuple[ItemRecipe, ...]
@@ -93,7 +93,7 @@ class JoinProblem:
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
         """The demands in items."""
-        return tuple(find_polynomial_constraints(self.asked, self.recipes, self.domains))
+        return tuple(find_polynomial_constraints(self.requested, self.recipes, self.domains))
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -119,7 +119,7 @@ class JoinProblem:
 
 def find_join_problem(
     domains: Domains,
-    asked: Sequence[IntervalConstraint],
+    requested: Sequence[IntervalConstraint],
     rules: Sequence[CountConstraint],
     chances: Mapping[str, float],
     weights: Weights | None = None,
@@ -130,10 +130,11 @@ def find_join_problem(
     weights   of `JoinProblem`
     """
     found = [
-        _planned(domains, asked, early, late, recipes, chances)
+        _planned(domains, requested, early, late, recipes, chances)
         for early, late in _lateness(rules)
         for recipes in find_recipes(
-            find_wheel_monomials(tuple(domains), asked, frozenset(w for rule in early for w in rule.wheels)), domains
+            find_wheel_monomials(tuple(domains), requested, frozenset(w for rule in early for w in rule.wheels)),
+            domains,
         )
     ]
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})
@@ -155,13 +156,13 @@ def _lateness(
 
 def _planned(
     domains: Domains,
-    asked: Sequence[IntervalConstraint],
+    requested: Sequence[IntervalConstraint],
     early: tuple[CountConstraint, ...],
     late: tuple[CountConstraint, ...],
     recipes: tuple[ItemRecipe, ...],
     chances: Mapping[str, float],
 ) -> JoinProblem:
-    polynomials = find_polynomial_constraints(asked, recipes, domains)
+    polynomials = find_polynomial_constraints(requested, recipes, domains)
     planner = _Planner(domains, recipes, early, polynomials, chances)
     node, steps = min((planner.plan(*way) for way in planner.ways()), key=lambda found: found[1])
     steps += sum(planner.sizes)
@@ -169,7 +170,7 @@ def _planned(
     if late:
         left = prod(len(counts) for counts in domains.values())
         steps += 3 * left * prod(chances.get(one.name, 1.0) for one in (*early, *polynomials))
-    return JoinProblem(domains, tuple(asked), early, late, recipes, node, steps)
+    return JoinProblem(domains, tuple(requested), early, late, recipes, node, steps)
 
 
 @dataclass
@@ -202,8 +203,8 @@ class _Planner:
         """The tree over all items, and its cost."""
         node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0, first, shared)
         # demands that came down to numbers are asked at the root
-        settled = tuple(at for at, scope in enumerate(self.scopes) if not scope)
-        return replace(node, checks=settled + node.checks, reach=settled + node.reach), cost
+        converged = tuple(at for at, scope in enumerate(self.scopes) if not scope)
+        return replace(node, checks=converged + node.checks, reach=converged + node.reach), cost
 
     def _grow(self, open_: Items, known: Items, rows: float, first: int, shared: bool) -> tuple[PlanNode, float]:
         active = [at for at, scope in enumerate(self.scopes) if scope & open_]
@@ -298,11 +299,11 @@ class SelectivitySample:
             return 1 / max(len(self.domains[wheel]) for wheel in rule.wheels)
         return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
 
-    def of_demand(self, asked: IntervalConstraint) -> float:
+    def of_demand(self, requested: IntervalConstraint) -> float:
         """About which part meets a demand; from the density of values nearby where few are drawn within."""
-        speeds = self.speeds(asked.function)
-        least = 1 / prod(len(self.domains[wheel]) for wheel in asked.function.wheels)
-        return min(1.0, max(least, sum(_part(speeds, interval) for interval in asked.intervals)))
+        speeds = self.speeds(requested.function)
+        minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)
+        return min(1.0, max(minimum, sum(_part(speeds, interval) for interval in requested.intervals)))
 
     def speeds(self, function: Function) -> Floats:
         """Values of a function, those it has not left out."""

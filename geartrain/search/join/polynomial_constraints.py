@@ -121,15 +121,15 @@ class SignPolynomial:
     def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
         """Exact signs where the value is at most twice `bounds` (over the scale) in size."""
         # times all denominators: a bound on the whole number that is worked out below
-        least: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
+        minimum: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
         for item in self.items:
             bottom = rows.bottom(item)
             if bottom is not None:
                 for _ in range(self.degree(item)):
-                    least = least * bottom
+                    minimum = minimum * bottom
         found: Signs = np.zeros(rows.size, dtype=np.int8)
         # a factor of two below what int64 holds, for the bound itself is rounded
-        short = least < 2.0**62
+        short = minimum < 2.0**62
         found[short] = np.sign(self._wrapped(rows.pick(short))).astype(np.int8)
         for at in np.flatnonzero(~short):
             found[at] = self._sign(rows.pick(np.array([at])))
@@ -259,13 +259,13 @@ def _bounded(
     # first-order bound on the error of -b/a, and what rounding does to the item's power itself
     off = (rest.rounding * size + np.abs(end) * off_a) / (np.abs(a) - off_a)
     off += np.abs(end) * (8 * power + 8) * ROUNDING
-    least, greatest, y = end - off, end + off, item.powers(power)
+    minimum, maximum, y = end - off, end + off, item.powers(power)
     rising = (a > 0) == (inequality.sense > 0)
     if rising.all():
-        return _rising(y, least, greatest)
+        return _rising(y, minimum, maximum)
     if not rising.any():
-        return _falling(y, least, greatest)
-    up, down = _rising(y, least, greatest), _falling(y, least, greatest)
+        return _falling(y, minimum, maximum)
+    up, down = _rising(y, minimum, maximum), _falling(y, minimum, maximum)
     return SolutionWindow(
         np.where(rising, up.start, down.start),
         np.where(rising, up.end, down.end),
@@ -274,23 +274,23 @@ def _bounded(
     )
 
 
-def _rising(y: Floats, least: Floats, greatest: Floats) -> SolutionWindow:
-    """All y from somewhere between `least` and `greatest` on."""
-    start = np.searchsorted(y, least, side="left")
+def _rising(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
+    """All y from somewhere between `minimum` and `maximum` on."""
+    start = np.searchsorted(y, minimum, side="left")
     end = np.full(len(start), len(y))
     sure = start.copy()
-    near = np.flatnonzero((start < len(y)) & (y[np.minimum(start, len(y) - 1)] <= greatest))
-    sure[near] = np.searchsorted(y, greatest[near], side="right")
+    near = np.flatnonzero((start < len(y)) & (y[np.minimum(start, len(y) - 1)] <= maximum))
+    sure[near] = np.searchsorted(y, maximum[near], side="right")
     return SolutionWindow(start, end, sure, end)
 
 
-def _falling(y: Floats, least: Floats, greatest: Floats) -> SolutionWindow:
-    """All y up to somewhere between `least` and `greatest`."""
-    end = np.searchsorted(y, greatest, side="right")
+def _falling(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
+    """All y up to somewhere between `minimum` and `maximum`."""
+    end = np.searchsorted(y, maximum, side="right")
     start = np.zeros(len(end), dtype=np.int64)
     sure = end.copy()
-    near = np.flatnonzero((end > 0) & (y[np.maximum(end - 1, 0)] >= least))
-    sure[near] = np.searchsorted(y, least[near], side="left")
+    near = np.flatnonzero((end > 0) & (y[np.maximum(end - 1, 0)] >= minimum))
+    sure[near] = np.searchsorted(y, minimum[near], side="left")
     return SolutionWindow(start, end, start, sure)
 
 
@@ -353,22 +353,22 @@ class RelaxedInequality:
     def possible(self, rows: PartialAssignments) -> Bools:
         """False where the inequality surely fails for all values of the open items."""
         factors = [self.sense * one.values(rows, self.scale)[0] for one in self.rest]
-        least = np.zeros(rows.size)
+        minimum = np.zeros(rows.size)
         for factor, high in zip(factors, self.highs, strict=True):
-            least -= self.slack * high * np.abs(factor)
+            minimum -= self.slack * high * np.abs(factor)
         if self.points is None:
             best = np.zeros(rows.size)
             for factor, low, high in zip(factors, self.lows, self.highs, strict=True):
                 best += np.maximum(low * factor, high * factor)
-            return np.asarray(best >= least)
+            return np.asarray(best >= minimum)
         if rows.size <= _SHORT:
-            return np.asarray((np.stack(factors, axis=1) @ self.points >= least[:, None]).any(axis=1))
+            return np.asarray((np.stack(factors, axis=1) @ self.points >= minimum[:, None]).any(axis=1))
         found: Bools = np.zeros(rows.size, dtype=np.bool_)
         for point in self.points.T:
             values = np.zeros(rows.size)
             for factor, size in zip(factors, point, strict=True):
                 values += size * factor
-            found |= values >= least
+            found |= values >= minimum
         return found
 
 
@@ -397,11 +397,11 @@ def _alone(polynomial: SignPolynomial, item: int) -> bool:
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
     """What the open items make of each term at some values of theirs; their lowest powers are divided out."""
-    least = {item: polynomial.powers(item)[0] for item in inside}
+    minimum = {item: polynomial.powers(item)[0] for item in inside}
     factors = []
     for _, monomial in polynomial.terms:
         powers = dict(monomial)
-        factors.append(prod(x ** (powers.get(item, 0) - least[item]) for item, x in zip(inside, point, strict=True)))
+        factors.append(prod(x ** (powers.get(item, 0) - minimum[item]) for item, x in zip(inside, point, strict=True)))
     return np.array(factors, dtype=np.float64)
 
 

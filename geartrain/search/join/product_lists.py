@@ -57,7 +57,7 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
     for at, some in enumerate(factors):
         looked = sizes[-1] * len(some)
         cost += looked
-        if cost <= _TRIED and len(values) == sizes[-1] and greatest(factors[: at + 1]) < 1 << 62:
+        if cost <= _TRIED and len(values) == sizes[-1] and maximum(factors[: at + 1]) < 1 << 62:
             values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
             sizes.append(len(values))
         else:
@@ -68,7 +68,7 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
     return sizes[-1], cost
 
 
-def greatest(factors: Sequence[Sequence[int]]) -> int:
+def maximum(factors: Sequence[Sequence[int]]) -> int:
     """The largest product of one number of each list."""
     return prod(max(some) for some in factors)
 

@@ -18,7 +18,7 @@ from geartrain.search.join.polynomial_constraints import (
     SignPolynomial,
     possible,
 )
-from geartrain.search.join.product_lists import Domains, ItemRecipe, PartialAssignments, forecast, greatest
+from geartrain.search.join.product_lists import Domains, ItemRecipe, PartialAssignments, forecast, maximum
 
 Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
@@ -82,7 +82,7 @@ class WheelMonomial:
 
 
 def find_wheel_monomials(
-    wheels: Sequence[str], asked: Sequence[IntervalConstraint], alone: frozenset[str]
+    wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
     """The coarsest bundles; wheels in `alone` stand by themselves, to the power 1.
 
@@ -90,7 +90,7 @@ def find_wheel_monomials(
     all functions, are multiples of one list.
     """
     lists: dict[str, list[int]] = {wheel: [] for wheel in wheels}
-    for one in asked:
+    for one in requested:
         names, terms = one.function.wheels, [*one.function.numerator, *one.function.denominator]
         at = {wheel: names.index(wheel) for wheel in wheels if wheel in names}
         for wheel, steps in lists.items():
@@ -132,7 +132,7 @@ def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
     """Some wheels in as few lots as can be listed, of about one size."""
     if not wheels:
         return
-    short = greatest([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
+    short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
     values, cost = forecast(wheels, domains) if short else (0, 0)
     if short and values <= _MOST_VALUES and cost <= _MOST_WORK:
         yield wheels
@@ -148,12 +148,12 @@ def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
 
 
 def find_polynomial_constraints(
-    asked: Sequence[IntervalConstraint], recipes: Sequence[ItemRecipe], domains: Domains
+    requested: Sequence[IntervalConstraint], recipes: Sequence[ItemRecipe], domains: Domains
 ) -> list[PolynomialConstraint]:
     """The demands in items."""
     extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
     constraints = []
-    for one in asked:
+    for one in requested:
         function = one.function
         terms = [*function.numerator, *function.denominator]
         monomials = _monomials(function.wheels, terms, recipes)
@@ -191,23 +191,23 @@ def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Seque
         at = wheels.index(wheel)
         sign = power if recipe.top else -power
         steps = [(term[1][at] - terms[0][1][at]) // sign for term in terms]
-        least = min(steps)
+        minimum = min(steps)
         for row, step in zip(rows, steps, strict=True):
-            if step > least:
-                row.append((item, step - least))
+            if step > minimum:
+                row.append((item, step - minimum))
     return [tuple(row) for row in rows]
 
 
 def _cases(
-    N: SignPolynomial, D: SignPolynomial, asked: IntervalConstraint
+    N: SignPolynomial, D: SignPolynomial, requested: IntervalConstraint
 ) -> Iterator[tuple[PolynomialInequality, ...]]:
     for sense in (D.definite,) if D.definite else (1, -1):
-        for low, high in asked.intervals or (_NOTHING,):
+        for low, high in requested.intervals or (_NOTHING,):
             inequalities = [] if D.definite else [PolynomialInequality(D, sense, strict=True)]
             if low is not None:
-                inequalities.append(PolynomialInequality(N.plus(D, -low), sense, asked.strict))
+                inequalities.append(PolynomialInequality(N.plus(D, -low), sense, requested.strict))
             if high is not None:
-                inequalities.append(PolynomialInequality(N.plus(D, -high), -sense, asked.strict))
+                inequalities.append(PolynomialInequality(N.plus(D, -high), -sense, requested.strict))
             yield tuple(inequalities)
 
 

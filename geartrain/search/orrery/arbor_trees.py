@@ -184,7 +184,7 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 class ReachablePeriods:
     """From one arbor, the second arbors that have aims one pair further."""
 
-    asked: int
+    requested: int
     """The aims looked for, as bits."""
     first: Ints
     """(m,) index of the ratio to the second arbor."""
@@ -194,7 +194,7 @@ class ReachablePeriods:
     """(m,) the aims reached, as bits."""
 
 
-def reach(table: PairRatios, aims: PeriodTargets, log_period: float, asked: int) -> ReachablePeriods:
+def reach(table: PairRatios, aims: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
     """All second arbors with at least one of the aims asked in reach; one ratio is kept where several lead to one aim.
 
     Floats choose with a margin; indices are checked exactly where they are used. Both lists of a search are sorted, so
@@ -203,7 +203,7 @@ def reach(table: PairRatios, aims: PeriodTargets, log_period: float, asked: int)
     logs, size = table.logs, len(table)
     found = np.full((len(aims.periods), size), -1, dtype=np.int32)
     falling = -logs[::-1]
-    for aim in members(asked):
+    for aim in members(requested):
         low, high = aims.logs[aim][0] - log_period - ROUNDING, aims.logs[aim][1] - log_period + ROUNDING
         # ratios so far from the aim that no pair bridges the rest need not be asked
         begin, end = np.searchsorted(falling, [logs[0] - high, logs[-1] - low + ROUNDING])
@@ -213,13 +213,13 @@ def reach(table: PairRatios, aims: PeriodTargets, log_period: float, asked: int)
     first = np.flatnonzero((found >= 0).any(axis=0))
     further = found[:, first].T.astype(np.int64)
     sets = ((further >= 0) << np.arange(len(aims.periods))).sum(axis=1)
-    return ReachablePeriods(asked, first, further, sets)
+    return ReachablePeriods(requested, first, further, sets)
 
 
-def reached_sets(table: PairRatios, aims: PeriodTargets, log_period: float, asked: int) -> Ints:
+def reached_sets(table: PairRatios, aims: PeriodTargets, log_period: float, requested: int) -> Ints:
     """(n,) for every ratio of the table, the aims one pair beyond the arbor it leads to, as bits."""
     sets = np.zeros(len(table), dtype=np.int64)
-    found = reach(table, aims, log_period, asked)
+    found = reach(table, aims, log_period, requested)
     sets[found.first] = found.sets
     return sets
 
@@ -359,14 +359,16 @@ class TreeEnumeration:
 
     def trees(self) -> Iterator[ArborTree]:
         """All trees."""
-        yield from self._settled((FIRST,), self.aims.everything, self.extra, 0)
+        yield from self._converged((FIRST,), self.aims.everything, self.extra, 0)
 
-    def _settled(self, tree: ArborTree, left: int, extra: int, asked: int, blank: bool = True) -> Iterator[ArborTree]:
-        """Ways to drive aims from the arbors from place `asked` on; earlier arbors have been asked already.
+    def _converged(
+        self, tree: ArborTree, left: int, extra: int, requested: int, blank: bool = True
+    ) -> Iterator[ArborTree]:
+        """Ways to drive aims from the arbors from place `requested` on; earlier arbors have been asked already.
 
         Unless `blank`, the first arbor asked drives at least one.
         """
-        if asked == len(tree):
+        if requested == len(tree):
             if left:
                 yield from self._extended(tree, left, extra)
             elif not extra and _useful(tree):
@@ -375,16 +377,16 @@ class TreeEnumeration:
         from_here = []
         for aim in members(left):
             low, high = self.aims.bounds[aim]
-            period = tree[asked].period
+            period = tree[requested].period
             found = self.table.between(low / period, high / period)
             if found:
-                from_here.append([None, *(grown(tree, aim, asked, *self.table.terms(at)) for at in found)])
+                from_here.append([None, *(grown(tree, aim, requested, *self.table.terms(at)) for at in found)])
         for taken in product(*from_here):
             arbors = tuple(arbor for arbor in taken if arbor is not None)
             if not arbors and not blank:
                 continue
             rest = left & ~sum(1 << arbor.aim for arbor in arbors)
-            yield from self._settled(tree + arbors, rest, extra, asked + 1)
+            yield from self._converged(tree + arbors, rest, extra, requested + 1)
 
     def _extended(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
         """One more extra arbor on any arbor of the tree."""
@@ -400,7 +402,7 @@ class TreeEnumeration:
                 if self.tell and extra == self.extra:
                     self.tell(parent * len(ways) + done, len(tree) * len(ways))
                 new = grown(tree, -1, parent, *self.table.terms(at))
-                yield from self._settled((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
+                yield from self._converged((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
             if extra == 2:
                 yield from self._chained(tree, left, parent)
 
@@ -413,15 +415,15 @@ class TreeEnumeration:
         low, high = self._ends(left)
         logs, start = self.table.logs, tree[parent].log
         seen: set[tuple[int, int]] = set()
-        for least, most in zip(low - start, high - start, strict=True):
-            first = np.searchsorted(logs, least - logs - ROUNDING)
+        for minimum, most in zip(low - start, high - start, strict=True):
+            first = np.searchsorted(logs, minimum - logs - ROUNDING)
             last = np.searchsorted(logs, most - logs + ROUNDING)
             for one in np.flatnonzero(last > first).tolist():
                 seen.update((one, two) for two in range(first[one], last[one]))
         for one, two in sorted(seen):
             inner = (*tree, grown(tree, -1, parent, *self.table.terms(one)))
             outer = (*inner, grown(inner, -1, len(tree), *self.table.terms(two)))
-            yield from self._settled(outer, left, 0, len(inner))
+            yield from self._converged(outer, left, 0, len(inner))
 
     def _ends(self, left: int) -> tuple[Floats, Floats]:
         """Logarithms between which the period of an arbor lies from which all aims left can be reached, with excess."""
@@ -430,8 +432,8 @@ class TreeEnumeration:
             low, high = self.aims.logs[aim][0] - logs, self.aims.logs[aim][1] - logs
             sets = np.full(len(logs), 1 << aim)
             for other in members(left & ~(1 << aim)):
-                least, most = self.aims.logs[other][0] - high, self.aims.logs[other][1] - low
-                found = np.searchsorted(logs, most + ROUNDING) > np.searchsorted(logs, least - ROUNDING)
+                minimum, most = self.aims.logs[other][0] - high, self.aims.logs[other][1] - low
+                found = np.searchsorted(logs, most + ROUNDING) > np.searchsorted(logs, minimum - ROUNDING)
                 sets |= found.astype(np.int64) << other
             good = self.closures[sets] & left == left
             ranges.append((low[good], high[good]))

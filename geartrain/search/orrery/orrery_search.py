@@ -97,8 +97,8 @@ class Orrery(Tabular, Result):
         "pairs",
         "arbors",
         Key("errors", keys=(Key("value", ".", float), Key("exact", "."))),
-        "least_pairs",
-        "least_wheels",
+        "minimum_pairs",
+        "minimum_wheels",
         "complete",
         "ended",
     )
@@ -113,9 +113,9 @@ class Orrery(Tabular, Result):
     """In the order of the driven arbors."""
     errors: Mapping[str, Fraction]
     """Name -> speed over wanted speed, less 1, exact; positive is fast."""
-    least_pairs: int
+    minimum_pairs: int
     """No tree of fewer pairs shows all the periods: proved by walking all of them."""
-    least_wheels: int
+    minimum_wheels: int
     """Fewer wheels than this are impossible: proved."""
     ended: str
     """Why the search ended."""
@@ -132,7 +132,7 @@ class Orrery(Tabular, Result):
     @property
     def complete(self) -> bool:
         """True if it is proved that no orrery has fewer wheels."""
-        return self.wheels <= self.least_wheels
+        return self.wheels <= self.minimum_wheels
 
     @property
     def worst(self) -> Fraction:
@@ -213,7 +213,8 @@ def find_orrery(
     """The orrery with the fewest wheels that is found: branch and bound over small trees, beam search over larger ones.
 
     Pairs of wheels in a tree of arbors, driven from the first; every pair is external. Walked trees give proofs, wider
-    beams only findings: see `Orrery.least_pairs`, `least_wheels` and `complete`. The same question has the same answer,
+    beams only findings: see `Orrery.minimum_pairs`, `minimum_wheels` and `complete`. The same question has the same
+    answer,
     unless time or the user ended the search.
 
     Parameters
@@ -282,7 +283,7 @@ class _Sharing:
         self.best: tuple[tuple[int, int, Fraction], ArborTree] | None = None
         self.sure = True
         self.walked = -1
-        self.least_pairs = len(aims.periods)
+        self.minimum_pairs = len(aims.periods)
 
     def run(self, effort: int, walk: int | None) -> str:
         """Search; returns why it ended."""
@@ -316,8 +317,8 @@ class _Sharing:
             found = True
             self._offer(tree)
         self.walked = extra
-        if not found and self.least_pairs == len(self.aims.periods) + extra:
-            self.least_pairs += 1
+        if not found and self.minimum_pairs == len(self.aims.periods) + extra:
+            self.minimum_pairs += 1
 
     def _widen(self, width: int) -> None:
         for part in BeamSearch(self.table, self.aims, self._pulse).run(width, _SEEDS_A_PART * width):
@@ -341,7 +342,7 @@ class _Sharing:
             self.best = ((*cost, worst), tree)
 
     @property
-    def least_wheels(self) -> int:
+    def minimum_wheels(self) -> int:
         """Proved lower bound.
 
         Every arbor has a wheel, and in a tree with the fewest wheels every arbor that shows nothing has two: with one
@@ -354,7 +355,7 @@ class _Sharing:
     @property
     def proved(self) -> bool:
         """True if no orrery has fewer wheels than the best."""
-        return self.best is not None and self.best[0][0] <= self.least_wheels
+        return self.best is not None and self.best[0][0] <= self.minimum_wheels
 
 
 def _orrery(search: _Sharing, first: str, ended: str) -> Orrery:
@@ -377,8 +378,8 @@ def _orrery(search: _Sharing, first: str, ended: str) -> Orrery:
             for arbor in sorted(tree, key=lambda arbor: arbor.aim)
             if arbor.aim >= 0
         },
-        search.least_pairs,
-        search.least_wheels,
+        search.minimum_pairs,
+        search.minimum_wheels,
         ended,
     )
 
@@ -406,13 +407,13 @@ def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) 
 def _nothing(search: _Sharing, ended: str) -> QuestionError:
     """Why there is no orrery, as far as it is known."""
     table, size = search.table, len(search.aims.periods)
-    least, most = table.counts[0], table.counts[-1]
+    minimum, most = table.counts[0], table.counts[-1]
     walked = f"all trees with up to {size + search.walked} pairs were walked; " if search.walked >= 0 else ""
     stopped = {"time": "the time allowed was over; ", "interrupted": "the search was interrupted; "}.get(ended, "")
     return QuestionError(
         Problem(
-            f"no orrery found for {size} periods with wheels of {least} to {most} teeth",
-            f"{walked}{stopped}a pair changes the speed at most {most / least:.3g} times and has {len(table)} ratios",
+            f"no orrery found for {size} periods with wheels of {minimum} to {most} teeth",
+            f"{walked}{stopped}a pair changes the speed at most {most / minimum:.3g} times and has {len(table)} ratios",
             "loosen the tolerance, allow more tooth counts, or raise effort",
         )
     )
@@ -495,7 +496,7 @@ class BeamSearch:
     def _reach(self, arbor: TreeArbor, left: int) -> ReachablePeriods:
         """Moves from an arbor to aims left, kept for the trees that have the same arbor."""
         known = self._reaches.pop((arbor.n, arbor.d), None)
-        if known is not None and left & ~known.asked:
+        if known is not None and left & ~known.requested:
             self._entries -= known.next.size
             known = None
         if known is None:
@@ -572,8 +573,8 @@ class BeamSearch:
         common = np.lcm(mine, other)
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))
         smallest = np.minimum(common, np.minimum(common // mine * mate, common // other * its_mate))
-        least, most = self.table.counts[0], self.table.counts[-1]
-        good: Ints = (most // largest * smallest >= least).astype(np.int64)
+        minimum, most = self.table.counts[0], self.table.counts[-1]
+        good: Ints = (most // largest * smallest >= minimum).astype(np.int64)
         return good
 
     def _built(self, part: PartialTree, parent: int, known: ReachablePeriods, at: int) -> PartialTree | None:

@@ -174,7 +174,7 @@ def infer_counts(
         chosen,
         soft,
         question.combinations,
-        found.looked,
+        found.examined,
         found.evidence,
         found.turning,
         found.fits,
@@ -203,9 +203,9 @@ def _doubts_of_sample(found: PosteriorSummary, method: Method) -> Iterator[str]:
 def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -> None:
     if method is not None and method not in METHODS:
         raise QuestionError(Problem(f"there is no method '{method}'", "others are", suggest(method, METHODS)))
-    for name, value, least in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
-        if value < least:
-            raise QuestionError(Problem(f"{name} is {value}", "nothing is found with it", f"give {least} or more"))
+    for name, value, minimum in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
+        if value < minimum:
+            raise QuestionError(Problem(f"{name} is {value}", "nothing is found with it", f"give {minimum} or more"))
 
 
 class _Outcome(NamedTuple):
@@ -235,7 +235,7 @@ def _find(
             # the exact join has no partial answer: a moment's sample says more than nothing, and it is not journalled,
             # since the exact join would begin anew
             found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
-            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.looked),))
+            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.examined),))
         except BudgetSpentError:
             if method is not None:
                 fix = "raise the limit, narrow the doubts, or let it sample"
@@ -330,10 +330,10 @@ def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
     """
     doubts = question.moved
     domains = {wheel: doubt.counts for wheel, doubt in doubts.items()}
-    asked = [*(one.constraint(question.soft, graded) for one in question.witnesses), *question.conditions]
+    requested = [*(one.constraint(question.soft, graded) for one in question.witnesses), *question.conditions]
     sample = SelectivitySample.of(domains)
     weights = {wheel: doubt.weights for wheel, doubt in doubts.items()}
-    return find_join_problem(domains, asked, (), {one.name: sample.of_demand(one) for one in asked}, weights)
+    return find_join_problem(domains, requested, (), {one.name: sample.of_demand(one) for one in requested}, weights)
 
 
 def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, int]:

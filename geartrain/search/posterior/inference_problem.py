@@ -244,7 +244,7 @@ def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCoun
         teeth = wheel.teeth if isinstance(wheel.teeth, Teeth) else Teeth(value=wheel.teeth)
         if name in given:
             counts = _checked(name, given[name])
-            yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "asked")
+            yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "requested")
         elif teeth.choices is not None or teeth.range is not None:
             yield _declared(name, teeth, place)
         elif teeth.search is not None:
@@ -376,7 +376,7 @@ class ObservedOutput:
         """The sum over the claims of (error / tolerance)^2."""
         return sum((claim.misfit(speed) for claim in self.claims), Fraction(0))
 
-    def asked(self, soft: bool) -> IntervalConstraint | None:
+    def requested(self, soft: bool) -> IntervalConstraint | None:
         """What must hold without doubt: every claim, where they are `soft` within `FAR` tolerances; None: nothing."""
         common: tuple[Interval, ...] = (_LINE,)
         for claim in self.claims:
@@ -384,8 +384,11 @@ class ObservedOutput:
         return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
 
     def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
-        """As `asked`, for a join: where every speed is in order it must have one. `graded`: how well it agrees, too."""
-        return replace(self.asked(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
+        """Return the constraint of this output for a join; unbounded if no claim is certain.
+
+        Every speed in order must have a constraint. `graded`: the join also returns how well the output agrees.
+        """
+        return replace(self.requested(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
 
 
 def observations_of(

@@ -126,7 +126,7 @@ class LikelihoodBatch:
 class PosteriorTally:
     """Sums over combinations.
 
-    looked    combinations
+    examined    combinations
     turning   number of those with which the train turns
     weight    of those that fit: their number, or their degrees of agreement where that is asked for
     square    sum of squared degrees of agreement, for intervals
@@ -138,7 +138,7 @@ class PosteriorTally:
 
     def __init__(self, batch: LikelihoodBatch, most: int) -> None:
         self.batch, self.most = batch, most
-        self.looked = self.turning = 0
+        self.examined = self.turning = 0
         self.weight: Any = 0
         self.square = 0.0
         self.by: list[list[Any]] = [[0] * len(batch.domains[wheel]) for wheel in batch.wheels]
@@ -187,7 +187,7 @@ class PosteriorTally:
 
     def join(self, other: Mapping[str, Any]) -> None:
         """Add what another tally came to."""
-        self.looked += other["looked"]
+        self.examined += other["examined"]
         self.turning += other["turning"]
         self.weight += other["weight"]
         self.square += other["square"]
@@ -200,7 +200,7 @@ class PosteriorTally:
     def to_dict(self) -> dict[str, Any]:
         """Plain data, for `join`."""
         return {
-            "looked": self.looked,
+            "examined": self.examined,
             "turning": self.turning,
             "weight": plain_number(self.weight),
             "square": self.square,
@@ -247,7 +247,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
         here = {wheel: at[start : start + BLOCK] for wheel, at in places.items()}
         rows = batch.columns({wheel: np.array(batch.domains[wheel])[at] for wheel, at in here.items()})
         met, misfit = batch.judged(rows)
-        tally.looked += rows.size
+        tally.examined += rows.size
         tally.turning += int(batch.turns(rows).sum())
         fit = np.flatnonzero(met)
         weights = np.exp(-misfit[fit] / 2) if batch.question.soft else np.ones(len(fit), dtype=np.int64)
@@ -347,9 +347,9 @@ class OutputLikelihood:
         value: FormulaValues | None = None,
     ) -> None:
         self.value = value or FormulaValues.of(witness.formula, monomials, domains)
-        asked = witness.asked(soft)
-        self._folded, self._ends = _folded(() if asked is None else asked.intervals)
-        self._gate = None if asked is None else exact_constraint(asked, monomials, domains)
+        requested = witness.requested(soft)
+        self._folded, self._ends = _folded(() if requested is None else requested.intervals)
+        self._gate = None if requested is None else exact_constraint(requested, monomials, domains)
         self._poles = exact_constraint(
             IntervalConstraint(witness.name, witness.formula, ((None, None),)), monomials, domains
         )
@@ -437,9 +437,11 @@ def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
     return misfit
 
 
-def exact_constraint(asked: IntervalConstraint, monomials: Sequence[Powers], domains: Domains) -> PolynomialConstraint:
+def exact_constraint(
+    requested: IntervalConstraint, monomials: Sequence[Powers], domains: Domains
+) -> PolynomialConstraint:
     """A demand that holds or does not, decided exactly."""
-    (found,) = find_polynomial_constraints([asked], [recipe_of(powers) for powers in monomials], domains)
+    (found,) = find_polynomial_constraints([requested], [recipe_of(powers) for powers in monomials], domains)
     return found
 
 
@@ -570,13 +572,13 @@ def recipe_of(powers: Powers) -> ItemRecipe:
     return ItemRecipe(above, tuple((wheel, -power) for wheel, power in powers.items() if power < 0))
 
 
-def find_monomials(asked: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
+def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
     """As few monomials as possible through which all functions see the wheels, each exact in int64.
 
     domains   the wheels in question; only those on which a function depends are in a monomial
     """
-    moving = {wheel for one in asked for wheel in one.function.wheels}
-    bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], asked, frozenset())
+    moving = {wheel for one in requested for wheel in one.function.wheels}
+    bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], requested, frozenset())
     return tuple(part for bundle in bundles for part in _parts(bundle.powers, domains))
 
 

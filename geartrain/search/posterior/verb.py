@@ -86,7 +86,7 @@ def run(
     if to.suffix == ".parquet" and to.path is not None:
         ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it
     train = read_declaration(file)
-    asked: dict[str, Any] = {
+    requested: dict[str, Any] = {
         "state": state,
         "free": _read_free(free or ()),
         "outputs": tuple(output or ()),
@@ -100,15 +100,15 @@ def run(
         "samples": samples,
         "seed": seed,
     }
-    question = {"train": train.model_dump(mode="json"), **asked}
+    question = {"train": train.model_dump(mode="json"), **requested}
     with long_run("posterior", question, out, RunOptions(workers, dask, resume)) as given:
-        found = infer_counts(train, **asked, executor=given.executor, journal=given.journal, tell=given.tell)
+        found = infer_counts(train, **requested, executor=given.executor, journal=given.journal, tell=given.tell)
         close_journal(given.journal, found.cut)
     if drawing.path is not None and not found.best:
         tell(f"nothing fits, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
-        held = {**asked, "most": 1}
-        _draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**asked["free"], **one}}), drawing)
+        held = {**requested, "most": 1}
+        _draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**requested["free"], **one}}), drawing)
     _answer(found, json, to)
 
 

@@ -81,8 +81,8 @@ class _Box:
         """Where low <= top/beneath <= high: a count of the wheel with fewer of them in reach, whether that is the one
         on top, and the first and last count of its mate."""
         (a, b), (c, d) = (low.numerator, low.denominator), (high.numerator, high.denominator)
-        beneath = (-(-self.top.least * d // c), self.top.most * b // a if a > 0 else self.beneath.most)
-        top = (-(-self.beneath.least * a // b), self.beneath.most * c // d)
+        beneath = (-(-self.top.minimum * d // c), self.top.most * b // a if a > 0 else self.beneath.most)
+        top = (-(-self.beneath.minimum * a // b), self.beneath.most * c // d)
         if _size(self.beneath, beneath) <= _size(self.top, top):
             for q in self.beneath.between(*beneath):
                 yield q, False, -(-q * a // b), q * c // d
@@ -129,8 +129,8 @@ def _boxes(wanted: TargetRatio, wheels: Counts, pinions: Counts) -> list[_Box]:
 
 def _check_reach(value: Fraction, boxes: list[_Box]) -> None:
     """`RangeError` for a ratio so far beyond all pairs that none of them is near."""
-    low = min(Fraction(box.top.least, box.beneath.most) for box in boxes)
-    high = max(Fraction(box.top.most, box.beneath.least) for box in boxes)
+    low = min(Fraction(box.top.minimum, box.beneath.most) for box in boxes)
+    high = max(Fraction(box.top.most, box.beneath.minimum) for box in boxes)
     if not low / _FAR < value < high * _FAR:
         made = f"these counts make {decimal(low, 3)} to {decimal(high, 3)}"
         what = f"a ratio of {decimal(value, 3)} is far out of reach"
@@ -166,12 +166,12 @@ def _tree_is_shorter(value: Fraction, box: _Box, number: int) -> bool:
     """
     if not box.contiguous:
         return False
-    least = max(Fraction(box.beneath.least), box.top.least / value)
+    minimum = max(Fraction(box.beneath.minimum), box.top.minimum / value)
     most = min(Fraction(box.beneath.most), box.top.most / value)
-    if most <= least:
+    if most <= minimum:
         return False
-    scanned = (most - least) * min(value, Fraction(1))
-    return scanned > 1000 and scanned > 4 * number / min(Fraction(1), 2 * (most / least - 1))
+    scanned = (most - minimum) * min(value, Fraction(1))
+    return scanned > 1000 and scanned > 4 * number / min(Fraction(1), 2 * (most / minimum - 1))
 
 
 def _by_tree(value: Fraction, box: _Box, number: int) -> list[_Pair]:
@@ -183,7 +183,7 @@ def _by_tree(value: Fraction, box: _Box, number: int) -> list[_Pair]:
         if last is not None and distance > last:
             break
         p, q = fraction.numerator, fraction.denominator
-        first = max(-(-box.top.least // p), -(-box.beneath.least // q))
+        first = max(-(-box.top.minimum // p), -(-box.beneath.minimum // q))
         multiples = range(first, min(box.top.most // p, box.beneath.most // q) + 1)
         found += [(k * p, k * q) for k in islice(multiples, number)]
         if last is None and len(found) >= number:
@@ -194,7 +194,7 @@ def _by_tree(value: Fraction, box: _Box, number: int) -> list[_Pair]:
 
 def _by_scan(value: Fraction, box: _Box, number: int) -> list[_Pair]:
     """The `number` best pairs: the tolerance is widened until it holds that many, so all better ones are inside."""
-    farthest = [box.top.least / Fraction(box.beneath.most), box.top.most / Fraction(box.beneath.least)]
+    farthest = [box.top.minimum / Fraction(box.beneath.most), box.top.most / Fraction(box.beneath.minimum)]
     tolerance = max(farthest[0] / value - 1, 1 - farthest[1] / value, Fraction(0))
     # narrower than evenly spread pairs would need, then four times as wide each time: the last count costs most
     step = Fraction(number, len(box.top) * len(box.beneath)) / 64

@@ -162,7 +162,7 @@ class ProductWindows:
         return multisets(len(self.counts), self.size)
 
     @property
-    def least(self) -> int:
+    def minimum(self) -> int:
         """The smallest product."""
         return int(self.counts[0] ** self.size)
 
@@ -173,7 +173,7 @@ class ProductWindows:
 
     def below(self, bound: int) -> int:
         """Number of unordered sets with a product less than `bound`, exact."""
-        if bound <= self.least:
+        if bound <= self.minimum:
             return 0
         return self.total if bound > self.most else int((_ends(self, bound) - self.starts).sum())
 

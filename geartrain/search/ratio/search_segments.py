@@ -76,14 +76,14 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     at = np.arange(len(under))
     beside = np.interp(at + shift, np.arange(len(over)), over, left=0.0, right=0.0)
     used = np.flatnonzero((at + shift > -1) & (at + shift < len(over)))
-    least, most = question.beneath[0] ** size, question.beneath[-1] ** size
+    minimum, most = question.beneath[0] ** size, question.beneath[-1] ** size
     if not len(used):
-        return SegmentPlan((least, most + 1), 0, 0.0)
+        return SegmentPlan((minimum, most + 1), 0, 0.0)
     work = np.cumsum((under + beside)[used])
     number = max(ceil(work[-1] / (2 * block_of(question))), 1)
     places = np.searchsorted(work, work[-1] * np.arange(1, number) / number) + used[0] + 1
-    middle = {min(max(ceil(exp(start + place * width)), least + 1), most) for place in places.tolist()}
-    bounds = (least, *sorted(middle - {least}), most + 1)
+    middle = {min(max(ceil(exp(start + place * width)), minimum + 1), most) for place in places.tolist()}
+    bounds = (minimum, *sorted(middle - {minimum}), most + 1)
     both = under * beside
     peak = ceil(exp(start + (int(both.argmax()) + 0.5) * width))
     densest = int(np.searchsorted(np.array(bounds[1:-1], dtype=np.float64), float(peak), side="right"))
@@ -163,7 +163,7 @@ def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range,
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
     """[low, high) in parts of no more than `most` products each, ascending; nothing where there are none."""
-    low, high = max(low, products.least), min(high, products.most + 1)
+    low, high = max(low, products.minimum), min(high, products.most + 1)
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
         # the geometric mean, for products are spread evenly in logarithms
@@ -246,12 +246,12 @@ class ValueFinder:
         if last < len(order):
             order = np.flatnonzero(error <= margin(float(error[order[last]])))
         over, under = over[order], under[order]
-        least = _least_sums(over, under, size)
+        minimum = _minimum_sums(over, under, size)
         misses, place = error_places(over, under, value)
         fresh: list[StageRank] = []
         # nearest first, then by the least sum that is possible: from the first that is too late on, all are
-        for at in np.lexsort((least, place)).tolist():
-            miss, total = misses[place[at]], float(least[at])
+        for at in np.lexsort((minimum, place)).tolist():
+            miss, total = misses[place[at]], float(minimum[at])
             if self._too_late(miss, total):
                 break
             if self.most and miss == self.most[0] and total > self.most[1]:
@@ -290,7 +290,7 @@ def _pairs(span: Span) -> int:
     return int((span[1] - span[0]).sum())
 
 
-def _least_sums(over: Ints, under: Ints, size: int) -> Floats:
+def _minimum_sums(over: Ints, under: Ints, size: int) -> Floats:
     """A lower bound of the sum of all counts: no sum is less than with equal counts."""
     root = 1.0 / size
     sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
@@ -338,12 +338,12 @@ class RowFinder:
             for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
                 self.judge.see(over, under, j, i)
 
-    def _useful(self, sets: CountSets, least: int) -> CountSets:
+    def _useful(self, sets: CountSets, minimum: int) -> CountSets:
         """Without the sets that can be in no solution better than what is there; only where every pair is one."""
         bound, by = self.judge.best.bound, self.question.by
         if not self.loose or bound is None or by not in ("total", "largest"):
             return sets
-        first = sets.sums + self.question.stages * least if by == "total" else sets.largest
+        first = sets.sums + self.question.stages * minimum if by == "total" else sets.largest
         return sets.taken(np.flatnonzero(first <= bound[0]))
 
 
@@ -425,8 +425,8 @@ class StageFilter:
             both = np.sort(np.concatenate([top, beneath], axis=1), axis=1)
             at = self._left(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "a count that is there twice")
         if fit.totals_matter:
-            total, (least, most) = top[at].sum(axis=1) + beneath[at].sum(axis=1), fit.totals
-            at = self._left(at, (total >= least) & (total <= most), "a sum of counts out of bounds")
+            total, (minimum, most) = top[at].sum(axis=1) + beneath[at].sum(axis=1), fit.totals
+            at = self._left(at, (total >= minimum) & (total <= most), "a sum of counts out of bounds")
         by = self.question.by
         if not fit.pairs_matter and by not in ("hunting", "centres"):
             return at, None
@@ -446,9 +446,9 @@ class StageFilter:
 def pairing_reason(question: StageProblem) -> str:
     """What no pairing of the sets has."""
     fit = question.fit
-    asked = [
+    requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
         *(["one centre distance"] if fit.reverted else []),
         *([f"a larger ring in {fit.internal} of the stages"] if fit.internal else []),
     ]
-    return f"no pairing with {' and '.join(asked)}"
+    return f"no pairing with {' and '.join(requested)}"

@@ -58,7 +58,7 @@ def stages_of(question: StageProblem, total: int) -> list[tuple[int, int]]:
 def tally(question: StageProblem) -> dict[str, int]:
     """How many pairs of sets have no one centre distance, no coprime pairing, or a total out of bounds: exact."""
     size, fit = question.stages, question.fit
-    least, most = fit.totals
+    minimum, most = fit.totals
     sums = {APART: question.considered, SHARED: 0, TOTAL: 0}
     for total in sums_of(question):
         stages = stages_of(question, total)
@@ -67,7 +67,7 @@ def tally(question: StageProblem) -> dict[str, int]:
         left = multisets(good, size) if good else 0
         sums[APART] -= whole
         sums[SHARED] += whole - left
-        sums[TOTAL] += 0 if least <= size * total <= most else left
+        sums[TOTAL] += 0 if minimum <= size * total <= most else left
     return {reason: number for reason, number in sums.items() if number}
 
 
@@ -78,12 +78,12 @@ def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
     """
     question = stage_problem_of(task["question"])
     judge = StageFilter(question)
-    least, most = question.fit.totals
+    minimum, most = question.fit.totals
     for total in range(task["low"], task["high"]):
         stages = stages_of(question, total)
         if question.fit.hunting:
             stages = [stage for stage in stages if gcd(*stage) == 1]
-        if stages and least <= question.stages * total <= most:
+        if stages and minimum <= question.stages * total <= most:
             _search(question, stages, judge)
     return judge.result()
 
@@ -131,8 +131,8 @@ def _halves(number: int, size: int) -> Ints:
     """Unordered sets of `size` of so many stages, ascending in each, (sets, size)."""
     found = np.zeros((1, 0), dtype=np.int64)
     for _ in range(size):
-        least = found[:, -1] if found.shape[1] else np.zeros(1, dtype=np.int64)
-        row, last = spread(least, np.full(len(least), number))
+        minimum = found[:, -1] if found.shape[1] else np.zeros(1, dtype=np.int64)
+        row, last = spread(minimum, np.full(len(minimum), number))
         found = np.concatenate([found[row], last[:, None]], axis=1)
     return found
 
@@ -178,13 +178,13 @@ def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     The question's own tolerance is not looked at.
     """
     search = _search_for(question)
-    least, most = reach_of_errors(question.value, *question.reach)
+    minimum, most = reach_of_errors(question.value, *question.reach)
     start, bound = search.start(), search.widened_pilot()
     if bound:
         start = rounded_up(bound[1])
     while True:
         # the nearest ratio of all may be far away: the tolerance begins there
-        tolerance = min(least + start, most)
+        tolerance = min(minimum + start, most)
         found = search.sweep(tolerance, bound, means)
         means = replace(means, journal=None)  # its pieces are those of the first tolerance
         if found.count >= question.best or tolerance >= most or not found.complete:

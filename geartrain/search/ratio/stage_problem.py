@@ -54,7 +54,7 @@ class StageConstraints(Result):
     internal: int = 0
     """How many of the meshes are with a ring, 0 to the number of stages. Such a mesh keeps the sense, the others
     reverse it; its ring has more teeth than its pinion."""
-    least_total: int | None = None
+    minimum_total: int | None = None
     """Least sum of all counts."""
     most_total: int | None = None
     """Greatest sum of all counts."""
@@ -79,13 +79,13 @@ class StageConstraints(Result):
     @property
     def totals(self) -> tuple[int, int]:
         """Least and greatest sum of all counts."""
-        least = 0 if self.least_total is None else self.least_total
-        return least, (1 << 62) if self.most_total is None else self.most_total
+        minimum = 0 if self.minimum_total is None else self.minimum_total
+        return minimum, (1 << 62) if self.most_total is None else self.most_total
 
     @property
     def totals_matter(self) -> bool:
         """True if the sum of all counts is bounded."""
-        return self.least_total is not None or self.most_total is not None
+        return self.minimum_total is not None or self.most_total is not None
 
     @property
     def free(self) -> bool:
@@ -108,9 +108,9 @@ class StageConstraints(Result):
                     f"give internal from 0 to {stages}",
                 )
             )
-        least, most = self.totals
-        if least > most:
-            what = f"least_total is {least}, most_total is {most}"
+        minimum, most = self.totals
+        if minimum > most:
+            what = f"minimum_total is {minimum}, most_total is {most}"
             raise QuestionError(Problem(what, "no sum is between them", "exchange them, or leave one out"))
 
 
@@ -159,8 +159,8 @@ class StageProblem:
     @cached_property
     def edges(self) -> tuple[Fraction, Fraction]:
         """Least and greatest ratio within the tolerance, and within reach of the products."""
-        least, most = self.reach
-        return max(self.value * (1 - self.tolerance), least), min(self.value * (1 + self.tolerance), most)
+        minimum, most = self.reach
+        return max(self.value * (1 - self.tolerance), minimum), min(self.value * (1 + self.tolerance), most)
 
     @property
     def reachable(self) -> bool:
@@ -176,16 +176,16 @@ class StageProblem:
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
         """The part of [low, high) of products beneath that some product on top can go with."""
         first, last = self.edges
-        least, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
-        return max(low, -(-least * last.denominator // last.numerator)), min(
+        minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
+        return max(low, -(-minimum * last.denominator // last.numerator)), min(
             high, most * first.denominator // first.numerator + 1
         )
 
     def tops_for(self, low: int, high: int) -> tuple[int, int]:
         """The half-open range of products on top that products beneath in [low, high) may need."""
         first, last = self.edges
-        least, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
-        return max(-(-low * first.numerator // first.denominator), least), min(
+        minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
+        return max(-(-low * first.numerator // first.denominator), minimum), min(
             (high - 1) * last.numerator // last.denominator, most
         ) + 1
 
@@ -348,8 +348,8 @@ def best_pairing(
                 found[pairs] = merit
     if not found:
         return None
-    least, scale = min(found.values()), prod(beneath)
-    return min((_spread(pairs, scale), pairs) for pairs, merit in found.items() if merit == least)[1]
+    minimum, scale = min(found.values()), prod(beneath)
+    return min((_spread(pairs, scale), pairs) for pairs, merit in found.items() if merit == minimum)[1]
 
 
 def _sorted(stages: Pairs, chosen: tuple[int, ...]) -> Pairs:

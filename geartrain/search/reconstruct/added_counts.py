@@ -52,20 +52,20 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
     """How many choices of counts have prod(drivers) / prod(driven) = quotient; wheels are told apart."""
-    least, greatest = counts
+    minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
-    last = min(greatest**drivers // num, greatest**driven // den)
-    first = max(-(-(least**drivers) // num), -(-(least**driven) // den))
+    last = min(maximum**drivers // num, maximum**driven // den)
+    first = max(-(-(minimum**drivers) // num), -(-(minimum**driven) // den))
     if last < first:
         return 0
     if drivers <= 1 and driven <= 1:
         # 1 is the only product of no wheels
         return last - first + 1 if drivers and driven else int(first <= 1 <= last)
-    if greatest ** max(drivers, driven) <= _LONGEST:
+    if maximum ** max(drivers, driven) <= _LONGEST:
         above = product_tally(drivers, counts)[first * num : last * num + 1 : num]
         below = product_tally(driven, counts)[first * den : last * den + 1 : den]
         return int(above @ below)
-    tried = range(least, greatest + 1)
+    tried = range(minimum, maximum + 1)
     if drivers >= driven:
         return sum(count_choices(quotient / count, drivers - 1, driven, counts) for count in tried)
     return sum(count_choices(quotient * count, drivers, driven - 1, counts) for count in tried)
@@ -100,12 +100,12 @@ def quotients_of_parts(
 @lru_cache(maxsize=1 << 16)
 def factorings(number: int, wheels: int, counts: Range) -> tuple[tuple[int, ...], ...]:
     """Counts of so many wheels with a given product, in every order."""
-    least, greatest = counts
-    if not least**wheels <= number <= greatest**wheels:
+    minimum, maximum = counts
+    if not minimum**wheels <= number <= maximum**wheels:
         return ()
     if wheels <= 1:
         return ((number,),) if wheels else ((),)
-    found = (count for count in range(least, greatest + 1) if number % count == 0)
+    found = (count for count in range(minimum, maximum + 1) if number % count == 0)
     return tuple((count, *rest) for count in found for rest in factorings(number // count, wheels - 1, counts))
 
 
@@ -129,13 +129,13 @@ class QuotientTable:
         order = np.argsort(values)
         return QuotientTable(pairs[0][order], pairs[1][order], number[order], values[order])
 
-    def within(self, least: Fraction, greatest: Fraction) -> slice:
+    def within(self, minimum: Fraction, maximum: Fraction) -> slice:
         """Where the quotients within bounds stand."""
-        first = int(np.searchsorted(self.values, float(least) * (1 - 1e-15)))
-        last = int(np.searchsorted(self.values, float(greatest) * (1 + 1e-15), side="right"))
-        while first < last and self[first] < least:
+        first = int(np.searchsorted(self.values, float(minimum) * (1 - 1e-15)))
+        last = int(np.searchsorted(self.values, float(maximum) * (1 + 1e-15), side="right"))
+        while first < last and self[first] < minimum:
             first += 1
-        while first < last and self[last - 1] > greatest:
+        while first < last and self[last - 1] > maximum:
             last -= 1
         return slice(first, last)
 
@@ -158,32 +158,32 @@ def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
 
 
 def quotients(
-    least: Fraction, greatest: Fraction, drivers: int, driven: int, counts: Range
+    minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[Fraction, int]]:
     """Quotients within bounds, rising, each with its number of choices."""
-    if least == greatest:
-        if number := count_choices(least, drivers, driven, counts):
-            yield least, number
+    if minimum == maximum:
+        if number := count_choices(minimum, drivers, driven, counts):
+            yield minimum, number
         return
     table = quotient_table(drivers, driven, counts)
-    found = table.within(least, greatest)
+    found = table.within(minimum, maximum)
     for at in range(found.start, found.stop):
         yield table[at], int(table.choices[at])
 
 
-def count_between(least: Fraction, greatest: Fraction, drivers: int, driven: int, counts: Range) -> int:
+def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range) -> int:
     """How many choices have a quotient within bounds."""
-    if least == greatest:
-        return count_choices(least, drivers, driven, counts)
+    if minimum == maximum:
+        return count_choices(minimum, drivers, driven, counts)
     if drivers + driven <= 3:
         table = quotient_table(drivers, driven, counts)
-        return int(table.choices[table.within(least, greatest)].sum())
+        return int(table.choices[table.within(minimum, maximum)].sum())
     some = (
         quotient_table(1, 1, counts) if drivers and driven else quotient_table(min(drivers, 2), min(driven, 2), counts)
     )
     used = (1, 1) if drivers and driven else (min(drivers, 2), min(driven, 2))
     return sum(
-        int(own) * count_between(least / some[at], greatest / some[at], drivers - used[0], driven - used[1], counts)
+        int(own) * count_between(minimum / some[at], maximum / some[at], drivers - used[0], driven - used[1], counts)
         for at, own in enumerate(some.choices)
     )
 
@@ -197,8 +197,8 @@ Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 class AddedCounts:
     """Assignments of counts from least to greatest to added wheels."""
 
-    def __init__(self, least: int, greatest: int) -> None:
-        self.range = least, greatest
+    def __init__(self, minimum: int, maximum: int) -> None:
+        self.range = minimum, maximum
         self._count = lru_cache(maxsize=1 << 18)(self._counted)
 
     @property
@@ -215,16 +215,16 @@ class AddedCounts:
         if not limits:
             return self.count(added, wanted)
         limit, others = limits[0], limits[1:]
-        least, greatest = self.range
+        minimum, maximum = self.range
         left = added.without(limit)
         if not limit.dials:
-            return max(0, limit.most - least + 1) * self.count_limited(left, wanted, others)
+            return max(0, limit.most - minimum + 1) * self.count_limited(left, wanted, others)
 
         def among(counts: range) -> int:
             quotients_of = (Fraction(count) if limit.drives else Fraction(1, count) for count in counts)
             return sum(self.count_limited(left, divided(wanted, limit.dials, each), others) for each in quotients_of)
 
-        allowed, ruled_out = range(least, limit.most + 1), range(max(least, limit.most + 1), greatest + 1)
+        allowed, ruled_out = range(minimum, limit.most + 1), range(max(minimum, limit.most + 1), maximum + 1)
         if len(allowed) <= len(ruled_out):
             return among(allowed)
         return self.count_limited(added, wanted, others) - among(ruled_out)
@@ -295,8 +295,8 @@ class AddedCounts:
                 at = own[0]
                 if bounds[0] == bounds[1]:
                     return at, bounds, groups[at][0] == (dial,)
-                least, greatest = alone.get(at, bounds)
-                alone[at] = max(least, bounds[0]), min(greatest, bounds[1])
+                minimum, maximum = alone.get(at, bounds)
+                alone[at] = max(minimum, bounds[0]), min(maximum, bounds[1])
             else:
                 tried += [(len(own), groups[at][1] + groups[at][2], -len(groups[at][0]), at) for at in own]
         private = next((at for at in alone if len(groups[at][0]) == 1), None)
@@ -338,8 +338,8 @@ def _alike(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
     for dial, (low, high) in wanted:
         own = tuple(at for at, group in enumerate(groups) if dial in group[0])
         if own in found:
-            _, (least, greatest) = found[own]
-            low, high = max(low, least), min(high, greatest)
+            _, (minimum, maximum) = found[own]
+            low, high = max(low, minimum), min(high, maximum)
             if low > high:
                 return None
         found[own] = dial, (low, high)
@@ -423,36 +423,36 @@ class AddedCountSums:
         self._listed = lru_cache(maxsize=1 << 12)(self._list)
         self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
-    def total(self, asked: OpenCounts) -> int:
+    def total(self, requested: OpenCounts) -> int:
         """How many choices there are."""
-        return self._counts.count_limited(asked.added, asked.wanted, asked.limits)
+        return self._counts.count_limited(requested.added, requested.wanted, requested.limits)
 
-    def _of_kind(self, asked: OpenCounts, kind: AddedKind) -> dict[int, int]:
+    def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
         """By count, in how many choices one wheel of a kind has it; counts that it never has are left out."""
-        few = self._few(asked)
+        few = self._few(requested)
         if few is not None:
             return few.of_kind[kind]
-        least, greatest = self._counts.range
-        most = greatest if kind.most is None else min(kind.most, greatest)
-        found = ((count, self.total(asked.with_one(kind, count))) for count in range(least, most + 1))
+        minimum, maximum = self._counts.range
+        most = maximum if kind.most is None else min(kind.most, maximum)
+        found = ((count, self.total(requested.with_one(kind, count))) for count in range(minimum, most + 1))
         return {count: number for count, number in found if number}
 
-    def _with_any(self, asked: OpenCounts) -> dict[int, int]:
+    def _with_any(self, requested: OpenCounts) -> dict[int, int]:
         """By count, in how many choices any of the wheels has it, by inclusion and exclusion."""
-        few = self._few(asked)
+        few = self._few(requested)
         if few is not None:
             return few.with_any
-        kinds = tuple(asked.kinds())
-        counts = {count for kind, _ in kinds for count in self.of_kind(asked, kind)}
-        whole = self.total(asked)
-        return {count: whole - self._signed(asked, kinds, count, whole) for count in sorted(counts)}
+        kinds = tuple(requested.kinds())
+        counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
+        whole = self.total(requested)
+        return {count: whole - self._signed(requested, kinds, count, whole) for count in sorted(counts)}
 
-    def _signed(self, asked: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int) -> int:
+    def _signed(self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int) -> int:
         """The choices in which no wheel of some kinds has a count, of those that are open: so many."""
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]
-        found, left, total = 0, asked, number
+        found, left, total = 0, requested, number
         for chosen in range(wheels + 1):
             found += (-1) ** chosen * comb(wheels, chosen) * self._signed(left, others, count, total)
             if chosen == wheels or (kind.most is not None and count > kind.most):
@@ -463,23 +463,23 @@ class AddedCountSums:
                 break
         return found
 
-    def _few(self, asked: OpenCounts) -> _FewChoices | None:
+    def _few(self, requested: OpenCounts) -> _FewChoices | None:
         """The sums over choices one by one, where they are so few that this is fast."""
-        if asked.limits or self.total(asked) > _FEW:
+        if requested.limits or self.total(requested) > _FEW:
             return None
-        return self._listed(asked)
+        return self._listed(requested)
 
-    def _list(self, asked: OpenCounts) -> _FewChoices:
-        found, kinds = _FewChoices(defaultdict(Counter), Counter()), [kind for kind, _ in asked.kinds()]
-        for counts, idle in self._counts.assignments(asked.added, asked.wanted):
+    def _list(self, requested: OpenCounts) -> _FewChoices:
+        found, kinds = _FewChoices(defaultdict(Counter), Counter()), [kind for kind, _ in requested.kinds()]
+        for counts, idle in self._counts.assignments(requested.added, requested.wanted):
             wheels = {kind: counts[kind.dials][not kind.drives] if kind.dials else idle for kind in kinds}
             for kind, own in wheels.items():
                 found.of_kind[kind][own[0]] += 1  # the first stands for each
             found.with_any.update({count for own in wheels.values() for count in own})
         return found
 
-    def draw(self, asked: OpenCounts, kind: AddedKind, chance: Random) -> tuple[int, OpenCounts]:
+    def draw(self, requested: OpenCounts, kind: AddedKind, chance: Random) -> tuple[int, OpenCounts]:
         """The count of one wheel of a kind in a choice that is drawn, and what is open then."""
-        by_count = self.of_kind(asked, kind)
+        by_count = self.of_kind(requested, kind)
         count = [*by_count][draw_index([*by_count.values()], chance)]
-        return count, asked.with_one(kind, count)
+        return count, requested.with_one(kind, count)

@@ -48,9 +48,9 @@ def rings_mesh(arbor: Arbor, rings: Rings) -> bool:
     return all(may_mesh(wheel, mate, rings) for wheel, mate in _meshes(arbor))
 
 
-def rings_limit(topology: Topology, rings: Rings, greatest: int) -> bool:
+def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
     """Whether an order may limit counts below the greatest: whether a ring is so small."""
-    return any(wheel.name in rings and wheel.teeth <= greatest for wheel in topology.used)
+    return any(wheel.name in rings and wheel.teeth <= maximum for wheel in topology.used)
 
 
 class CountTokens:
@@ -69,23 +69,23 @@ class CountTokens:
         self._owners += [(dials, drives)] * wheels
         return tuple(-at - 1 for at in range(first, first + wheels))
 
-    def limits(self, arbor: Arbor, rings: Rings, greatest: int) -> tuple[CountLimit, ...]:
+    def limits(self, arbor: Arbor, rings: Rings, maximum: int) -> tuple[CountLimit, ...]:
         """The limits below the greatest count that rings set in a train whose added wheels have tokens, sorted."""
-        most = self.most(arbor, rings, greatest)
+        most = self.most(arbor, rings, maximum)
         return tuple(sorted(CountLimit(*self.owner(token), count) for token, count in most.items()))
 
     def owner(self, token: int) -> tuple[Dials, bool]:
         """The dials whose speed a wheel changes, and whether it drives on the way to them."""
         return self._owners[-token - 1]
 
-    def most(self, arbor: Arbor, rings: Rings, greatest: int) -> dict[int, int]:
+    def most(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, int]:
         """The same limits by token."""
-        least: dict[int, int] = {}
+        minimum: dict[int, int] = {}
         for pair in _meshes(arbor):
             for ring, inside in (pair, pair[::-1]):
                 if ring.name in rings and inside.teeth < 0:
-                    least[inside.teeth] = min(least.get(inside.teeth, greatest), ring.teeth - 1)
-        return {token: count for token, count in least.items() if count < greatest}
+                    minimum[inside.teeth] = min(minimum.get(inside.teeth, maximum), ring.teeth - 1)
+        return {token: count for token, count in minimum.items() if count < maximum}
 
 
 def _meshes(arbor: Arbor) -> Iterator[tuple[PlacedWheel, PlacedWheel]]:

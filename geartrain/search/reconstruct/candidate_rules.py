@@ -104,7 +104,7 @@ def _of_dials(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Brok
             yield BrokenRule("dial", (dial.name,), f"{dial.name} is not shown", _without(dial.name))
             continue
         ((arbor, speed),) = shown[dial.name]
-        if not dial.least <= (speed if dial.signed else abs(speed)) <= dial.greatest:
+        if not dial.minimum <= (speed if dial.signed else abs(speed)) <= dial.maximum:
             turns = fraction_text(speed)
             what = f"{dial.name} turns at {turns}, not {speed_text(dial)}"
             yield BrokenRule("speed", (dial.name,), what, f"if {dial.name} turns at {turns}", (speed,))
@@ -128,7 +128,7 @@ def _without(dial: str) -> str:
 
 def speed_text(dial: SearchedDial) -> str:
     """The speed that a dial must have, in words."""
-    bounds = dict.fromkeys((dial.least, dial.greatest))
+    bounds = dict.fromkeys((dial.minimum, dial.maximum))
     text = " to ".join(fraction_text(each) if dial.is_exact else f"{float(each):.7g}" for each in bounds)
     return text + ("" if dial.signed else " in either sense")
 
@@ -186,12 +186,12 @@ def _of_arbors(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
 def _of_additions(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     limits = problem.additions
     added = sorted({wheel.teeth for wheel in candidate.wheels() if wheel.name is None})
-    beyond = [teeth for teeth in added if not limits.least <= teeth <= limits.greatest]
+    beyond = [teeth for teeth in added if not limits.minimum <= teeth <= limits.maximum]
     if beyond:
-        least, greatest = min(limits.least, *added), max(limits.greatest, *added)
-        bounds = Fraction(least), Fraction(greatest)
-        what = f"added wheels have {', '.join(map(str, beyond))} teeth, and {limits.least} to {limits.greatest} may be"
-        yield BrokenRule("teeth", (), what, f"if added wheels may have {least} to {greatest} teeth", bounds)
+        minimum, maximum = min(limits.minimum, *added), max(limits.maximum, *added)
+        bounds = Fraction(minimum), Fraction(maximum)
+        what = f"added wheels have {', '.join(map(str, beyond))} teeth, and {limits.minimum} to {limits.maximum} may be"
+        yield BrokenRule("teeth", (), what, f"if added wheels may have {minimum} to {maximum} teeth", bounds)
     arbors = candidate.added_arbors
     if limits.arbors is not None and arbors > limits.arbors:
         what = f"arbors are added: {arbors}, and {limits.arbors} may be"
@@ -252,8 +252,8 @@ def _admit(problem: ReconstructionProblem, broken: BrokenRule) -> Reconstruction
         return _without_parts(problem, broken)
     limits = problem.additions
     if rule == "teeth":
-        least, greatest = map(int, broken.values)
-        return replace(problem, additions=replace(limits, least=least, greatest=greatest))
+        minimum, maximum = map(int, broken.values)
+        return replace(problem, additions=replace(limits, minimum=minimum, maximum=maximum))
     if rule == "arbors":
         return replace(problem, additions=replace(limits, arbors=int(broken.values[0])))
     if rule == "beside":
@@ -284,7 +284,7 @@ def _admitted_dial(dial: SearchedDial, broken: BrokenRule) -> SearchedDial | Non
     if broken.rule == "place":
         return replace(dial, place=None)
     (speed,) = broken.values
-    return replace(dial, least=speed, greatest=speed, signed=True)
+    return replace(dial, minimum=speed, maximum=speed, signed=True)
 
 
 def _without_parts(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
@@ -486,7 +486,7 @@ class _Reading:
             (
                 link
                 for link, speed in self._speeds.items()
-                if dial.least <= (speed if dial.signed else abs(speed)) <= dial.greatest
+                if dial.minimum <= (speed if dial.signed else abs(speed)) <= dial.maximum
                 and not (lost and link in self._names)
             ),
             None,
@@ -524,12 +524,12 @@ class _Reading:
 def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: ReconstructionProblem) -> None:
     """Make sure that names which are said to be the same are names. Raises `QuestionError`."""
     own = {name for train in trains for name in (*train.wheels, *train.outputs)}
-    asked = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}
-    asked |= {dial.name for dial in problem.dials}
+    requested = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}
+    requested |= {dial.name for dial in problem.dials}
     for name, called in pairs.items():
         if name not in own:
             what = f"'{name}' is no wheel and no output of a train that is ranked"
             raise QuestionError(Problem(what, "", suggest(name, sorted(own))))
-        if called not in asked:
+        if called not in requested:
             what = f"'{called}' is no wheel and no dial of the evidence"
-            raise QuestionError(Problem(what, "", suggest(called, sorted(asked))))
+            raise QuestionError(Problem(what, "", suggest(called, sorted(requested))))

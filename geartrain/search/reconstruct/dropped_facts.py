@@ -23,7 +23,7 @@ from geartrain.search.reconstruct.reconstruction_search import Reconstructions, 
 Search = Callable[[ReconstructionProblem], Reconstructions]
 """What finds all explanations of a question."""
 
-_LEAST_TEETH = 3
+_MINIMUM_TEETH = 3
 
 
 @dataclass(frozen=True)
@@ -141,9 +141,12 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
         yield "if a driven wheel may drive", replace(problem, idlers=True)
     if not limits.wheels:
         return
-    wider = {replace(limits, least=max(_LEAST_TEETH, limits.least // 2)), replace(limits, greatest=2 * limits.greatest)}
-    for wide in sorted((wide for wide in wider if wide.least <= limits.least), key=lambda wide: wide.greatest):
-        said = f"{wide.least} to {wide.greatest}"
+    wider = {
+        replace(limits, minimum=max(_MINIMUM_TEETH, limits.minimum // 2)),
+        replace(limits, maximum=2 * limits.maximum),
+    }
+    for wide in sorted((wide for wide in wider if wide.minimum <= limits.minimum), key=lambda wide: wide.maximum):
+        said = f"{wide.minimum} to {wide.maximum}"
         yield f"if added wheels may have {said} teeth", replace(problem, additions=wide)
     if limits.arbors is not None:
         yield "if any number of arbors may be added", replace(problem, additions=replace(limits, arbors=None))
@@ -153,9 +156,9 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
 
 def _unsigned(dial: SearchedDial) -> SearchedDial:
     """The dial in either sense."""
-    ends = sorted(map(abs, (dial.least, dial.greatest)))
-    least = Fraction(0) if dial.least < 0 < dial.greatest else ends[0]
-    return replace(dial, least=least, greatest=ends[1], signed=False)
+    ends = sorted(map(abs, (dial.minimum, dial.maximum)))
+    minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
+    return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
 
 
 def _with_dial(problem: ReconstructionProblem, at: int, dial: SearchedDial) -> ReconstructionProblem:
@@ -193,7 +196,7 @@ class MissingExplanation(Result):
     """Each dial alone."""
     doubts: tuple[ChangedCount, ...]
     """Single things that would leave an explanation if they were otherwise, the cheapest first."""
-    asked: int
+    requested: int
     """How many were tried."""
     refused: tuple[str, ...]
     """Those that could not be asked."""

@@ -105,8 +105,8 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
         what = f"the sense of '{name}' is not known, and it is seen from the frame"
         why = "then it has two speeds, as seen from the carrier"
         raise DeclarationError(Problem(what, why, "give the sense, or its speed `relative_to` the carrier", place))
-    least, greatest = bounds.limits
-    return replace(bounds, limits=(least - turning, greatest - turning))
+    minimum, maximum = bounds.limits
+    return replace(bounds, limits=(minimum - turning, maximum - turning))
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
@@ -143,11 +143,11 @@ def _magnitudes(limits: Limits) -> Limits:
 
 
 def _common(ranges: list[Limits], name: str, place: str) -> Limits:
-    least, greatest = max(low for low, _ in ranges), min(high for _, high in ranges)
-    if least > greatest:
+    minimum, maximum = max(low for low, _ in ranges), min(high for _, high in ranges)
+    if minimum > maximum:
         why = "no speed is within `expect` and all targets with a tolerance"
         raise DeclarationError(Problem(f"what is said of '{name}' contradicts itself", why, "correct one", place))
-    return least, greatest
+    return minimum, maximum
 
 
 def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) -> Limits:
@@ -213,17 +213,17 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Examples
     --------
     >>> from geartrain.search.reconstruct import read_evidence
-    >>> asked = evidence_question(read_evidence("metonic-l-m")).problem
-    >>> [arbor.name for arbor in asked.arbors], asked.additions.wheels
+    >>> requested = evidence_question(read_evidence("metonic-l-m")).problem
+    >>> [arbor.name for arbor in requested.arbors], requested.additions.wheels
     (['l', 'm'], 1)
     """
-    asked = evidence.reconstruct
-    assert asked is not None, "no evidence"
+    requested = evidence.reconstruct
+    assert requested is not None, "no evidence"
     found = [*_not_taken_up(evidence), *coupling_problems(evidence), *_wheels(evidence)]
     unclear = list(base_problems(evidence))
     base = None if unclear else find_base(evidence)
     found += unclear
-    if wheels and asked.add.teeth is None:
+    if wheels and requested.add.teeth is None:
         fix = "add for example `teeth: [12, 225]`"
         place = evidence.place("reconstruct")
         found.append(Problem("wheels are to be added whose counts have no bounds", "", fix, place))
@@ -231,7 +231,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     for name in evidence.outputs:
         try:
             if base is not None:
-                bounds[name] = find_bounds(evidence, name, asked.sense == "free", base)
+                bounds[name] = find_bounds(evidence, name, requested.sense == "free", base)
         except DeclarationError as error:
             found += error.problems
     if not evidence.outputs:
@@ -249,14 +249,14 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
         input=_arbor(evidence, base.source),
         arbors=arbors,
         dials=tuple(SearchedDial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
-        additions=_additions(asked.add, wheels),
+        additions=_additions(requested.add, wheels),
         input_speed=base.driven,
         meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),
-        apart=frozenset(frozenset(pair) for pair in asked.apart) | unreachable,
+        apart=frozenset(frozenset(pair) for pair in requested.apart) | unreachable,
         coaxial=frozenset(_coaxial(evidence, base, geometry)),
-        use=asked.use,
-        idlers=asked.idlers or idlers,
-        factors=PriorFactors(asked.cost.wheel.value, asked.cost.arbor.value, asked.cost.unused.value),
+        use=requested.use,
+        idlers=requested.idlers or idlers,
+        factors=PriorFactors(requested.cost.wheel.value, requested.cost.arbor.value, requested.cost.unused.value),
         geometry=geometry,
     )
     unused = [*_unused(evidence), *(line for bound in bounds.values() for line in bound.unused)]
@@ -267,8 +267,8 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
 
 
 def _additions(add: AddedParts, wheels: int | None) -> Additions:
-    least, greatest = add.teeth or (1, 1)  # where none are added, it does not matter
-    return Additions(add.wheels if wheels is None else wheels, least, greatest, add.arbors, add.on)
+    minimum, maximum = add.teeth or (1, 1)  # where none are added, it does not matter
+    return Additions(add.wheels if wheels is None else wheels, minimum, maximum, add.arbors, add.on)
 
 
 def _arbor(evidence: Train, link: str) -> SurvivingArbor:

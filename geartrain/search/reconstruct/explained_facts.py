@@ -187,7 +187,7 @@ class ExplainedFacts:
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
         self._weighed = weighed
         self._listed: dict[Fact, dict[str, list[int]]] = {}
-        lost, doubtful = lost_pointers(problem), wheels_in_doubt(problem)
+        lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
         own = FactTally(problem)
         for index, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True)):
             own.add_trains(weight)
@@ -203,12 +203,12 @@ class ExplainedFacts:
 
     def next_facts(self) -> tuple[NextFact, ...]:
         """Facts that would divide the trains, the most telling first."""
-        asked = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
-        asked = [one for one in asked if len(one.answers) > 1]
+        requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
+        requested = [one for one in requested if len(one.answers) > 1]
         order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
-        asked.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
+        requested.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
         alike: dict[Hashable, list[FactMarginal]] = {}
-        for one in asked[:_MOST_FACTS]:
+        for one in requested[:_MOST_FACTS]:
             alike.setdefault(self._parts(one), []).append(one)
         return tuple(
             NextFact(first, tuple(Fact(one.kind, one.subject) for one in others)) for first, *others in alike.values()
@@ -254,7 +254,7 @@ def lost_pointers(problem: ReconstructionProblem) -> set[str]:
     return {dial.name for dial in problem.dials if dial.place is None}
 
 
-def wheels_in_doubt(problem: ReconstructionProblem) -> set[str]:
+def uncertain_wheels(problem: ReconstructionProblem) -> set[str]:
     """Surviving wheels that may have several counts."""
     return {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
 
@@ -285,7 +285,7 @@ def sum_facts(
 ) -> FactTally:
     """What the trains of topologies say, each topology with the weight of one of its trains."""
     trains, sums = TopologyTrains(problem, dials), FactTally(problem)
-    lost, doubtful = lost_pointers(problem), wheels_in_doubt(problem)
+    lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
     for topology, weight in weighed:
         parts = [part for part in trains.parts(topology) if part.choices and part.orders.total]
         number = sum(part.choices * part.orders.total for part in parts)

@@ -149,14 +149,14 @@ def _layer(
     name: str | None, wheel: PlacedWheel, children: Sequence[Arbor], geometry: SurvivingGeometry
 ) -> Iterator[_Member]:
     mates = [child.driven for child in children if child.driven is not None]
-    yield name, max(_least_radius(wheel, mate, geometry) for mate in mates)
+    yield name, max(_minimum_radius(wheel, mate, geometry) for mate in mates)
     for child, mate in zip(children, mates, strict=True):
-        yield child.name, _least_radius(mate, wheel, geometry)
+        yield child.name, _minimum_radius(mate, wheel, geometry)
         if child.passes:
             yield from list(_layer(child.name, mate, child.passes, geometry))[1:]
 
 
-def _least_radius(wheel: PlacedWheel, mate: PlacedWheel, geometry: SurvivingGeometry) -> Fraction:
+def _minimum_radius(wheel: PlacedWheel, mate: PlacedWheel, geometry: SurvivingGeometry) -> Fraction:
     bounds = geometry.module_bounds((wheel.name, wheel.teeth), (mate.name, mate.teeth))
     return Fraction(0) if bounds is None else max(Fraction(0), bounds[0] * wheel.teeth / 2)
 
@@ -195,10 +195,10 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
         return 0.0
     modules = _Modules(geometry).misfit(arbor) / float(geometry.module) ** 2
     distances = sum(_distance_misfit(one, geometry) for one in meshes) / float(geometry.distance) ** 2
-    return math.exp(max(-(modules + distances) / 2, _LEAST))
+    return math.exp(max(-(modules + distances) / 2, _MINIMUM))
 
 
-_LEAST = -700.0  # its exponential is still above 0, which alone says impossible
+_MINIMUM = -700.0  # its exponential is still above 0, which alone says impossible
 _End = tuple[str | None, tuple[str | None, int]]
 """Arbor, and name and count of a wheel on it."""
 

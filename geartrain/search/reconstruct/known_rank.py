@@ -23,7 +23,7 @@ from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
     lost_pointers,
     train_facts,
-    wheels_in_doubt,
+    uncertain_wheels,
 )
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
 from geartrain.search.reconstruct.reconstruction_search import (
@@ -40,9 +40,9 @@ from geartrain.train import Train
 # Which facts single one train out among all that explain the evidence: each alone, and the smallest sets of them.
 
 
-GREATEST, LEAST = "greatest", "least"
+MAXIMUM, MINIMUM = "maximum", "minimum"
 """Kinds of facts beside those that are looked for: how many teeth an added wheel has at most, and at least."""
-_KINDS = (*LOOKED_FOR, GREATEST, LEAST)
+_KINDS = (*LOOKED_FOR, MAXIMUM, MINIMUM)
 _Subject = tuple[str, str]
 _MOST_TOGETHER = 3
 """Facts that are tried together at most."""
@@ -55,9 +55,9 @@ class TellingFact(Result):
     """A fact that holds in a train and not in all."""
 
     kind: str
-    """What it is about: of the kinds of `Fact` those that are looked for, or `GREATEST` or `LEAST`."""
+    """What it is about: of the kinds of `Fact` those that are looked for, or `MAXIMUM` or `MINIMUM`."""
     subject: str
-    """Of what it is; nothing for `GREATEST` and `LEAST`."""
+    """Of what it is; nothing for `MAXIMUM` and `MINIMUM`."""
     answer: str
     """What the train says."""
     mechanisms: int
@@ -95,7 +95,7 @@ def find_telling_facts(
     wanted = mechanism(candidate)
     which = next(at for at, one in enumerate(found.candidates) if mechanism(one.arbor) == wanted)
     trains = [named_candidate(evidence, one.arbor) for one in found.candidates]
-    return single_out(trains, which, wheels_in_doubt(problem), lost_pointers(problem))
+    return single_out(trains, which, uncertain_wheels(problem), lost_pointers(problem))
 
 
 def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], lost: set[str]) -> TellingFacts:
@@ -125,17 +125,17 @@ def _said(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tup
             yield (fact.kind, fact.subject), answer
     added = [wheel.teeth for arbor in train.arbors() for wheel in arbor.wheels() if wheel.added]
     if added:
-        yield (GREATEST, ""), str(max(added))
-        yield (LEAST, ""), str(min(added))
+        yield (MAXIMUM, ""), str(max(added))
+        yield (MINIMUM, ""), str(min(added))
 
 
 def _alike(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
     """Trains of which a fact holds; of a bound, those that keep it."""
     for at, one in enumerate(said):
         own = one.get(fact)
-        if fact[0] == GREATEST:
+        if fact[0] == MAXIMUM:
             agrees = own is None or int(own) <= int(answer)
-        elif fact[0] == LEAST:
+        elif fact[0] == MINIMUM:
             agrees = own is None or int(own) >= int(answer)
         else:
             agrees = own == answer
@@ -186,7 +186,7 @@ class AdmittingQuestion(Result):
     """Wheels that the train adds in it, with their counts."""
     arbors: int
     """Arbors that it adds."""
-    asked: int
+    requested: int
     """Up to how many added wheels it was asked: as many as the train adds, if so many may be."""
     mechanisms: tuple[int, ...]
     """Trains with just 0, 1, 2, ... added wheels that explain it."""
@@ -308,15 +308,15 @@ def _all_admitted(
             continue
         told.add(changes)
         own = known.arbor.added_wheels
-        asked = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
-        said = changes, dict(known.added), known.arbor.added_arbors, asked.additions.wheels
+        requested = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
+        said = changes, dict(known.added), known.arbor.added_arbors, requested.additions.wheels
         try:
-            found = search(asked)
+            found = search(requested)
         except QuestionError as error:
             yield AdmittingQuestion(*said, (), None, error.problems[0].what)
         else:
             mechanisms = tuple(count.mechanisms for count in found.counts)
-            yield AdmittingQuestion(*said, mechanisms, find_place(known.arbor, asked, found))
+            yield AdmittingQuestion(*said, mechanisms, find_place(known.arbor, requested, found))
 
 
 def _changed(

@@ -171,9 +171,9 @@ def _carrier_pointers(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def _not_with_a_carrier(evidence: Train) -> Iterator[Problem]:
-    asked = evidence.reconstruct
-    assert asked is not None
-    if asked.geometry is not None:
+    requested = evidence.reconstruct
+    assert requested is not None
+    if requested.geometry is not None:
         what = "`geometry` on a carrier is not taken up by a reconstruction yet"
         fix = "leave `geometry` out to ask without it"
         yield Problem(what, "axes on a carrier move", fix, evidence.place("reconstruct", "geometry"))
@@ -200,11 +200,11 @@ def joined_arbors(evidence: Train) -> Joined:
 
 def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, Any]]:
     """The couplings of joined links with the keys of a declaration."""
-    asked = evidence.reconstruct
+    requested = evidence.reconstruct
     for coupling in evidence.couplings:
         if coupling.pin in links:
             yield coupling.model_dump(mode="json", exclude_unset=True, by_alias=True)
-    for given in () if asked is None else asked.given:
+    for given in () if requested is None else requested.given:
         if given.pair[0] in links:
             yield {"kind": given.kind, "pin": given.pair[0], "slot": given.pair[1]}
 

@@ -55,8 +55,8 @@ def tours_with_one_more(number: int, far: tuple[int, ...]) -> tuple[tuple[int, i
     """By two ends between which one more may stand on a tour: the least length of the rest."""
     orders, first, pairs = _orders(number)
     lengths = np.array(far, dtype=np.int64)[orders].sum(axis=1)
-    least = np.minimum.reduceat(lengths, first)
-    return tuple((one, two, rest) for (one, two), rest in zip(pairs, least.tolist(), strict=True))
+    minimum = np.minimum.reduceat(lengths, first)
+    return tuple((one, two, rest) for (one, two), rest in zip(pairs, minimum.tolist(), strict=True))
 
 
 @lru_cache(maxsize=16)
@@ -149,7 +149,7 @@ class PathColumns:
             own = self.powers[prime][rows] if prime in self.powers else np.int8(0)
             theirs = other.powers[prime][row] if prime in other.powers else np.int8(0)
             differ = np.abs(own - theirs)
-            found += differ if prime <= self.paths.problem.additions.greatest else differ * np.int16(_NEVER)
+            found += differ if prime <= self.paths.problem.additions.maximum else differ * np.int16(_NEVER)
         return np.minimum(found, _NEVER).astype(np.int8)
 
     def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
@@ -282,19 +282,22 @@ class PathChoice:
         ends = (_INPUT, *lists)
         for far in range(2):
             for at, (one, other) in enumerate(pairs):
-                least = {pair: far + (number < at) for number, pair in enumerate(pairs)}
-                if self._may_close(ends, {**{(_INPUT, dial): most + 1 for dial in lists}, **least}) and share.is_own():
-                    yield from self._from_pair(one, other, far, lists, least)
-        least = dict.fromkeys(pairs, 2)
-        if self._may_close(ends, {**{(_INPUT, dial): most + 1 for dial in lists}, **least}):
+                minimum = {pair: far + (number < at) for number, pair in enumerate(pairs)}
+                if (
+                    self._may_close(ends, {**{(_INPUT, dial): most + 1 for dial in lists}, **minimum})
+                    and share.is_own()
+                ):
+                    yield from self._from_pair(one, other, far, lists, minimum)
+        minimum = dict.fromkeys(pairs, 2)
+        if self._may_close(ends, {**{(_INPUT, dial): most + 1 for dial in lists}, **minimum}):
             dial = min(lists, key=lambda each: len(lists[each].rows))
             others = {other: near for other, near in lists.items() if other != dial}
             for row in lists[dial].rows.tolist():
                 if share.is_own():
-                    yield from self._with(dial, row, _Chosen(), others, least, None)
+                    yield from self._with(dial, row, _Chosen(), others, minimum, None)
 
     def _from_pair(
-        self, one: str, other: str, far: int, lists: dict[str, _Near], least: Mapping[EndPair, int]
+        self, one: str, other: str, far: int, lists: dict[str, _Near], minimum: Mapping[EndPair, int]
     ) -> Iterator[Choice]:
         rest = {dial: near for dial, near in lists.items() if dial not in (one, other)}
         for row, partners in self._joined(one, lists[one].rows, other, lists[other].rows, far):
@@ -302,7 +305,7 @@ class PathChoice:
             near = self._fitting(one, row, other, near, _Chosen(), {})
             near = near.kept(near.far[one] == far)
             if len(near.rows):
-                yield from self._with(one, row, _Chosen(), {other: near, **rest}, least, None, {other: near})
+                yield from self._with(one, row, _Chosen(), {other: near, **rest}, minimum, None, {other: near})
 
     # choice after choice
 
@@ -312,20 +315,20 @@ class PathChoice:
         row: int,
         chosen: _Chosen,
         lists: Mapping[str, _Near],
-        least: Mapping[EndPair, int],
+        minimum: Mapping[EndPair, int],
         share: _Share | None,
         known: Mapping[str, _Near] = MappingProxyType({}),
     ) -> Iterator[Choice]:
         """All choices with one path more.
 
-        least   by pair of dials, how far they must be apart: what is nearer was tried
+        minimum   by pair of dials, how far they must be apart: what is nearer was tried
         known   lists of dials in which only paths that go with the new one are left already
         """
         paths = {**chosen.paths, dial: row}
         kept: dict[str, _Near] = dict(known)
         for other in sorted(lists, key=lambda each: len(lists[each].rows)):
             if other not in kept:
-                kept[other] = self._fitting(dial, row, other, lists[other], chosen, least)
+                kept[other] = self._fitting(dial, row, other, lists[other], chosen, minimum)
             if not len(kept[other].rows):
                 return
         missing = self._missing(paths)
@@ -344,10 +347,10 @@ class PathChoice:
                 own = {end_pair(end, following): int(each[at]) for end, each in near.far.items()}
                 own |= {end_pair(_INPUT, dial): int(self.lists[dial].wheels[row])}
                 after = _Chosen(paths, {**chosen.far, **own})
-                yield from self._with(following, next_row, after, kept, least, None)
+                yield from self._with(following, next_row, after, kept, minimum, None)
 
     def _fitting(
-        self, dial: str, row: int, other: str, near: _Near, chosen: _Chosen, least: Mapping[EndPair, int]
+        self, dial: str, row: int, other: str, near: _Near, chosen: _Chosen, minimum: Mapping[EndPair, int]
     ) -> _Near:
         """The paths of another dial that go with one more that is chosen."""
         known = self._with_one(dial, row, other) if self._are_few(dial, other) else None
@@ -359,8 +362,8 @@ class PathChoice:
         ends = (_INPUT, *[*chosen.paths, dial][-_MOST_ENDS:])
         wheels = int(self.lists[dial].wheels[row])
         good = self._closes(ends, {**chosen.far, (_INPUT, dial): wheels}, near)
-        asked = least.get(end_pair(dial, other), 0)
-        return near.kept(good & (near.far[dial] >= asked) if asked else good)
+        requested = minimum.get(end_pair(dial, other), 0)
+        return near.kept(good & (near.far[dial] >= requested) if requested else good)
 
     def _are_few(self, dial: str, other: str) -> bool:
         """Whether each path to a dial may be held against all paths to another, once and for all."""
@@ -411,9 +414,9 @@ class PathChoice:
             by_number = self.keys.fewest(second.wanted[rows[near]] - first.wanted[row], _NEAR)
             fewest[near] = np.maximum(fewest[near], by_number)
         else:
-            (low, high), (least, greatest) = first.bounds, second.bounds
+            (low, high), (minimum, maximum) = first.bounds, second.bounds
             with np.errstate(divide="ignore"):
-                fewest = second.ranges.fewest((least[rows] / high[row], greatest[rows] / low[row]))
+                fewest = second.ranges.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
         # wheels that are shared are on both
         far = fewest + (wheels + own - fewest) % 2
         if self._idlers:  # where two paths part at an added wheel that one passes, its count matters to the other alone
@@ -467,9 +470,9 @@ class _Near:
         """With one end more."""
         return _Near(self.rows, {**self.far, end: far})
 
-    def beyond(self, least: Mapping[str, int]) -> _Near:
+    def beyond(self, minimum: Mapping[str, int]) -> _Near:
         """Those that are so far from some ends."""
-        return self.kept(reduce(np.logical_and, (self.far[end] >= number for end, number in least.items())))
+        return self.kept(reduce(np.logical_and, (self.far[end] >= number for end, number in minimum.items())))
 
 
 def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:

@@ -268,7 +268,7 @@ class PathList:
     ) -> None:
         self.dial, self.problem, self.keys = dial, problem, keys
         self._along = along
-        self.ranges = QuotientRanges(problem.additions.least, problem.additions.greatest)
+        self.ranges = QuotientRanges(problem.additions.minimum, problem.additions.maximum)
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
         self._seen = SeenMeshes(problem, self.passes)
@@ -390,12 +390,12 @@ class PathList:
         """Primes of which an added wheel has one at most, and none beside it; none where the dial has a tolerance."""
         if not self.dial.is_exact:
             return ()
-        least = self.problem.additions.greatest
+        minimum = self.problem.additions.maximum
         found = {prime for at in range(len(self.passes)) for prime in self._primes_of(at)}
         found |= {
             prime for prime, _ in (*prime_powers(self._wanted.numerator), *prime_powers(self._wanted.denominator))
         }
-        return tuple(sorted(prime for prime in found if prime * prime > least))
+        return tuple(sorted(prime for prime in found if prime * prime > minimum))
 
     @cache  # noqa: B019 -- lives as long as the list
     def _primes_of(self, at: int) -> frozenset[int]:
@@ -409,13 +409,13 @@ class PathList:
     @cached_property
     def _lost(self) -> NDArray[np.bool_]:
         """Which primes no added wheel has."""
-        return np.array([prime > self.problem.additions.greatest for prime in self.primes], dtype=bool)
+        return np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
 
     @cached_property
     def _wanted(self) -> Fraction:
         """Magnitude of the dial's speed over that of the input, the least where it has a tolerance."""
-        least = self.dial.least
-        return abs(least / self.problem.input_speed) if least else Fraction(1)
+        minimum = self.dial.minimum
+        return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
 
     @property
     def _wanted_key(self) -> int:
@@ -455,18 +455,18 @@ class PathList:
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
         """Least and greatest magnitude of the dial's speed if it turns so; the greatest is 0 where it must not."""
-        low, high = self.dial.least, self.dial.greatest
+        low, high = self.dial.minimum, self.dial.maximum
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
             low, high = -high, -low
         return max(low, Fraction(0)), max(high, Fraction(0))
 
     def _may_be_quotient(
-        self, growth: PathGrowth, compounds: int, turned: NDArray[np.bool_], asked: NDArray[np.bool_]
+        self, growth: PathGrowth, compounds: int, turned: NDArray[np.bool_], requested: NDArray[np.bool_]
     ) -> NDArray[np.bool_]:
-        found = asked.copy()
+        found = requested.copy()
         kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
-        for kind in np.unique(kinds[asked]):
-            rows = np.flatnonzero(asked & (kinds == kind))
+        for kind in np.unique(kinds[requested]):
+            rows = np.flatnonzero(requested & (kinds == kind))
             drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
             if self.dial.is_exact:
                 found[rows] = self.keys.may_be_quotients(growth.keys[rows], drivers, driven)
@@ -487,8 +487,8 @@ class PathList:
             ratios = [1.0, *(1.0 if one.idler else _sure(one.driver) / _sure(one.driven) for one in passes)]
             known *= np.array(ratios)[codes[:, at]]
         (low, high), (turned_low, turned_high) = self._magnitudes(False), self._magnitudes(True)
-        least = np.where(turned, float(turned_low), float(low))
-        return least / known, np.where(turned, float(turned_high), float(high)) / known
+        minimum = np.where(turned, float(turned_low), float(low))
+        return minimum / known, np.where(turned, float(turned_high), float(high)) / known
 
     def known_ratio(self, row: int) -> Fraction:
         """Product of the surviving wheels that drive over that of those that are driven, on a path."""

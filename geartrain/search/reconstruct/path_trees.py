@@ -166,10 +166,10 @@ class PathTrees:
 
     # what hangs from a driving wheel
 
-    def _forest(self, paths: Paths, left: _Left, least: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
+    def _forest(self, paths: Paths, left: _Left, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
         """Chains that share out some dials; those that have an arbor in common stay together."""
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
-            if len(blocks) >= least:
+            if len(blocks) >= minimum:
                 yield from self._chains([_some(paths, block) for block in blocks], left)
 
     def _chains(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Chain, ...], _Left]]:

@@ -34,8 +34,8 @@ class QuotientKeys:
     least, greatest   counts of an added wheel
     """
 
-    def __init__(self, least: int, greatest: int) -> None:
-        self.least, self.greatest = least, greatest
+    def __init__(self, minimum: int, maximum: int) -> None:
+        self.minimum, self.maximum = minimum, maximum
         self._words: dict[int, int] = {}
         self._random = np.random.default_rng(0x6EA7)
         self._fewer: dict[int, Keys | None] = {}
@@ -121,7 +121,7 @@ class QuotientKeys:
 
     @cached_property
     def _counts(self) -> Keys:
-        return np.array([self.key(count) for count in range(self.least, self.greatest + 1)], dtype=np.uint64)
+        return np.array([self.key(count) for count in range(self.minimum, self.maximum + 1)], dtype=np.uint64)
 
 
 def _unique(keys: Keys) -> Keys:
@@ -174,8 +174,8 @@ class QuotientRanges:
     least, greatest   counts of an added wheel
     """
 
-    def __init__(self, least: int, greatest: int) -> None:
-        self.counts = least, greatest
+    def __init__(self, minimum: int, maximum: int) -> None:
+        self.counts = minimum, maximum
 
     def may_hold(self, bounds: Bounds, drivers: int, driven: int) -> NDArray[np.bool_]:
         """Which bounds hold a quotient of so many drivers over so many driven wheels; never wrongly False."""

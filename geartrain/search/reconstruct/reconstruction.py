@@ -22,7 +22,7 @@ from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion, 
 from geartrain.search.reconstruct.explained_facts import NO_FINDINGS, CandidateFindings, find_facts
 from geartrain.search.reconstruct.known_rank import KnownRank, RankedQuestion, rank_known_train
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, AskedQuestion, ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem, RequestedQuestion
 from geartrain.search.reconstruct.reconstruction_search import (
     Candidate,
     ExplanationCount,
@@ -151,7 +151,7 @@ class ReconstructionAnswer(Result):
 
     KEYS = (
         "name",
-        "asked",
+        "requested",
         "expected",
         "counts",
         "complete",
@@ -200,9 +200,9 @@ class ReconstructionAnswer(Result):
         )
 
     @property
-    def asked(self) -> AskedQuestion:
+    def requested(self) -> RequestedQuestion:
         """What is asked."""
-        return AskedQuestion.of(self.problem)
+        return RequestedQuestion.of(self.problem)
 
     @property
     def total(self) -> int:
@@ -316,8 +316,8 @@ def _ranks_of_known(
 def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Reconstructions]:
     """A search that ends with all explanations, or not at all."""
 
-    def search(asked: ReconstructionProblem) -> Reconstructions:
-        answer = find_reconstructions(asked, execution, listed=0)
+    def search(requested: ReconstructionProblem) -> Reconstructions:
+        answer = find_reconstructions(requested, execution, listed=0)
         if not answer.complete:  # the search returns what it has when it is stopped
             raise KeyboardInterrupt
         return answer

@@ -107,8 +107,8 @@ class SurvivingGeometry:
         own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
         if own is None or mate is None or self.reach is None:
             return None
-        least, greatest = ((one * first[1] + other * second[1]) / 2 for one, other in zip(own, mate, strict=True))
-        return max(Fraction(0), least - self.reach), greatest + self.reach
+        minimum, maximum = ((one * first[1] + other * second[1]) / 2 for one, other in zip(own, mate, strict=True))
+        return max(Fraction(0), minimum - self.reach), maximum + self.reach
 
     def module_bounds(self, size: Size, mate: Size) -> Bounds | None:
         """What the module of a wheel may be beside a mate; None where neither was measured."""
@@ -182,9 +182,9 @@ class SearchedDial(Shown):
 
     name: str
     """Of the pointer."""
-    least: Fraction
-    """Least speed [turns per unit of the input]; equal to `greatest` where it must be exact."""
-    greatest: Fraction
+    minimum: Fraction
+    """Least speed [turns per unit of the input]; equal to `maximum` where it must be exact."""
+    maximum: Fraction
     """Greatest speed [turns per unit of the input]."""
     signed: bool = True
     """Whether the sense is known; if not, bounds are those of the magnitude."""
@@ -194,7 +194,7 @@ class SearchedDial(Shown):
     @property
     def is_exact(self) -> bool:
         """Whether one speed alone will do."""
-        return self.least == self.greatest
+        return self.minimum == self.maximum
 
 
 @dataclass(frozen=True)
@@ -208,9 +208,9 @@ class Additions:
 
     wheels: int
     """The maximum number of added wheels."""
-    least: int
+    minimum: int
     """Least tooth count, inclusive."""
-    greatest: int
+    maximum: int
     """Greatest tooth count, inclusive."""
     arbors: int | None = None
     """The maximum number of added arbors; default any number."""
@@ -354,7 +354,7 @@ class Arbor(Shown):
 
 
 @dataclass(frozen=True, slots=True)
-class AskedQuestion(Result):
+class RequestedQuestion(Result):
     """What is asked."""
 
     arbors: int
@@ -371,18 +371,18 @@ class AskedQuestion(Result):
     """The least and the greatest count that an added wheel may have."""
 
     @classmethod
-    def of(cls, problem: ReconstructionProblem) -> AskedQuestion:
+    def of(cls, problem: ReconstructionProblem) -> RequestedQuestion:
         """What a question asks."""
         arbors, limits = (problem.input, *problem.arbors), problem.additions
         counts = [len(wheel.counts) for arbor in arbors for wheel in arbor.wheels]
-        teeth = (limits.least, limits.greatest)
+        teeth = (limits.minimum, limits.maximum)
         return cls(len(arbors), len(counts), prod(counts), len(problem.dials), limits.wheels, teeth)
 
     def __str__(self) -> str:
         read = f", their counts in {self.readings} ways" if self.readings > 1 else ""
         wheels = f"{plural(self.arbors, 'arbor')} with {plural(self.wheels, 'wheel')}{read}"
-        least, greatest = self.teeth
-        added = f"at most {plural(self.added, 'added wheel')} of {least} to {greatest} teeth"
+        minimum, maximum = self.teeth
+        added = f"at most {plural(self.added, 'added wheel')} of {minimum} to {maximum} teeth"
         return f"{wheels}; {plural(self.dials, 'dial')}; {added if self.added else 'nothing added'}"
 
 
@@ -395,7 +395,7 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
     ways.append("leave out arbors, or dials with the arbors that lead to them alone")
-    return Problem(what, f"asked are {AskedQuestion.of(problem)}", "; or ".join(ways))
+    return Problem(what, f"asked are {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
 def question_digest(problem: ReconstructionProblem) -> str:
@@ -422,17 +422,17 @@ def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
     Raises `DeclarationError` for a module that is not above 0, and for an arbor with a place where there is a ring.
     """
     assert evidence.reconstruct is not None, "no evidence"
-    asked = evidence.reconstruct.geometry
-    if asked is None:
+    requested = evidence.reconstruct.geometry
+    if requested is None:
         return NO_GEOMETRY
-    radii = (MeasuredWheel(name, False, _millimetres(length)) for name, length in asked.radii.items())
+    radii = (MeasuredWheel(name, False, _millimetres(length)) for name, length in requested.radii.items())
     return SurvivingGeometry(
         (*_modules(evidence), *radii),
         tuple(_placed(evidence)),
-        asked.module.base,
-        asked.distance.base,
-        None if asked.reach is None else _millimetres(asked.reach),
-        None if asked.radius is None else _millimetres(asked.radius),
+        requested.module.base,
+        requested.distance.base,
+        None if requested.reach is None else _millimetres(requested.reach),
+        None if requested.radius is None else _millimetres(requested.radius),
     )
 
 

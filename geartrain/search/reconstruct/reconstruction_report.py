@@ -23,8 +23,8 @@ from geartrain.search.reconstruct.explained_facts import (
     NextFact,
 )
 from geartrain.search.reconstruct.known_rank import (
-    GREATEST,
-    LEAST,
+    MAXIMUM,
+    MINIMUM,
     AdmittingQuestion,
     KnownRank,
     TellingFact,
@@ -43,7 +43,7 @@ _MOST_SETS = 12
 _MOST_BRANCHES = 60
 _MOST_TRAINS = 6
 
-_ASKED: dict[FactKind, str] = {
+_REQUESTED: dict[FactKind, str] = {
     "pair": "whether {} mesh",
     "driver": "which arbor drives {}",
     "pointer": "which arbor carries the pointer of {}",
@@ -64,8 +64,8 @@ _FACTS = {
     "pointer": "the pointer of {} is on {}",
     "count": "{} has {}",
     "added": "{} has {}",
-    GREATEST: "no added wheel has more than {1}",
-    LEAST: "no added wheel has fewer than {1}",
+    MAXIMUM: "no added wheel has more than {1}",
+    MINIMUM: "no added wheel has fewer than {1}",
 }
 _USE = {
     "wheels": "every surviving wheel meshes",
@@ -103,15 +103,15 @@ def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turni
     'Trains that explain metonic-l-m'
     """
     aside = PageExtras(viewer=viewer, notes=[_TURNING] if viewer else [])
-    return Document(f"Trains that explain {found.name}", list(_lead(found)), list(_sections(found, turning)), aside)
+    return Document(f"Trains that explain {found.name}", list(_summary(found)), list(_sections(found, turning)), aside)
 
 
-def _lead(found: ReconstructionAnswer) -> Iterator[str]:
+def _summary(found: ReconstructionAnswer) -> Iterator[str]:
     problem, limits = found.problem, found.problem.additions
     where = "on any arbor" if limits.on == "any" else "on new arbors"
     arbors = "" if limits.arbors is None else f" and {plural(limits.arbors, 'arbor')}"
     idlers = "a driven wheel may drive" if problem.idlers else "a driven wheel drives nothing"
-    wheels = f"{plural(limits.wheels, 'wheel')} of {limits.least} to {limits.greatest} teeth"
+    wheels = f"{plural(limits.wheels, 'wheel')} of {limits.minimum} to {limits.maximum} teeth"
     added = f"at most {wheels}{arbors} may be added {where}"
     if not limits.wheels:
         added = "nothing may be added"
@@ -196,28 +196,24 @@ def _best(found: ReconstructionAnswer, turning: int) -> Section:
     for one in found.best:
         shown = _rank(one)
         rank = SceneText(shown, one.rank) if one.rank <= turning else shown
-        added = teeth_text(one.wheels) or "none"
-        rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), teeth_text(one.doubtful)))
+        rows.append((rank, share_text(one.weight), *_contents(one)))
     more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
         more.append("In brackets the ranks that trains of one weight share.")
-    header = ("rank", "weight", "added wheels", "meshes", "counts in doubt")
-    return Section("The best", more, [filled_table(header, rows, 4)])
+    return Section("The best", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
 
 
 def _drawn(found: ReconstructionAnswer) -> Section:
-    rows = [
-        (
-            str(one.rank),
-            ranks_text(one.ranks),
-            teeth_text(one.wheels) or "none",
-            ", ".join(one.meshes),
-            teeth_text(one.doubtful),
-        )
-        for one in found.drawn
-    ]
-    header = ("draw", "ranks", "added wheels", "meshes", "counts in doubt")
-    return Section("Drawn", ["Each with the chance of its weight among all."], [filled_table(header, rows, 4)])
+    rows = [(str(one.rank), ranks_text(one.ranks), *_contents(one)) for one in found.drawn]
+    table = filled_table(("draw", "ranks", *_CONTENTS), rows, 4)
+    return Section("Drawn", ["Each with the chance of its weight among all."], [table])
+
+
+_CONTENTS = ("added wheels", "meshes", "counts in doubt")
+
+
+def _contents(one: RankedTrain) -> tuple[str, str, str]:
+    return teeth_text(one.wheels) or "none", ", ".join(one.meshes), teeth_text(one.doubtful)
 
 
 def _rank(one: RankedTrain) -> str:
@@ -263,10 +259,8 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
             f"{many_facts[len(found.sets[0])]} together leave it alone, in {ways}; of facts that leave the same trains "
             "one is told."
         )
-        rows = [("; ".join(map(_said, some)),) for some in found.sets[:_MOST_SETS]]
-        if len(found.sets) > _MOST_SETS:
-            rows.append((f"... {len(found.sets) - _MOST_SETS} more",))
-        tables.append(Table(("together they leave it alone",), rows))
+        rows = [("; ".join(map(_said, some)),) for some in found.sets]
+        tables.append(Table(("together they leave it alone",), cut(rows, most=_MOST_SETS)))
     return Section(f"What singles {train} out", lines, tables)
 
 
@@ -326,7 +320,7 @@ def _cost(changes: str, admitted: AdmittingQuestion) -> str:
     told = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
     if admitted.place is None:
         trains = f"trains are {', '.join(told)}" if told else "there is no train"
-        return f"{begins}, and with at most {plural(admitted.asked, 'wheel')} {trains}."
+        return f"{begins}, and with at most {plural(admitted.requested, 'wheel')} {trains}."
     place = admitted.place
     outweighed = "none outweighs it" if place.dearer == 1 else f"the best outweighs it {_times(place)}"
     return (
@@ -378,11 +372,11 @@ def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
         for answer in fact.answers
         if answer.answer == YES
     ]
-    return Table((title, "weight", "trains"), _first(rows, _MOST_MESHES))
+    return Table((title, "weight", "trains"), cut(rows, most=_MOST_MESHES))
 
 
 def _answers(facts: Sequence[FactMarginal]) -> Table:
-    named = {**_ASKED, "used": "whether {} is used"}
+    named = {**_REQUESTED, "used": "whether {} is used"}
     rows = [
         (named[fact.kind].format(fact.subject), _told(fact.answers), figure(fact.bits, 3))
         for fact in facts
@@ -404,7 +398,7 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
     if not facts:
         return
     rows = [
-        (_asked(one.fact), figure(one.fact.bits, 3), _told(one.fact.answers), _alike(one.same))
+        (_requested(one.fact), figure(one.fact.bits, 3), _told(one.fact.answers), _alike(one.same))
         for one in facts[:_MOST_NEXT]
     ]
     lines = [
@@ -417,12 +411,12 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
     yield Section("The next fact to look for", lines, [Table(header, rows)])
 
 
-def _asked(fact: FactMarginal | Fact) -> str:
-    return _ASKED[fact.kind].format(fact.subject)
+def _requested(fact: FactMarginal | Fact) -> str:
+    return _REQUESTED[fact.kind].format(fact.subject)
 
 
 def _alike(facts: Sequence[Fact]) -> str:
-    told = [_asked(fact) for fact in facts[:_MOST_ALIKE]]
+    told = [_requested(fact) for fact in facts[:_MOST_ALIKE]]
     return "; ".join(told) + (f" and {len(facts) - _MOST_ALIKE} more" if len(facts) > _MOST_ALIKE else "")
 
 
@@ -449,14 +443,15 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     yield Section("Why nothing fits", [line], [Table(("dial", "alone"), rows)])
     doubts = [(one.change, str(one.fewest), str(one.total)) for one in found.doubts]
     tried = (
-        f"{plural(found.asked, 'change')} to the evidence tried, one at a time: a hard fact dropped, or a surviving "
+        f"{plural(found.requested, 'change')} to the evidence tried, one at a time: a hard fact "
+        f"dropped, or a surviving "
         f"count read otherwise by up to {plural(MISREAD, 'tooth').replace('tooths', 'teeth')}."
     )
     lines = [tried] if doubts else [tried, "None of them alone leaves an explanation."]
     if found.refused:
         lines.append(f"Could not be asked: {'; '.join(found.refused)}.")
     header = ("what is doubted", "added wheels", "trains")
-    tables = [Table(header, _first(doubts, _MOST_DOUBTS))] if doubts else []
+    tables = [Table(header, cut(doubts, most=_MOST_DOUBTS))] if doubts else []
     yield Section("The cheapest evidence to doubt", lines, tables)
 
 
@@ -466,11 +461,6 @@ def _alone(dial: LoneDial, most: int) -> str:
     if dial.fewest is None:
         return f"fails: no train with {plural(most, 'added wheel')} or fewer"
     return f"explained with {plural(dial.fewest, 'added wheel')}"
-
-
-def _first(rows: Sequence[tuple[str, ...]], most: int) -> list[tuple[str, ...]]:
-    left = len(rows) - most
-    return list(rows) if left <= 0 else [*rows[:most], (f"... {left} more", *("" for _ in rows[0][1:]))]
 
 
 # ----------------------------------------------------------------------------------------------------- the family tree

@@ -13,7 +13,7 @@ from geartrain.cli.long_runs import RunOptions, close_journal, long_run, progres
 from geartrain.numerics.exact import plural
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.reconstruct.reconstruction import ReconstructionRun
-from geartrain.search.reconstruct.reconstruction_problem import AskedQuestion, question_digest
+from geartrain.search.reconstruct.reconstruction_problem import RequestedQuestion, question_digest
 from geartrain.search.reconstruct.search_tasks import count_choices, done_shares, rough
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class CommandRun(ReconstructionRun):
 
     def begin(self, problem: ReconstructionProblem) -> None:
         """Print what is asked."""
-        tell(f"asked: {AskedQuestion.of(problem)}")
+        tell(f"asked: {RequestedQuestion.of(problem)}")
         if (size := count_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
 
@@ -54,8 +54,8 @@ class CommandRun(ReconstructionRun):
     @contextmanager
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
         """With a journal that is kept until all is searched."""
-        asked = {"question": question_digest(problem)}  # how much is listed, and per what, changes no task
-        with long_run("reconstruct", asked, self._folder, self._options) as given:
+        requested = {"question": question_digest(problem)}  # how much is listed, and per what, changes no task
+        with long_run("reconstruct", requested, self._folder, self._options) as given:
             self._journal = given.journal
             yield _weighted(given, problem, cost)
 
@@ -64,8 +64,8 @@ class CommandRun(ReconstructionRun):
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> Iterator[Execution]:
         """If it is stopped, what was counted is reported, and the rest can be taken up."""
-        asked = {"question": question_digest(problem), "without": [each.change for each in changed]}
-        with long_run("reconstruct_assumptions", asked, self._folder, self._options) as given:
+        requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
+        with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
             try:
                 yield given
             except KeyboardInterrupt:

@@ -191,8 +191,8 @@ def _weight_classes(
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
     mechanisms = sum(each.mechanisms for each in topologies)
     # the order of arbors changes neither, but where a ring limits counts in some orders
-    greatest = problem.additions.greatest
-    told = [(each, not rings_limit(each.topology, problem.rings, greatest)) for each in topologies]
+    maximum = problem.additions.maximum
+    told = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
     if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
         return ExplanationCount(added, mechanisms, None, None)
     some = [arbor for each, one_order in told for arbor in _trains(each, problem, one_order)]
@@ -204,7 +204,7 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
     limits = problem.additions
     facts = MeshFacts() if one_order else MeshFacts.of(problem)
     topology = each.topology
-    for counts, idle in AddedCounts(limits.least, limits.greatest).assignments(topology.added, topology.wanted):
+    for counts, idle in AddedCounts(limits.minimum, limits.maximum).assignments(topology.added, topology.wanted):
         yield from islice(arranged(topology, counts, idle, facts), 1 if one_order else None)
 
 
@@ -355,7 +355,7 @@ def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
 def added_prior(problem: ReconstructionProblem, wheels: int, arbors: int) -> Fraction:
     """What so many added wheels and arbors weigh."""
     factors, limits = problem.factors, problem.additions
-    return 1 / ((factors.wheel * (limits.greatest - limits.least + 1)) ** wheels * factors.arbor**arbors)
+    return 1 / ((factors.wheel * (limits.maximum - limits.minimum + 1)) ** wheels * factors.arbor**arbors)
 
 
 def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel]) -> Fraction:

@@ -91,8 +91,8 @@ class TopologyTrains:
 
     def __init__(self, problem: ReconstructionProblem, dials: Sequence[str]) -> None:
         limits, arbors = problem.additions, (problem.input, *problem.arbors)
-        self.counts = AddedCountSums(AddedCounts(limits.least, limits.greatest))
-        self._facts, self._greatest = MeshFacts.of(problem), limits.greatest
+        self.counts = AddedCountSums(AddedCounts(limits.minimum, limits.maximum))
+        self._facts, self._maximum = MeshFacts.of(problem), limits.maximum
         links, wheels = {arbor.name for arbor in arbors}, {wheel.name for arbor in arbors for wheel in arbor.wheels}
         self._names = tuple(dials), links, wheels
 
@@ -104,18 +104,18 @@ class TopologyTrains:
 
     def parts(self, topology: Topology) -> list[OrderPart]:
         """All trains of a topology, every one in one part."""
-        if not rings_limit(topology, self._facts.rings, self._greatest):
+        if not rings_limit(topology, self._facts.rings, self._maximum):
             orders = topology_orders(name_topology(topology, *self._names), self._facts)
             return [self._part(OpenCounts(topology.added, topology.wanted), orders)]
         tokens = CountTokens(topology.added)
         by_limits: dict[OpenCounts, list[Arbor]] = defaultdict(list)
         for arbor in arranged(topology, tokens.counts, tokens.idle, self._facts):
-            limits = tokens.limits(arbor, self._facts.rings, self._greatest)
+            limits = tokens.limits(arbor, self._facts.rings, self._maximum)
             by_limits[OpenCounts(topology.added, topology.wanted, limits)].append(arbor)
-        return [self._part(asked, self._listed(tokens, arbors)) for asked, arbors in by_limits.items()]
+        return [self._part(requested, self._listed(tokens, arbors)) for requested, arbors in by_limits.items()]
 
-    def _part(self, asked: OpenCounts, orders: WeightedAlternatives[Hashable]) -> OrderPart:
-        return OrderPart(asked, self.counts.total(asked), orders)
+    def _part(self, requested: OpenCounts, orders: WeightedAlternatives[Hashable]) -> OrderPart:
+        return OrderPart(requested, self.counts.total(requested), orders)
 
     def _listed(self, tokens: CountTokens, arbors: list[Arbor]) -> WeightedAlternatives[Hashable]:
         """Orders one by one, as trains with tokens for counts."""
@@ -133,7 +133,7 @@ class TopologyTrains:
             yield AddedPlace(wheel.name, kinds(wheel.teeth))
 
     def _kinds(self, tokens: CountTokens, arbor: Arbor) -> Callable[[int], AddedKind]:
-        most = tokens.most(arbor, self._facts.rings, self._greatest)
+        most = tokens.most(arbor, self._facts.rings, self._maximum)
         return lambda token: AddedKind(*tokens.owner(token), most.get(token))
 
     def draw(self, topology: Topology, chance: Random) -> Arbor:
@@ -148,9 +148,9 @@ class TopologyTrains:
             for step in steps:
                 orders[id(step.chain.chain)].append(step.which)
             arbor = in_order(topology, orders, tokens.counts, tokens.idle)
-        kinds, asked, counts = self._kinds(tokens, arbor), part.open, dict[int, int]()
+        kinds, requested, counts = self._kinds(tokens, arbor), part.open, dict[int, int]()
         for token in _tokens(arbor):
-            counts[token], asked = self.counts.draw(asked, kinds(token), chance)
+            counts[token], requested = self.counts.draw(requested, kinds(token), chance)
         return _with_counts(arbor, counts)
 
 
@@ -202,7 +202,7 @@ class TopologySearch:
 
     def __init__(self, problem: ReconstructionProblem, counts: AddedCountSums) -> None:
         self.problem, self._counts = problem, counts
-        self._keys = QuotientKeys(problem.additions.least, problem.additions.greatest)
+        self._keys = QuotientKeys(problem.additions.minimum, problem.additions.maximum)
 
     @cached_property
     def paths(self) -> dict[str, PathList]:
@@ -360,7 +360,7 @@ def expect_cost(problem: ReconstructionProblem) -> ExpectedCost:
 def count_choices(problem: ReconstructionProblem) -> float:
     """Decimal logarithm of the number of choices of the counts of as many wheels as may be added."""
     added = problem.additions
-    return added.wheels * log10(max(added.greatest - added.least + 1, 1))
+    return added.wheels * log10(max(added.maximum - added.minimum + 1, 1))
 
 
 def _refuse_absurd(problem: ReconstructionProblem) -> None:
@@ -371,7 +371,7 @@ def _refuse_absurd(problem: ReconstructionProblem) -> None:
     fits = int(added.wheels * _MOST_CHOICES / size)
     raise QuestionError(
         Problem(
-            f"up to {added.wheels} added wheels of {added.least} to {added.greatest} teeth have 1e{size:.0f} choices",
+            f"up to {added.wheels} added wheels of {added.minimum} to {added.maximum} teeth have 1e{size:.0f} choices",
             f"a search takes up to 1e{_MOST_CHOICES}",
             f"ask for at most {fits} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`, or for fewer counts",
         )
@@ -425,5 +425,5 @@ def done_shares(problem: ReconstructionProblem, expected: ExpectedCost) -> tuple
 
 def _weights(problem: ReconstructionProblem, expected: ExpectedCost) -> Iterator[float]:
     """What each task takes, none of them nothing."""
-    least = 1e-3 * expected.whole + 1e-6
-    yield from (least + expected.seconds[task.added] / task.parts for task in topology_tasks(problem))
+    minimum = 1e-3 * expected.whole + 1e-6
+    yield from (minimum + expected.seconds[task.added] / task.parts for task in topology_tasks(problem))

@@ -518,7 +518,7 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
             name: {"of": NEW_ARBOR if arbor in arbors else tree.link_of(name)} | _shown(tree, given, name)
             for name, arbor in tree.pointers.items()
         },
-        "reconstruct": _asked(tree, arbors, seen),
+        "reconstruct": _requested(tree, arbors, seen),
     }
 
 
@@ -532,7 +532,7 @@ def lost_wheels(tree: SpurTree, lost: Sequence[str]) -> int:
     return sum(len(tree.wheels_of(arbor)) for arbor in lost_arbors(tree, lost))
 
 
-def _asked(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any]:
+def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any]:
     pairs = [[links[0], other] for arbor, links in tree.joined.items() if arbor not in lost for other in links[1:]]
     return {
         **({"carrier": tree.base.name} if tree.base.is_carrier else {}),

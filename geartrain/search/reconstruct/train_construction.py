@@ -256,10 +256,10 @@ class TrainConstruction:
         self.links[link]["wheels"] = wheels
 
     def _with_module(self, name: str, wheel: Mapping[str, Any]) -> dict[str, Any]:
-        asked = self.evidence.reconstruct
-        assert asked is not None
-        assert asked.geometry is not None
-        radii = asked.geometry.radii
+        requested = self.evidence.reconstruct
+        assert requested is not None
+        assert requested.geometry is not None
+        radii = requested.geometry.radii
         said = f"pitch radius {radii[name]}" if name in radii else f"module {wheel['module']}"
         return with_module(wheel, said, self.modules[name])
 

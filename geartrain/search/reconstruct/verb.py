@@ -198,8 +198,8 @@ def _family_text(found: ReconstructionAnswer) -> str:
     """The family tree as JSON, with what was asked."""
     from geartrain.search.reconstruct.reconstruction_problem import question_digest
 
-    asked = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}
-    return as_json({**asked, "family": found.findings.family}) + "\n"
+    requested = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}
+    return as_json({**requested, "family": found.findings.family}) + "\n"
 
 
 def _file(rank: int) -> str:

@@ -86,9 +86,9 @@ def _magnitudes(wanted: Fraction, share: Fraction) -> tuple[Interval, ...]:
     return of_either_sense(wanted * (1 - share), wanted * (1 + share))
 
 
-def of_either_sense(least: Fraction, most: Fraction) -> tuple[Interval, ...]:
+def of_either_sense(minimum: Fraction, most: Fraction) -> tuple[Interval, ...]:
     """Speeds whose magnitude lies between two numbers."""
-    return ((-most, most),) if least <= 0 else ((-most, -least), (least, most))
+    return ((-most, most),) if minimum <= 0 else ((-most, -minimum), (minimum, most))
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
@@ -122,7 +122,7 @@ class OutputRequirement:
     @property
     def exact(self) -> bool:
         """True if one exact speed is asked for, so that no solution has an error."""
-        common = self.asked(None)
+        common = self.requested(None)
         return common is not None and all(low == high for low, high in common.intervals)
 
     @property
@@ -130,7 +130,7 @@ class OutputRequirement:
         """The demands in words."""
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
-    def asked(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
+    def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
         """The demand on the function, with graded demands no further off than `share`; None if all is allowed."""
         common: tuple[Interval, ...] = ((None, None),)
         for demand in self.demands:
@@ -177,17 +177,17 @@ def find_output_requirements(
 def _demands(
     train: Train, output: Output, drive: Fraction | None, tolerance: Fraction | None
 ) -> Iterator[SpeedRequirement]:
-    asked = [target for target in output.targets if target.tolerance is not None]
+    requested = [target for target in output.targets if target.tolerance is not None]
     figures = output.expect is not None or output.published is not None
-    if not asked and output.targets and (tolerance is not None or not figures):
-        asked = [output.targets[0]]
+    if not requested and output.targets and (tolerance is not None or not figures):
+        requested = [output.targets[0]]
     if output.expect is not None:
         value = output.expect.value
         allowed = _around(value.value, _half(value, output.expect.tolerance))
-        yield SpeedRequirement(f"expect {value}", value.value, True, (allowed,), not asked)
+        yield SpeedRequirement(f"expect {value}", value.value, True, (allowed,), not requested)
     if output.published is not None:
-        yield from _printed(output.published, drive, not asked)
-    for target in asked:
+        yield from _printed(output.published, drive, not requested)
+    for target in requested:
         yield SpeedRequirement.of(
             goal_of(train, target), tolerance if target.tolerance is None else target.tolerance.base
         )

@@ -350,15 +350,15 @@ class PartSearch:
         )
         return PartSearch(part, self.order, self.runner, self.limit)
 
-    def asked(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
+    def requested(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
         """Every demand of a pass."""
-        found = [asking.asked(share, strict) for asking in self.part.askings]
+        found = [asking.requested(share, strict) for asking in self.part.askings]
         return (*self.part.conditions, *(one for one in found if one is not None))
 
-    def chances(self, asked: Sequence[IntervalConstraint]) -> dict[str, float]:
+    def chances(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
         """About which part of the assignments meets each rule and demand."""
         chances = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
-        return chances | {one.name: self.sample.of_demand(one) for one in asked}
+        return chances | {one.name: self.sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
         """One pass: all counted, and the best brought out if there are at most `most`.
@@ -368,8 +368,8 @@ class PartSearch:
         """
         if not size_of(self.domains):
             return PassResult(share, 1.0, PassTally(0, (), (), True, False, False))
-        asked = self.asked(share, strict)
-        question = find_join_problem(self.domains, asked, self.rules, self.chances(asked))
+        requested = self.requested(share, strict)
+        question = find_join_problem(self.domains, requested, self.rules, self.chances(requested))
         tasks, searched = cut(question, self.limit)
         work = PassWork(question, self.order, int(min(most, 1 << 62)))
         tally = self.runner.run(work, tasks)
@@ -441,12 +441,12 @@ class AssignmentOrder:
     def errors(self, columns: AssignmentColumns) -> tuple[Floats, Floats]:
         """Bounds on the largest |error|, least and greatest."""
         size = len(next(iter(columns.values())))
-        least, greatest = np.zeros(size), np.zeros(size)
+        minimum, maximum = np.zeros(size), np.zeros(size)
         if not self.level:
             for asking in self.askings:
                 low, high = _errors(asking, columns)
-                least, greatest = np.maximum(least, low), np.maximum(greatest, high)
-        return least, greatest
+                minimum, maximum = np.maximum(minimum, low), np.maximum(maximum, high)
+        return minimum, maximum
 
     def ranks(self, columns: AssignmentColumns) -> Ints:
         """Whole numbers in the order of the largest |error|, exactly; equal errors have equal numbers."""
@@ -467,7 +467,7 @@ def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floa
     quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
     speed, off = quotient.bounded(products_of([columns[wheel].astype(np.float64) for wheel in function.wheels]))
     size = len(next(iter(columns.values())))
-    least, greatest = np.zeros(size), np.zeros(size)
+    minimum, maximum = np.zeros(size), np.zeros(size)
     for demand in (demand for demand in asking.demands if demand.graded):
         wanted = as_float(demand.wanted)
         if wanted is None:
@@ -479,8 +479,8 @@ def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floa
             error, slack = np.abs(speed), off
         slack = np.where(np.isfinite(error), slack, inf)
         error = np.where(np.isfinite(error), error, 0.0)
-        least, greatest = np.maximum(least, error - slack), np.maximum(greatest, error + slack)
-    return least, greatest
+        minimum, maximum = np.maximum(minimum, error - slack), np.maximum(maximum, error + slack)
+    return minimum, maximum
 
 
 def _exact_errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
@@ -547,10 +547,10 @@ class BestAssignments:
         if self._table.shape[1] <= best or self.order.level:
             return
         first = self.order.first(self._columns())
-        least, greatest = self.order.errors(self._columns())
+        minimum, maximum = self.order.errors(self._columns())
         # the n-th least upper bound: what lies surely above it is none of the best n
-        last = np.lexsort((greatest, first))[best - 1]
-        kept: Bools = (first < first[last]) | ((first == first[last]) & (least <= greatest[last]))
+        last = np.lexsort((maximum, first))[best - 1]
+        kept: Bools = (first < first[last]) | ((first == first[last]) & (minimum <= maximum[last]))
         self._table = self._table[:, kept]
 
     def _sort(self) -> None:

@@ -35,7 +35,7 @@ from geartrain.train import Train
 _LISTED = 100_000
 """Assignments that are brought out to find the best few by error; more are narrowed down first."""
 _TRIES = 40  # passes with one tolerance after the other
-_LEAST = Fraction(1, 10**40)  # tolerances past these hold nothing, or all there is
+_MINIMUM = Fraction(1, 10**40)  # tolerances past these hold nothing, or all there is
 _WIDEST = Fraction(10**6)
 
 
@@ -69,7 +69,7 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
     short = Fraction(0)
     for _ in range(_TRIES):
         share = _rounded(guess)
-        if share < _LEAST or share > _WIDEST or (long is not None and not short < share < long):
+        if share < _MINIMUM or share > _WIDEST or (long is not None and not short < share < long):
             break
         passed = search.run(share, _most(search))
         enough = passed.tally.count >= search.order.best
@@ -103,7 +103,7 @@ def _first(search: PartSearch) -> Fraction:
     """The tolerance in which about as many lie as are wanted."""
     trial = Fraction(1, 1000)
     # hits grow as the tolerance to the power of the outputs that have an error
-    hits = size_of(search.domains) * prod(search.chances(search.asked(trial)).values())
+    hits = size_of(search.domains) * prod(search.chances(search.requested(trial)).values())
     # 1e-300: a forecast may be so small that it is 0 in float64
     guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_powers(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))
@@ -125,8 +125,8 @@ def _top(search: PartSearch) -> Fraction:
     """No solution has a larger error than this."""
     largest = Fraction(0)
     for asking in search.part.askings:
-        asked = asking.asked(None)
-        for interval in asked.intervals if asked else ():
+        requested = asking.requested(None)
+        for interval in requested.intervals if requested else ():
             for end in interval:
                 errors = [abs(one.error(end)) for one in asking.demands if one.graded and end is not None]
                 largest = max([largest, *errors])
@@ -183,12 +183,12 @@ def _explained(search: PartSearch) -> tuple[str, str]:
 
 def _turns_wrong(asking: OutputRequirement) -> bool:
     """True if a sense is asked for that no counts give."""
-    asked = asking.asked(None)
+    requested = asking.requested(None)
     senses = [_sense(terms) for terms in (asking.function.numerator, asking.function.denominator)]
-    if asked is None or not all(senses):
+    if requested is None or not all(senses):
         return False
     lasting = senses[0] * senses[1]
-    return bool(asked.intervals) and all(_against(interval, lasting) for interval in asked.intervals)
+    return bool(requested.intervals) and all(_against(interval, lasting) for interval in requested.intervals)
 
 
 def _against(interval: Interval, sense: int) -> bool:
@@ -240,8 +240,8 @@ def _without(search: PartSearch) -> Iterator[str]:
 
 def _are(passed: PassResult) -> str:
     count = passed.tally.count
-    least = "" if passed.complete else "at least "
-    return f"is {least}1" if count == 1 else f"are {least}{count}"
+    minimum = "" if passed.complete else "at least "
+    return f"is {minimum}1" if count == 1 else f"are {minimum}{count}"
 
 
 def _teeth(assignment: Assignment) -> str:
@@ -490,10 +490,10 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
         f"'{wheel}' is not to have {count} teeth" for wheel, count in teeth.items() if count not in part.domains[wheel]
     ]
     found += [rule.name for rule in part.rules if not rule.holds(columns).all()]
-    for asked in part.conditions:
-        value = asked.function.value(teeth)
-        if value is None or (value != 0) != asked.strict:
-            found.append(asked.name)
+    for requested in part.conditions:
+        value = requested.function.value(teeth)
+        if value is None or (value != 0) != requested.strict:
+            found.append(requested.name)
     if assignment is None:
         return [*found, "the train is locked or free"]
     askings = {asking.name: asking for asking in part.askings}

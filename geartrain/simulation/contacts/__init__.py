@@ -7,6 +7,6 @@ time_case           inertia, drag, restitution and the drive of a train in one s
 train_model         a train as coordinates and contacts, ideal pairs eliminated exactly
 yielding_train      the same with stiffness and damping of teeth
 contact_model       coordinates, contacts, bearings, stops and springs in solved order: the arrays of the kernels
-law_tables          transmission functions as tables of polynomials between kinks
+pair_tables          transmission functions as tables of polynomials between kinks
 rubbing_arms        friction of teeth and pins as an addition to the lever arm of the driver
 """

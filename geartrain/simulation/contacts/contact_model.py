@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.simulation.contacts.law_tables import LawTables, TabledFunction, join_tables
+from geartrain.simulation.contacts.pair_tables import PairTables, TabledFunction, join_tables
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
@@ -194,7 +194,7 @@ class ContactModel:
         if given and all(m >= 0 or at in given for at, m in zip(*self.order[:2], strict=True)):
             start = None
         found = replace(self, given=given, typical=share * self.typical, pairs=pairs, start=start)
-        found.__dict__.update(order=self.order, laws=self.laws, _functions=self._functions)
+        found.__dict__.update(order=self.order, transmissions=self.transmissions, _functions=self._functions)
         return found
 
     @property
@@ -215,7 +215,7 @@ class ContactModel:
         return found
 
     @cached_property
-    def laws(self) -> LawTables:
+    def transmissions(self) -> PairTables:
         """The tables of all pairs."""
         return join_tables(self._functions[0])
 
@@ -231,9 +231,9 @@ class ContactModel:
                 functions.append(function)
             return known[id(function)]
 
-        laws = [[number(pair.front), number(pair.back)] for pair in self.pairs]
+        transmissions = [[number(pair.front), number(pair.back)] for pair in self.pairs]
         rubbing = [[-1] * 4 if pair.rubbing is None else list(map(number, pair.rubbing)) for pair in self.pairs]
-        return functions, laws, rubbing
+        return functions, transmissions, rubbing
 
     def system(self, step: float) -> ContactSystem:
         """The arrays for one length of step (s)."""
@@ -247,7 +247,7 @@ class ContactModel:
                 c[place[each]] = value
             matrix = matrix + step**2 * spring.stiffness * np.outer(c, c)
         near_at, near = _sparse([dict.fromkeys(each, 0.0) for each in order.near])[:2]
-        _, laws, rubbing = self._functions
+        _, transmissions, rubbing = self._functions
         owned = [at for at in order.owner if at >= 0]
         return ContactSystem(
             np.ascontiguousarray(mass),
@@ -263,7 +263,7 @@ class ContactModel:
             np.array([pair.start[1] for pair in self.pairs], dtype=np.float64),
             np.array([pair.two_sided for pair in self.pairs], dtype=np.int64),
             np.array([pair.restitution for pair in self.pairs], dtype=np.float64),
-            np.array(laws, dtype=np.int64).reshape(-1, 2),
+            np.array(transmissions, dtype=np.int64).reshape(-1, 2),
             np.array(rubbing, dtype=np.int64).reshape(-1, 4),
             np.array([0.0 if m in owned else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]),
             *_sparse([_placed(each.speed, place) for each in self.bearings]),

@@ -26,7 +26,7 @@ from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.errors import Problem, QuestionError
-from geartrain.teeth.transmission_table import CellTable, fit, folded_corners
+from geartrain.teeth.transmission_table import CellTable, fit, folded_kinks
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
@@ -118,9 +118,9 @@ class InertialContacts:
         """d tau / dS of each source's law; laws of many pairs may be one."""
         known: dict[int, CellTable] = {}
         for source in self.sources:
-            if id(source.law) not in known:
-                known[id(source.law)] = speed_slope(source.law)
-        return tuple(known[id(source.law)] for source in self.sources)
+            if id(source.transmission) not in known:
+                known[id(source.transmission)] = speed_slope(source.transmission)
+        return tuple(known[id(source.transmission)] for source in self.sources)
 
     @cached_property
     def _senses(self) -> Floats:
@@ -155,12 +155,12 @@ class InertialContacts:
         kick = np.zeros((len(self.pairs), len(turns)))
         pulled = np.zeros((len(self.pairs), len(turns)))
         for row, source in enumerate(self.sources):
-            S = phase.cycles(source.cycles) * source.law.period + source.start
+            S = phase.cycles(source.cycles) * source.transmission.period + source.start
             turning = np.full(len(turns), source.mean)
             for link, sign in composition.turned_by(source):
                 S += sign * error[link]
                 turning += sign * found.rate[link]
-            slope[row] = source.sense * (source.law.speed(S) - float(source.law.ratio))
+            slope[row] = source.sense * (source.transmission.speed(S) - float(source.transmission.ratio))
             kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
             arm[row] = slope[row]
             if source.id in self.rubbing:
@@ -197,31 +197,31 @@ class InertialContacts:
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
         """What pairs carry under forces that links ask for, by the transposed matrices: sense J^-T R^T f."""
-        for asked in forces:
-            force = self._less_the_crank(asked, state.virtual)
+        for requested in forces:
+            force = self._less_the_crank(requested, state.virtual)
             yield self._senses[:, None] * self._yielding.torques(state.arm, self._response.T @ force)
 
-    def _less_the_crank(self, asked: Floats, speed: Floats) -> Floats:
+    def _less_the_crank(self, requested: Floats, speed: Floats) -> Floats:
         """What links ask of their pairs: where a crank keeps the input turning, all the virtual work is its."""
         if self.acting.crank is None:
-            return asked
+            return requested
         crank = self.moving.system.links.index(self.acting.crank)
-        force = asked.copy()
-        force[crank] -= (asked * speed).sum(axis=0) / speed[crank]
+        force = requested.copy()
+        force[crank] -= (requested * speed).sum(axis=0) / speed[crank]
         return force
 
     def rates(self, turns: Floats) -> Floats:
         """The rate (rad/s of the input) from which each pair parts at each position, (pairs, n)."""
-        return least_rate(*self.torques(turns))
+        return minimum_rate(*self.torques(turns))
 
-    def blows(self, corners: Floats, width: float) -> Floats:
+    def impulses(self, kinks: Floats, width: float) -> Floats:
         """What pairs carry of the blow where some law is at a corner, for each unit of the input's speed (N m s2).
 
         Below 0 they part at any rate. 0 where no speed jumps.
 
         width   turns of the input by which a position is asked beside a corner
         """
-        before, after = self._state(corners - width), self._state(corners + width)
+        before, after = self._state(kinks - width), self._state(kinks + width)
         jump = after.speed - before.speed
         scale = np.maximum(1.0, np.abs(after.speed).max(axis=1, initial=0.0))[:, None]
         jump[np.abs(jump) <= _LEAP * scale] = 0.0
@@ -276,7 +276,7 @@ class YieldingPairs:
         return np.asarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
 
 
-def least_rate(D: Floats, V: Floats, A: Floats) -> Floats:
+def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
     """The least w >= 0 from which on D + V w + A w^2 is negative for a while; infinite where it never is."""
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(V * V - 4 * D * A)  # NaN where it never vanishes
@@ -288,10 +288,12 @@ def least_rate(D: Floats, V: Floats, A: Floats) -> Floats:
     return np.where(starts, 0.0, np.where((D == 0) & (A >= 0), inf, roots))
 
 
-def speed_slope(law: TransmissionFunction) -> CellTable:
+def speed_slope(transmission: TransmissionFunction) -> CellTable:
     """d tau / dS (1/rad) of a law, from a table of its speed that is cut at its corners."""
-    greatest = max(abs(each) for each in law.speed_range())
-    return fit(law.speed, law.period, folded_corners(law), _SLOPE * max(greatest, 1.0), _DEGREE).derivative()
+    maximum = max(abs(each) for each in transmission.speed_range())
+    return fit(
+        transmission.speed, transmission.period, folded_kinks(transmission), _SLOPE * max(maximum, 1.0), _DEGREE
+    ).derivative()
 
 
 # --------------------------------------------------------------------------------------------------- what acts on links

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.simulation.contacts.law_tables import TabledFunction, tabled_function
+from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_function
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
 
 if TYPE_CHECKING:
@@ -40,10 +40,10 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
 
 def drive_flank_arms(mesh: GearMesh) -> tuple[TabledFunction, TabledFunction] | None:
     """The same of the drive flank alone, turning forward and back."""
-    return _flank_arms(mesh, mesh.law)
+    return _flank_arms(mesh, mesh.transmission)
 
 
-def _flank_arms(mesh: GearMesh, law: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
+def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
     """Of one flank, turning the way in which it was made to drive, and the other way."""
     if not mesh.tells_losses or not mesh.rubs:
         return None
@@ -53,21 +53,21 @@ def _flank_arms(mesh: GearMesh, law: TransmissionFunction) -> tuple[TabledFuncti
         coefficient = losses.by
 
     def table(way: int) -> TabledFunction:
-        nodes = law.rubbing_nodes()
+        nodes = transmission.rubbing_nodes()
         if nodes is None:
-            return tabled_function(partial(_at_angles, law, coefficient, way, mesh.label), law)
+            return tabled_function(partial(_at_angles, transmission, coefficient, way, mesh.label), transmission)
         # laws that would be slow to ask elsewhere are read between the nodes at which they know how teeth rub
-        S = np.mod(nodes[0], law.period)
-        more = _more_by_teeth(law.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
-        return tabled_function(lambda at: np.interp(at, S, more, period=law.period), law, _ROUGH)
+        S = np.mod(nodes[0], transmission.period)
+        more = _more_by_teeth(transmission.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
+        return tabled_function(lambda at: np.interp(at, S, more, period=transmission.period), transmission, _ROUGH)
 
     return table(1), table(-1)
 
 
 def _at_angles(
-    law: TransmissionFunction, coefficient: Callable[[Floats], Floats | float], way: int, label: str, S: Floats
+    transmission: TransmissionFunction, coefficient: Callable[[Floats], Floats | float], way: int, label: str, S: Floats
 ) -> Floats:
-    return _more_by_teeth(law.speed(S), law.rubbing(S), coefficient, way, label)
+    return _more_by_teeth(transmission.speed(S), transmission.rubbing(S), coefficient, way, label)
 
 
 def _more_by_teeth(
@@ -103,38 +103,38 @@ def separate_rubbing(
             found[mesh.name] = arms[0].__call__, arms[1].__call__
         elif mesh.rubs:
             left.append(mesh.name)
-    left += [joint.coupling.name for joint in moving.pins if joint.law.friction]
+    left += [joint.coupling.name for joint in moving.pins if joint.transmission.friction]
     for gear in gears:
         if gear.name not in found and gear.efficiency is not None and gear.efficiency.forward.base < 1:
             left.append(gear.name)
     return found, tuple(dict.fromkeys(left))
 
 
-def pin_arms(law: PinTransmission) -> Arms | None:
+def pin_arms(transmission: PinTransmission) -> Arms | None:
     """The same for a pin that drives a slot: (r/rho) f |sin d|, with the sign of slot torque and turning."""
-    if not law.friction:
+    if not transmission.friction:
         return None
 
     def more(S: Floats) -> Floats:
         half = np.sin(S / 2)
-        square = (law.r - law.e) ** 2 + 4 * law.r * law.e * half**2
-        return np.asarray(law.r * law.friction * law.e * np.abs(np.sin(S)) / square)
+        square = (transmission.r - transmission.e) ** 2 + 4 * transmission.r * transmission.e * half**2
+        return np.asarray(transmission.r * transmission.friction * transmission.e * np.abs(np.sin(S)) / square)
 
-    plus, minus = tabled_function(more, law), tabled_function(lambda S: -more(S), law)
+    plus, minus = tabled_function(more, transmission), tabled_function(lambda S: -more(S), transmission)
     return plus, minus, minus, plus
 
 
-def even_arms(law: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
+def even_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
     """The same for a pair that keeps its ratio and passes a declared part of its power, by the wheel that drives."""
     if forward == 1 and backward == 1:
         return None
     if forward <= 0:
         why = f"its efficiency is {forward:g} with the wheel driving that drives here"
         raise GearTrainError(Problem(f"{label} cannot be stepped through time", why, "give an efficiency above 0"))
-    ratio = float(law.ratio)
+    ratio = float(transmission.ratio)
 
     def constant(value: float) -> TabledFunction:
-        return tabled_function(lambda S: np.full(np.shape(S), value), law)
+        return tabled_function(lambda S: np.full(np.shape(S), value), transmission)
 
     ahead, back = constant(ratio * (1 / forward - 1)), constant(ratio * (max(backward, 0.0) - 1))
     return ahead, back, back, ahead

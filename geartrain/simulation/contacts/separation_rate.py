@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.corner_positions import CornerSearch
+from geartrain.dynamics.motion.kink_positions import KinkSearch
 from geartrain.errors import check_numbers
 from geartrain.numerics.results import Result
 from geartrain.simulation.contacts.inertial_contacts import find_inertial_loads, torques_have_units
@@ -35,7 +35,7 @@ _BEST = 12  # stretches of each pair that are searched further
 _ZOOMS = 9  # of which each narrows what is searched to a quarter
 _NARROW = 1e-12  # turns: a stretch between two corners at one place is none
 _PLACES = 8  # of turns: positions on both sides of a corner are told as one
-_MOST_CORNERS = 80_000  # times pairs, searched by default: some seconds
+_MOST_KINKS = 80_000  # times pairs, searched by default: some seconds
 
 
 def find_separation(
@@ -288,12 +288,12 @@ def find_separation_rates(
     period = contacts.motion.period
     whole = 1.0 if period is None else float(period)
     if turns is None:
-        corners = CornerSearch(contacts.motion._forward).rate
-        most = max(1.0, _MOST_CORNERS / max(1, len(contacts.pairs)))
-        turns = whole if corners * whole <= most else most / corners
+        kinks = KinkSearch(contacts.motion._forward).rate
+        most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
+        turns = whole if kinks * whole <= most else most / kinks
     found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)
                   for each in find_partings(contacts, turns))  # fmt: skip
-    return SeparationRates(state, contacts.moving.lead, turns, turns >= whole, found, tuple(inertias))
+    return SeparationRates(state, contacts.moving.driving_link, turns, turns >= whole, found, tuple(inertias))
 
 
 class Parting(NamedTuple):
@@ -307,21 +307,21 @@ class Parting(NamedTuple):
 
 def find_partings(contacts: InertialContacts, turns: float) -> tuple[Parting, ...]:
     """Of each pair the rate from which it parts somewhere in so many turns of the input, least first."""
-    corners = contacts.motion.corner_positions(0.0, turns).turns
-    ends = np.unique(np.concatenate([[0.0], corners, [turns]]))
+    kinks = contacts.motion.kink_positions(0.0, turns).turns
+    ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
     low, high = ends[:-1], ends[1:]
     wide = high - low > _NARROW * max(1.0, turns)
     low, high = low[wide], high[wide]
     shares = _INSIDE + (1 - 2 * _INSIDE) * (1 - np.cos(np.pi * np.arange(_SAMPLES) / (_SAMPLES - 1))) / 2
     at = low[:, None] + (high - low)[:, None] * shares
     rates = contacts.rates(at.ravel()).reshape(len(contacts.pairs), *at.shape)
-    found = _least(contacts, at, rates)
-    leaping = _leaps(contacts, corners, float((high - low).min(initial=turns)))
+    found = _minimum(contacts, at, rates)
+    leaping = _leaps(contacts, kinks, float((high - low).min(initial=turns)))
     partings = [leaping.get(pair, each) for pair, each in enumerate(found)]
     return tuple(sorted(partings, key=lambda each: (each.rate, each.pair)))
 
 
-def _least(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Parting]:
+def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Parting]:
     """The least rate of each pair: its best stretches searched further, by ever finer samples about the best.
 
     at      positions, (stretches, samples); `rates` of all pairs there
@@ -333,10 +333,10 @@ def _least(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Partin
     own, shares = np.arange(count), np.arange(_SAMPLES) / (_SAMPLES - 1)
     for zoom in range(_ZOOMS + 1):
         where = rates.argmin(axis=2)[:, :, None]
-        least, place = (np.take_along_axis(each, where, axis=2)[:, :, 0] for each in (rates, at))
-        for pair, row in enumerate(least.argmin(axis=1)):
-            if least[pair, row] < found[pair].rate:
-                found[pair] = found[pair]._replace(rate=float(least[pair, row]), turns=float(place[pair, row]))
+        minimum, place = (np.take_along_axis(each, where, axis=2)[:, :, 0] for each in (rates, at))
+        for pair, row in enumerate(minimum.argmin(axis=1)):
+            if minimum[pair, row] < found[pair].rate:
+                found[pair] = found[pair]._replace(rate=float(minimum[pair, row]), turns=float(place[pair, row]))
         if zoom < _ZOOMS:
             left, right = (np.take_along_axis(at, np.clip(where + step, 0, _SAMPLES - 1), axis=2) for step in (-1, 1))
             at = left + (right - left) * shares
@@ -345,16 +345,16 @@ def _least(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Partin
     return found
 
 
-def _leaps(contacts: InertialContacts, corners: Floats, narrowest: float) -> dict[int, Parting]:
+def _leaps(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, Parting]:
     """Pairs that part at any rate, because a speed jumps so that their blow would have to pull."""
-    if not len(corners):
+    if not len(kinks):
         return {}
-    blows = contacts.blows(corners, _INSIDE * max(narrowest, 1e-6))
-    tolerance = 1e-9 * np.abs(blows).max(axis=1, keepdims=True, initial=0.0)
+    impulses = contacts.impulses(kinks, _INSIDE * max(narrowest, 1e-6))
+    tolerance = 1e-9 * np.abs(impulses).max(axis=1, keepdims=True, initial=0.0)
     found = {}
-    for pair, row in enumerate(blows < -tolerance):
+    for pair, row in enumerate(impulses < -tolerance):
         if row.any():
-            found[pair] = Parting(contacts.pairs[pair], 0.0, float(corners[row.argmax()]), True)
+            found[pair] = Parting(contacts.pairs[pair], 0.0, float(kinks[row.argmax()]), True)
     return found
 
 

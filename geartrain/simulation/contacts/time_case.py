@@ -123,9 +123,12 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
     if speed * per_turn > most * (1 + _EQUAL):
         what = f"'{drive.link}' is kept at {speed:.6g} turn/s, which its escapement does not let pass"
         why = f"'{beats.link}' may make {most:.6g} turn/s in the mean, and would make {speed * per_turn:.6g}"
-        lead = problem.lead
+        driving_link = problem.driving_link
         slow = most / abs(float(passed))
-        fix = f"ask for {slow:.6g} turn/s of '{lead}' or less, or give no rate, but a `drive` by a weight or a spring"
+        fix = (
+            f"ask for {slow:.6g} turn/s of '{driving_link}' or less, or give no rate, but a "
+            f"`drive` by a weight or a spring"
+        )
         raise QuestionError(Problem(what, why, fix))
 
 
@@ -135,12 +138,12 @@ def _declared_rate(
     """Speed of the lead (rad/s): a declared rate, the escapement's, that of a hand, or else `scale`."""
     unit = radians_per_second(train, case)
     if unit is not None:
-        return unit * float(problem.speeds[problem.lead])
+        return unit * float(problem.speeds[problem.driving_link])
     if train.escapement is not None and passed:
         return problem.way * tau * float(train.escapement.speed / abs(passed))
     hand = None if case.drive is None else case.drive.hand
     if hand is not None and hand.rate is not None:
-        return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.lead)))
+        return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.driving_link)))
     if scale is not None:
         return problem.way * scale
     what = "nothing says how fast the train turns"
@@ -152,12 +155,16 @@ def _declared_rate(
 
 def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
     """What drives where power enters, the way its link turns."""
-    lead = problem.lead
-    link = train.crank or lead
+    driving_link = problem.driving_link
+    link = train.crank or driving_link
     speed = rate * float(problem.ratio(link))
     if drive is None or drive.rate is not None:
         # beside other inputs, which keep their speeds as well, a crank that is none of them would be one too many
-        return PowerInput(link, "rate", rate=speed) if len(case.inputs) == 1 else PowerInput(lead, "rate", rate=rate)
+        return (
+            PowerInput(link, "rate", rate=speed)
+            if len(case.inputs) == 1
+            else PowerInput(driving_link, "rate", rate=rate)
+        )
     way = -1.0 if speed < 0 else 1.0
     hand = drive.hand
     inertia = 0.0 if hand is None or hand.inertia is None else hand.inertia.si

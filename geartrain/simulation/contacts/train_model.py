@@ -21,7 +21,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.simulation.contacts.law_tables import TOLERANCE, TabledFunction, tabled_angle
+from geartrain.simulation.contacts.pair_tables import TOLERANCE, TabledFunction, tabled_angle
 from geartrain.simulation.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
 from geartrain.teeth.transmission import ExactRatio
@@ -50,23 +50,32 @@ class SlackPin(ExactRatio):
     pin's distance from the slot's axis.
     """
 
-    def __init__(self, law: PinTransmission, clearance: float, side: int) -> None:
-        super().__init__(law.ratio, law.period)
-        self.law, self.clearance, self.side, self.friction = law, clearance, side, law.friction
+    def __init__(self, transmission: PinTransmission, clearance: float, side: int) -> None:
+        super().__init__(transmission.ratio, transmission.period)
+        self.transmission, self.clearance, self.side, self.friction = (
+            transmission,
+            clearance,
+            side,
+            transmission.friction,
+        )
 
     def error(self, S: ArrayLike) -> Floats:
         """Transmission error (rad of the slot) at pin angles S (rad)."""
-        return np.asarray(self.law.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(self._square(S))))
+        return np.asarray(
+            self.transmission.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(self._square(S)))
+        )
 
     def speed(self, S: ArrayLike) -> Floats:
         """Speed ratio at pin angles S (rad)."""
         square, half = self._square(S), self.clearance / 2
-        turning = half * self.law.r * self.law.e * np.sin(S) / (square * np.sqrt(square - half**2))
-        return np.asarray(self.law.speed(S) - self.side * turning)
+        turning = half * self.transmission.r * self.transmission.e * np.sin(S) / (square * np.sqrt(square - half**2))
+        return np.asarray(self.transmission.speed(S) - self.side * turning)
 
     def _square(self, S: ArrayLike) -> Floats:
         half = np.sin(np.asarray(S, dtype=float) / 2)
-        return np.asarray((self.law.r - self.law.e) ** 2 + 4 * self.law.r * self.law.e * half**2)
+        return np.asarray(
+            (self.transmission.r - self.transmission.e) ** 2 + 4 * self.transmission.r * self.transmission.e * half**2
+        )
 
 
 @dataclass(frozen=True)
@@ -143,7 +152,7 @@ class TrainModel:
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
-            return not mesh.rigid or mesh.verdict.play > 0 or (mesh.rubs and mesh.tells_losses)
+            return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.rubs and mesh.tells_losses)
         gear = self._gears.get(circuit.id)
         return gear is not None and gear.efficiency is not None and gear.efficiency.forward.base < 1
 
@@ -153,7 +162,7 @@ class TrainModel:
 
     @cached_property
     def _pins(self) -> Mapping[str, PinTransmission]:
-        return {joint.coupling.name: joint.law for joint in self.problem.pins}
+        return {joint.coupling.name: joint.transmission for joint in self.problem.pins}
 
     @cached_property
     def _gears(self) -> Mapping[str, Any]:
@@ -162,13 +171,13 @@ class TrainModel:
     @cached_property
     def prescribed(self) -> Mapping[str, float]:
         """Links whose speed is given (rad/s)."""
-        unit = self.case.rate / float(self.problem.speeds[self.problem.lead])
+        unit = self.case.rate / float(self.problem.speeds[self.problem.driving_link])
         held = {row.label.removeprefix("input "): float(row.right) for row in self._rows("input")}
         found = {link: speed * unit for link, speed in held.items()}
         drive = self.case.drive
         if drive.kind != "rate" or drive.link not in found:
             # power enters at one link instead; where it is not an input, the first input that turns is let go
-            found.pop(drive.link if drive.link in found else self.problem.lead)
+            found.pop(drive.link if drive.link in found else self.problem.driving_link)
         return found if drive.kind != "rate" else {**found, drive.link: drive.rate}
 
     def _rows(self, kind: str) -> Iterator[Any]:
@@ -242,9 +251,9 @@ class TrainModel:
             restitution = self.case.restitution.get(circuit.id, 0.0)
             driver, driven = self._sides(circuit)
             if circuit.id not in self.sources:
-                law = self._even(circuit)
-                front = self._tabled(law)
-                arms = self._even_arms(circuit, law)
+                transmission = self._even(circuit)
+                front = self._tabled(transmission)
+                arms = self._even_arms(circuit, transmission)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
             front, back, arms, first = self._flanks(circuit)
@@ -256,20 +265,20 @@ class TrainModel:
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
         """Tables of both flanks, what friction adds, and the law of the front."""
         if circuit.id in self._pins:
-            law = self._pins[circuit.id]
+            transmission = self._pins[circuit.id]
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
-                front = self._tabled(law)
-                return front, front, pin_arms(law), law
-            before, behind = SlackPin(law, clearance, -1), SlackPin(law, clearance, 1)
-            return self._tabled(before), self._tabled(behind), pin_arms(law), before
+                front = self._tabled(transmission)
+                return front, front, pin_arms(transmission), transmission
+            before, behind = SlackPin(transmission, clearance, -1), SlackPin(transmission, clearance, 1)
+            return self._tabled(before), self._tabled(behind), pin_arms(transmission), before
         mesh = self._meshes[circuit.id]
-        front = self._tabled(mesh.law)
-        back = front if mesh.verdict.play <= 0 else self._tabled(mesh.coast)
-        return front, back, tooth_arms(mesh), mesh.law
+        front = self._tabled(mesh.transmission)
+        back = front if mesh.verdict.backlash <= 0 else self._tabled(mesh.coast)
+        return front, back, tooth_arms(mesh), mesh.transmission
 
-    def _tabled(self, law: TransmissionFunction) -> TabledFunction:
-        return tabled_angle(law, self.tolerance)
+    def _tabled(self, transmission: TransmissionFunction) -> TabledFunction:
+        return tabled_angle(transmission, self.tolerance)
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Forward speeds of driver and driven side of a pair, seen from its carrier."""
@@ -289,12 +298,12 @@ class TrainModel:
         own = circuit.b if path.coefficient == circuit.a else circuit.a
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 
-    def _even_arms(self, circuit: Circuit, law: ExactRatio) -> Arms | None:
+    def _even_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
         ways = self._gears[circuit.id].efficiency
         passed = float(ways.forward.base), float(ways.backward.base)
         if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
-        return even_arms(law, *passed, f"pair '{circuit.id}'")
+        return even_arms(transmission, *passed, f"pair '{circuit.id}'")
 
     # --------------------------------------------------------------------------------------------------------- the rest
 

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 DAMPING_RATIO = 0.05
 """Of a pair of which neither damping nor restitution is declared: of the size measured on spur gears."""
 
-_LEAST = 0.05  # restitution: what comes back falls with the square of the damping, and never to nothing
+_MINIMUM = 0.05  # restitution: what comes back falls with the square of the damping, and never to nothing
 _SINGLE = 14e9
 """N/m2: stiffness of one couple of steel teeth for each width of face, ISO 6336-1, method B, simplified."""
 
@@ -65,8 +65,8 @@ class YieldingTrain(TrainModel):
         # what has no stiffness and need not yield keeps its ratio
         return circuit.id in self.table.pairs or super()._is_contact(circuit)
 
-    def _even_arms(self, circuit: Circuit, law: ExactRatio) -> Arms | None:
-        return None if self._gears[circuit.id].efficiency is None else super()._even_arms(circuit, law)
+    def _even_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
+        return None if self._gears[circuit.id].efficiency is None else super()._even_arms(circuit, transmission)
 
     @property
     def assumed(self) -> tuple[str, ...]:
@@ -303,7 +303,7 @@ def damping_ratio(restitution: float) -> float:
     """
     from scipy.optimize import brentq
 
-    wanted = max(restitution, _LEAST)
+    wanted = max(restitution, _MINIMUM)
     return float(brentq(lambda ratio: restitution_at(ratio) - wanted, 0.0, 10.0, xtol=1e-14)) if wanted < 1 else 0.0
 
 

@@ -93,8 +93,8 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
             self._output(f"apart.{own}", "", share, _item("apart", each))
             torque = f"mean torque on the driven side of {each} since the last time"
             self._output(f"torques.{own}", "N.m", torque, _item("torques", each))
-            blows = f"energy that blows of {each} took since the last time"
-            self._output(f"blows.{own}", "J", blows, _item("blows", each))
+            meaning = f"energy lost in impacts of {each} since the last time"
+            self._output(f"impact_energy.{own}", "J", meaning, _item("impact_energy", each))
 
     def _input(self, name: str, unit: str, what: str, get: Callable[[], float], put: Callable[[float], None]) -> None:
         kind = {"causality": Fmi2Causality.input, "variability": Fmi2Variability.continuous}

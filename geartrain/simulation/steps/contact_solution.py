@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 OPEN, FRONT, BACK = 0, 1, 2
 """Which flank of a pair touches: none, the drive flank, the coast flank."""
 
-WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, BLOWS, STEP, FRICTION = range(8)
+WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRICTION = range(8)
 """Columns of the energy account (J): three kinds of work put in, five of loss."""
 
 ENERGIES = 8
-TIME_APART, TIME_COAST, BLOW_COUNT, BLOW_ENERGY, BLOW_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
+TIME_APART, TIME_COAST, IMPACT_COUNT, IMPACT_ENERGY, IMPACT_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
 """Columns of what is counted of each pair: steps apart and on the coast flank, blows, their energy and greatest speed,
 impulse, energy rubbed away, greatest gap, changes of flank."""
 

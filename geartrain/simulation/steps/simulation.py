@@ -11,7 +11,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.simulation.contacts.contact_model import ContactModel, ContactSystem
-from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
+from geartrain.simulation.contacts.pair_tables import PairTables, value_and_slope
 from geartrain.simulation.steps.contact_solution import (
     COUNTS,
     DIVERGED,
@@ -101,7 +101,7 @@ def simulate(
     teeth = _teeth(model, yields)
     skip = plan.skip - plan.skip % plan.stride
     rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps))
-    given = system, model.laws, state, here, record, rules
+    given = system, model.transmissions, state, here, record, rules
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
     def run(steps: int, counted: bool) -> None:
@@ -124,7 +124,7 @@ def simulate(
 
     skipped = go(skip, False)
     start, before = _kinetic(system, state), state.angle.copy()
-    pressed = _stored(system, model.laws, state, yields)
+    pressed = _stored(system, model.transmissions, state, yields)
     ends = [*range(0, plan.steps, plan.block or plan.steps or 1), plan.steps]
     marks, counted = [_mark(record, state)], 0
     for begin, end in pairwise(ends if skipped == skip else ()):
@@ -132,7 +132,7 @@ def simulate(
         marks.append(_mark(record, state))
         if done < end - begin:
             break
-    pressed = _stored(system, model.laws, state, yields) - pressed
+    pressed = _stored(system, model.transmissions, state, yields) - pressed
     record.energy[STEP] -= pressed
     order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
@@ -199,7 +199,9 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     ratio = np.zeros((pairs, 2))
     for m in range(pairs):
         for side in range(2):
-            _, ratio[m, side] = value_and_slope(model.laws, int(system.tables[m, side]), float(system.start_driver[m]))
+            _, ratio[m, side] = value_and_slope(
+                model.transmissions, int(system.tables[m, side]), float(system.start_driver[m])
+            )
     for d, m in enumerate(model.order.owner):
         if m >= 0 and model.given:
             row = slice(system.pair_at[m] + 1, system.pair_at[m + 1])
@@ -283,7 +285,7 @@ def _yielding(model: ContactModel, system: ContactSystem, step: float, yields: T
     )
 
 
-def _stored(system: ContactSystem, laws: LawTables, state: ContactState, yields: ToothYield | None) -> float:
+def _stored(system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothYield | None) -> float:
     """Energy in teeth that yield and are pressed together (J)."""
     if yields is None:
         return 0.0
@@ -293,7 +295,10 @@ def _stored(system: ContactSystem, laws: LawTables, state: ContactState, yields:
         angle = state.angle[system.pair_of[row]]
         S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
         q = float(system.start_driven[m] + system.pair_driven[row] @ angle)
-        gaps = [(1 - 2 * side) * (q - value_and_slope(laws, int(system.tables[m, side]), S)[0]) for side in range(2)]
+        gaps = [
+            (1 - 2 * side) * (q - value_and_slope(transmissions, int(system.tables[m, side]), S)[0])
+            for side in range(2)
+        ]
         touches = [state.touching[m] == side + 1 for side in range(2)]
         pressed = (
             gaps[:1] if system.two_sided[m] else [min(gap, 0.0) * on for gap, on in zip(gaps, touches, strict=True)]

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 from geartrain.numerics.kernels import kernel
 from geartrain.simulation.contacts.contact_model import ContactSystem
-from geartrain.simulation.contacts.law_tables import LawTables
+from geartrain.simulation.contacts.pair_tables import PairTables
 from geartrain.simulation.steps.contact_solution import (
     BEARINGS,
-    BLOW_COUNT,
-    BLOW_ENERGY,
-    BLOW_SPEED,
-    BLOWS,
     CHANGES,
     FRICTION,
     GAP,
+    IMPACT_COUNT,
+    IMPACT_ENERGY,
+    IMPACT_LOSS,
+    IMPACT_SPEED,
     IMPACTS,
     IMPULSE,
     OPEN,
@@ -83,7 +83,7 @@ def count_energy(
 @kernel
 def count_contacts(
     system: ContactSystem,
-    laws: LawTables,
+    transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
@@ -117,18 +117,18 @@ def count_contacts(
         counts[IMPULSE] += here.P[m] * sign
         if now != here.before[m] and here.before[m] != 0:
             counts[CHANGES] += 1.0
-        struck = now != here.before[m] or leaps(laws.jump, system.tables, here.ratio, state.ratio, m, side)
-        least = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
-        if struck and system.two_sided[m] == 0 and here.closing[m, side] > least:
+        struck = now != here.before[m] or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)
+        minimum = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
+        if struck and system.two_sided[m] == 0 and here.closing[m, side] > minimum:
             state.struck[m] = 1
-            count_blow(record, m, taken, here.P[m], state.steady[m])
-            counts[BLOW_COUNT] += 1.0
-            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], here.closing[m, side])
+            count_impact(record, m, taken, here.P[m], state.steady[m])
+            counts[IMPACT_COUNT] += 1.0
+            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], here.closing[m, side])
             note_impact(record, state.clock[0] + rules.step, m, here.closing[m, side], taken, here.P[m])
         elif state.struck[m] != 0:
             # a ratio that jumps within a step is met by the mean of both, and the rest follows in the next
             state.struck[m] = 0
-            count_blow(record, m, taken, here.P[m], state.steady[m])
+            count_impact(record, m, taken, here.P[m], state.steady[m])
         else:
             record.energy[STEP] += taken
             state.steady[m] = abs(here.P[m])
@@ -160,12 +160,12 @@ def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
 
 
 @kernel
-def count_blow(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
+def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
     """Part what a contact takes in a step between the blow and the steady force beside it."""
     share = (impulse - steady) / impulse if impulse > steady else 0.0
-    record.energy[BLOWS] += taken * share
+    record.energy[IMPACT_LOSS] += taken * share
     record.energy[STEP] += taken * (1.0 - share)
-    record.counts[m, BLOW_ENERGY] += taken * share
+    record.counts[m, IMPACT_ENERGY] += taken * share
 
 
 @kernel
@@ -196,25 +196,25 @@ def count_stops(
         counts[IMPULSE] += here.P[pairs + m]
         if state.struck[pairs + m] != 0:
             state.struck[pairs + m] = 0
-            record.energy[BLOWS] += taken
-            counts[BLOW_ENERGY] += taken
+            record.energy[IMPACT_LOSS] += taken
+            counts[IMPACT_ENERGY] += taken
         elif here.before[pairs + m] == 0 and start > 0.0:
             # it comes to its stop in this step, and to rest in the next
             state.struck[pairs + m] = 1
-            record.energy[BLOWS] += taken
-            counts[BLOW_COUNT] += 1.0
-            counts[BLOW_ENERGY] += taken
+            record.energy[IMPACT_LOSS] += taken
+            counts[IMPACT_COUNT] += 1.0
+            counts[IMPACT_ENERGY] += taken
             closing = here.stop_closing[m]
-            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], closing)
+            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], closing)
             note_impact(record, state.clock[0], pairs + m, closing, taken, here.P[pairs + m])
         else:
             # a stop that moves on and is met again within one step: all that it takes is of that blow
             # (its closing speed is that of the step at least)
-            record.energy[BLOWS] += taken
-            counts[BLOW_ENERGY] += taken
+            record.energy[IMPACT_LOSS] += taken
+            counts[IMPACT_ENERGY] += taken
             if here.stop_bound[m] * step > system.stop_pitch[m] / 2:
-                counts[BLOW_COUNT] += 1.0
-                counts[BLOW_SPEED] = max(counts[BLOW_SPEED], here.stop_bound[m])
+                counts[IMPACT_COUNT] += 1.0
+                counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], here.stop_bound[m])
                 note_impact(record, state.clock[0], pairs + m, here.stop_bound[m], taken, here.P[pairs + m])
 
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from geartrain.numerics.kernels import kernel
 from geartrain.simulation.contacts.contact_model import ContactSystem
-from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
+from geartrain.simulation.contacts.pair_tables import PairTables, value_and_slope
 from geartrain.simulation.steps.contact_solution import (
     AT_ONCE,
     BACK,
@@ -97,7 +97,7 @@ def repeat_counts(counts: Floats, before: Floats, times: int) -> None:
 @kernel
 def run_steps(
     system: ContactSystem,
-    laws: LawTables,
+    transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
@@ -112,7 +112,7 @@ def run_steps(
     while done < steps:
         if idle > 1:
             before[:, :] = record.counts
-        rounds = solve_step(system, laws, state, here, rules)
+        rounds = solve_step(system, transmissions, state, here, rules)
         if diverges(here.v, rules.step):
             record.numbers[DIVERGED] = 1
             break
@@ -126,7 +126,7 @@ def run_steps(
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += times
             count_energy(system, state, here, record, rules, here.v, 1.0)
-            count_contacts(system, laws, state, here, record, rules)
+            count_contacts(system, transmissions, state, here, record, rules)
             if len(system.stop_stiff) > 0:
                 count_stops(system, state, here, record, rules.step)
             if times > 1:
@@ -164,13 +164,13 @@ def diverges(speed: Floats, step: float) -> bool:
 
 @kernel
 def solve_step(
-    system: ContactSystem, laws: LawTables, state: ContactState, here: StepEquations, rules: StepRules
+    system: ContactSystem, transmissions: PairTables, state: ContactState, here: StepEquations, rules: StepRules
 ) -> int:
     """Speeds at the end of a step, and how many guesses they took."""
     find_loads(system, state, here, rules.step)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]
-    find_bounds(system, laws, state, here, rules.step)
+    find_bounds(system, transmissions, state, here, rules.step)
     if len(system.stop_stiff) > 0:
         find_stop_bounds(system, state, here, rules.step)
     pairs = len(system.stiff)
@@ -188,13 +188,13 @@ def solve_step(
             continue
         if again == _AGAIN:
             return rounds
-        struck = is_struck(state.touching, here.before, laws.jump, system.tables, here.ratio, state.ratio)
+        struck = is_struck(state.touching, here.before, transmissions.jump, system.tables, here.ratio, state.ratio)
         if find_shift(system, here, 0.0 if struck else _JOLT) * rules.step < _NEAR:
             return rounds
         again += 1
         for d in range(len(here.v)):
             here.ahead[d] = here.v[d]
-        find_bounds(system, laws, state, here, rules.step)
+        find_bounds(system, transmissions, state, here, rules.step)
 
 
 @kernel
@@ -240,7 +240,7 @@ def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, 
 @kernel
 def find_bounds(
     system: ContactSystem,
-    laws: LawTables,
+    transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     step: float,
@@ -264,7 +264,7 @@ def find_bounds(
                 here.gap[m, side] = -np.inf
                 continue
             sign = 1.0 - 2.0 * side
-            angle, ratio = value_and_slope(laws, system.tables[m, side], at)
+            angle, ratio = value_and_slope(transmissions, system.tables[m, side], at)
             lack = sign * ((angle - q) / step - ratio * on)
             rate = sign * (dq - ratio * dS)
             here.gap[m, side] = lack
@@ -275,12 +275,12 @@ def find_bounds(
             # follow each other ever faster, and those as short as steps end in contact
             bounces = bounce > 0.0 and rate < lack < bounce
             long = state.flown[m] > _SHORT
-            if bounces and (long or leaps(laws.jump, system.tables, here.ratio, state.ratio, m, side)):
+            if bounces and (long or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)):
                 lack = bounce
             here.bound[m, side] = lack
             here.arm[m, side] = ratio
             if system.rubbing[m, 2 * side + way] >= 0:
-                more, _ = value_and_slope(laws, system.rubbing[m, 2 * side + way], at)
+                more, _ = value_and_slope(transmissions, system.rubbing[m, 2 * side + way], at)
                 here.arm[m, side] += more
 
 
@@ -295,10 +295,10 @@ def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: F
 
 
 @kernel
-def find_shift(system: ContactSystem, here: StepEquations, least: float) -> float:
+def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> float:
     """How far the speeds of drivers are from those for which the laws were read (rad/s).
 
-    least   share of its own speed from which that of a driver counts
+    minimum   share of its own speed from which that of a driver counts
     """
     most = 0.0
     for m in range(len(system.stiff)):
@@ -307,7 +307,7 @@ def find_shift(system: ContactSystem, here: StepEquations, least: float) -> floa
             o = system.pair_of[x]
             shift += system.pair_driver[x] * (here.v[o] - here.ahead[o])
             speed += system.pair_driver[x] * here.ahead[o]
-        if abs(shift) > least * abs(speed):
+        if abs(shift) > minimum * abs(speed):
             most = max(most, abs(shift))
     return most
 

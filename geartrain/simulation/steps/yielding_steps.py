@@ -17,16 +17,16 @@ import numpy as np
 
 from geartrain.numerics.kernels import kernel
 from geartrain.simulation.contacts.contact_model import ContactSystem
-from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
+from geartrain.simulation.contacts.pair_tables import PairTables, value_and_slope
 from geartrain.simulation.steps.contact_solution import (
     AT_ONCE,
-    BLOW_COUNT,
-    BLOW_ENERGY,
-    BLOW_SPEED,
-    BLOWS,
     CHANGES,
     DIVERGED,
     FRICTION,
+    IMPACT_COUNT,
+    IMPACT_ENERGY,
+    IMPACT_LOSS,
+    IMPACT_SPEED,
     IMPACTS,
     IMPULSE,
     OPEN,
@@ -68,7 +68,7 @@ class YieldingTeeth(NamedTuple):
 @kernel
 def run_yielding_steps(
     system: ContactSystem,
-    laws: LawTables,
+    transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
@@ -80,7 +80,7 @@ def run_yielding_steps(
     """Go so many steps on; arguments as of `run_steps`."""
     since = 0
     for _ in range(steps):
-        rounds = solve_midpoint_step(system, laws, state, here, rules, teeth)
+        rounds = solve_midpoint_step(system, transmissions, state, here, rules, teeth)
         if diverges(here.v, rules.step):
             record.numbers[DIVERGED] = 1
             break
@@ -110,7 +110,7 @@ def run_yielding_steps(
 @kernel
 def solve_midpoint_step(
     system: ContactSystem,
-    laws: LawTables,
+    transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     rules: StepRules,
@@ -120,7 +120,7 @@ def solve_midpoint_step(
     find_midpoint_loads(system, state, here, rules.step)
     for m in range(len(system.stiff)):
         here.before[m] = state.touching[m]
-    find_midpoint_bounds(system, laws, state, here, teeth, rules.step)
+    find_midpoint_bounds(system, transmissions, state, here, teeth, rules.step)
     rounds = 0
     while True:
         solve_guess(system, state, here, rules.step, rules.creep)
@@ -153,7 +153,7 @@ def find_midpoint_loads(system: ContactSystem, state: ContactState, here: StepEq
 @kernel
 def find_midpoint_bounds(
     system: ContactSystem,
-    laws: LawTables,
+    transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     teeth: YieldingTeeth,
@@ -173,12 +173,12 @@ def find_midpoint_bounds(
         stiff, damped = step * teeth.stiffness[m], step * teeth.damping[m]
         for side in range(2):
             sign = 1.0 - 2.0 * side
-            angle, ratio = value_and_slope(laws, system.tables[m, side], at)
+            angle, ratio = value_and_slope(transmissions, system.tables[m, side], at)
             rate = sign * (dq - ratio * dS)
             here.ratio[m, side] = ratio
             here.arm[m, side] = ratio
             if system.rubbing[m, 2 * side + way] >= 0:
-                more, _ = value_and_slope(laws, system.rubbing[m, 2 * side + way], at)
+                more, _ = value_and_slope(transmissions, system.rubbing[m, 2 * side + way], at)
                 here.arm[m, side] += more
             # with the row's speed r at the start and r+ at the end the gap is  gap + h/4 r+,  and P = s (bound - r+)
             teeth.gap[m, side] = sign * (q + step / 2 * dq - angle) - step / 4 * rate
@@ -231,17 +231,17 @@ def count_yielding(
         damped = rules.step * teeth.damping[m] * rate * rate
         rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
         record.energy[FRICTION] += rubbed
-        record.energy[BLOWS] += damped
+        record.energy[IMPACT_LOSS] += damped
         record.energy[STEP] += -here.P[m] * sign * rate - damped
         counts[RUBBED] += rubbed
-        counts[BLOW_ENERGY] += damped
+        counts[IMPACT_ENERGY] += damped
         counts[IMPULSE] += here.P[m] * sign
         teeth.peak[m] = max(teeth.peak[m], abs(here.P[m]) / rules.step)
         if now != here.before[m] and system.two_sided[m] == 0:
             if here.before[m] != 0:
                 counts[CHANGES] += 1.0
-            counts[BLOW_COUNT] += 1.0
-            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], -sign * rate)
+            counts[IMPACT_COUNT] += 1.0
+            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], -sign * rate)
             # where flanks meet, damping alone pushes: within the first step that falls off again
             met = sign * (here.ratio[m, side] * start_S - start_q)
             teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
@@ -271,6 +271,6 @@ def count_straightened(
     if parted != 0:
         pressed = min(teeth.gap[m, side] - opened, 0.0)
         left = parted * teeth.stiffness[m] / 2 * pressed * pressed
-        record.energy[BLOWS] += left
+        record.energy[IMPACT_LOSS] += left
         record.energy[STEP] -= left
-        record.counts[m, BLOW_ENERGY] += left
+        record.counts[m, IMPACT_ENERGY] += left

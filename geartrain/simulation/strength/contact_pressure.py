@@ -86,13 +86,13 @@ def hertz_pressure(factor: float, force: float, width: float, curvature: float) 
 class ContactPlace(Result):
     """Pressure at one place of the path of contact."""
 
-    KEYS = ("where", "position", "couples", "force", Key("pressure", to=finite))
+    KEYS = ("where", "position", "tooth_pairs", "force", Key("pressure", to=finite))
 
     where: str
     """What the place is called."""
     position: float
     """Past the pitch point, along the pitch line [pitch]."""
-    couples: float
+    tooth_pairs: float
     """Pairs of teeth that touch then; each carries the same force. For helical teeth, the least mean over the width."""
     force: float
     """Normal to the flanks [N]."""
@@ -119,7 +119,7 @@ class ContactLoad:
         """Force along the pitch line [N]."""
         return self.torque / (self.path.pitch.R1 * self.module)
 
-    def couples(self, X: float) -> list[float]:
+    def tooth_pairs(self, X: float) -> list[float]:
         """Displacements of all couples that touch while one touches at X."""
         p, (approach, recess) = self.path.pitch.p, self.path.arcs
         slack = 1e-9 * p
@@ -130,7 +130,7 @@ class ContactLoad:
         """Normal force [N] at each displacement, and how many couples share the torque: all carry the same force."""
         cosines, counts = [], []
         for each in X.tolist():
-            found = self.path.at(np.clip(self.couples(each), -self.path.arcs[0], self.path.arcs[1])).cos_psi
+            found = self.path.at(np.clip(self.tooth_pairs(each), -self.path.arcs[0], self.path.arcs[1])).cos_psi
             cosines.append(float(found.sum()))
             counts.append(len(found))
         return self.tangential / np.array(cosines), np.array(counts)
@@ -192,7 +192,7 @@ def base_helix_angle(helix: float, pressure_angle: float) -> float:
     return asin(sin(helix) * cos(pressure_angle))
 
 
-def least_couples(contact_ratio: float, overlap: float) -> float:
+def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
     """The least number of couples that touch, in the mean over the width: docs/strength.md (20).
 
     contact_ratio   in the transverse section; `overlap`, by how many pitches teeth lag over the width
@@ -216,7 +216,7 @@ class LeaningLoad(ContactLoad):
     @property
     def lines(self) -> float:
         """Least number of couples in the mean of the width."""
-        return least_couples(self.path.contact_ratio, self.overlap)
+        return minimum_tooth_pairs(self.path.contact_ratio, self.overlap)
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
         """Force [N] on one whole tooth across the axes at each displacement, were all alike; and how many share it."""
@@ -360,7 +360,7 @@ class CrossedWheels:
         """Pitches on which a couple touches."""
         return sum(self.ends) / self.pitch
 
-    def couples(self, place: float) -> int:
+    def tooth_pairs(self, place: float) -> int:
         """How many touch while one does at a place, counted along the normal past the pitch point."""
         back, front = self.ends
         slack = 1e-9 * self.pitch
@@ -369,14 +369,14 @@ class CrossedWheels:
     def ellipse(self, place: float, force: float, factor: float) -> ContactEllipse:
         """Where they touch at a place, all couples sharing a normal force [N]."""
         rho = self.flank_radius(0) + place, self.flank_radius(1) - place
-        return contact_ellipse(force / self.couples(place), factor, (1 / rho[0], 1 / rho[1]), self.crossing)
+        return contact_ellipse(force / self.tooth_pairs(place), factor, (1 / rho[0], 1 / rho[1]), self.crossing)
 
     def worst(self, force: float, factor: float) -> ContactEllipse:
         """The greatest pressure of all places where as few couples touch as anywhere."""
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
-        fewest = min(self.couples(place) for place in places)
-        found = [self.ellipse(place, force, factor) for place in places if self.couples(place) == fewest]
+        fewest = min(self.tooth_pairs(place) for place in places)
+        found = [self.ellipse(place, force, factor) for place in places if self.tooth_pairs(place) == fewest]
         return max(found)
 
 

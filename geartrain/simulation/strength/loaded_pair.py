@@ -329,4 +329,4 @@ class PairUnderLoad:
         )
 
     def _range(self, per: float) -> WearRange:
-        return WearRange(self.wear.least * per, self.wear.greatest * per)
+        return WearRange(self.wear.minimum * per, self.wear.maximum * per)

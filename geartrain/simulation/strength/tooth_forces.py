@@ -82,8 +82,8 @@ class ToothForces:
     def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
         """Radii with forces along them: the greater one on both wheels, for friction takes some of a torque only."""
         pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
-        greatest = max(map(abs, pushes))
-        return [(radius, copysign(greatest, push)) for radius, push in zip(radii, pushes, strict=True)]
+        maximum = max(map(abs, pushes))
+        return [(radius, copysign(maximum, push)) for radius, push in zip(radii, pushes, strict=True)]
 
     def is_crossed(self, circuit: Circuit) -> bool:
         """True of helical wheels, or a worm and its wheel, on axes that neither meet nor are parallel."""

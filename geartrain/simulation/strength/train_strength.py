@@ -68,8 +68,8 @@ def solve_strength(
     cycle = solve_over_turns(train, state, over)
     if not cycle.parts:
         return TrainStrength(found.state, cycle.verdict)
-    greatest = {name: part.greatest for name, part in cycle.parts.items()}
-    return replace(question, over=over, greatest=greatest).answer()
+    maximum = {name: part.maximum for name, part in cycle.parts.items()}
+    return replace(question, over=over, maximum=maximum).answer()
 
 
 @dataclass(frozen=True)
@@ -87,8 +87,8 @@ class Service:
         """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
         check_numbers(turns=self.turns, years=self.years)
         own = WearRange(*(self.wear or WEAR_RANGE))
-        if not 0 < own.least <= own.greatest < inf:
-            what = f"{own.least:g} to {own.greatest:g} is no range of wear coefficients"
+        if not 0 < own.minimum <= own.maximum < inf:
+            what = f"{own.minimum:g} to {own.maximum:g} is no range of wear coefficients"
             raise QuestionError(Problem(what, "K is above 0, the lesser first", "give for example 1e-7 1e-3"))
         return own
 
@@ -146,7 +146,7 @@ class StrengthQuestion:
     """Least and greatest wear coefficient."""
     over: float | None = None
     """Turns of the input whose greatest torques bend and press; None where means do."""
-    greatest: Mapping[str, float] = field(default_factory=dict)
+    maximum: Mapping[str, float] = field(default_factory=dict)
     """By pair: the greatest torque on its driven side in them [N m]."""
     left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
@@ -174,11 +174,11 @@ class StrengthQuestion:
         """By pair: the greatest torque over the turns that are asked for, over the mean one."""
         found = {}
         for circuit in self.setting.circuits:
-            pair, greatest = self.torques.pairs.get(circuit.id), self.greatest.get(circuit.id)
-            if pair is None or greatest is None or circuit.kind != "gear" or pair.driver not in circuit.wheels:
+            pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
+            if pair is None or maximum is None or circuit.kind != "gear" or pair.driver not in circuit.wheels:
                 continue
             mean = abs(float(pair.torques[1 - circuit.wheels.index(pair.driver)]))
-            found[circuit.id] = max(greatest / mean, 1.0) if mean else 1.0
+            found[circuit.id] = max(maximum / mean, 1.0) if mean else 1.0
         return found
 
     def answer(self) -> TrainStrength:
@@ -264,7 +264,7 @@ class StrengthQuestion:
             moved = float(torque.torques[gear.pair.index(mesh.gears[0])]) * self.swings.get(gear.name, 1.0)
             width = 1e3 * min(self._width(disc), self._width(ring))
             pinned = PinnedDisc(mesh.gears[0], (self._named(disc), self._named(ring)), width, moved)
-            yield gear.name, pinned.lobes(gear.name, mesh.law.disc, 1e3 * self.modules[mesh.gears[0]])
+            yield gear.name, pinned.lobes(gear.name, mesh.transmission.disc, 1e3 * self.modules[mesh.gears[0]])
         for coupling in (each for each in self.declared.couplings if isinstance(each, PinsInHoles)):
             found = self._in_holes(coupling)
             if found is not None:
@@ -402,7 +402,7 @@ class StrengthQuestion:
         """Arbors all of whose forces are known."""
         straight = {each.pair for each in forces if not each.axial}
         steepest = {
-            name: max((each.force for each in pair.contact if each.couples == 1), default=0.0)
+            name: max((each.force for each in pair.contact if each.tooth_pairs == 1), default=0.0)
             for name, pair in pairs.items()
             if name in straight
         }
@@ -467,7 +467,7 @@ def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: Arbor
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
     length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
-    bending = bending_stress(greatest_moment(load.across, load.couple, span), diameter)
+    bending = bending_stress(maximum_moment(load.across, load.couple, span), diameter)
     bending += 4 * load.along / (pi * diameter**2)
     torsion = torsional_stress(load.torque, diameter)
     strength = None if material.strength is None else material.strength.si / 1e6
@@ -496,12 +496,12 @@ def torsional_stress(torque: float, diameter: float) -> float:
     return 16 * torque / (pi * diameter**3)
 
 
-def greatest_moment(force: float, couple: float, span: float) -> float:
+def maximum_moment(force: float, couple: float, span: float) -> float:
     """Of a bar between two bearings [N mm] under forces and couples, wherever they stand: docs/strength.md (26).
 
     A force across at x L bends by F L x (1 - x) there, a couple by at most M max(x, 1 - x).
 
-    >>> greatest_moment(10.0, 0.0, 40.0), greatest_moment(0.0, 50.0, 40.0)
+    >>> maximum_moment(10.0, 0.0, 40.0), maximum_moment(0.0, 50.0, 40.0)
     (100.0, 50.0)
     """
     if couple >= force * span:

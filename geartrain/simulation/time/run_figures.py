@@ -14,13 +14,13 @@ import numpy as np
 from geartrain.numerics.labelled_array import labelled_array
 from geartrain.simulation.steps.contact_solution import (
     BEARINGS,
-    BLOW_COUNT,
-    BLOW_ENERGY,
-    BLOW_SPEED,
-    BLOWS,
     CHANGES,
     FRICTION,
     GAP,
+    IMPACT_COUNT,
+    IMPACT_ENERGY,
+    IMPACT_LOSS,
+    IMPACT_SPEED,
     IMPACTS,
     IMPULSE,
     RUBBED,
@@ -35,10 +35,10 @@ from geartrain.simulation.steps.contact_solution import (
 )
 from geartrain.simulation.time.time_run import (
     ContactInTime,
+    ConvergedFigure,
     EnergyAccount,
     ImpactList,
-    OutputLead,
-    SettledFigure,
+    OutputDeviation,
     SpectrumPeak,
     TimeRun,
 )
@@ -105,7 +105,7 @@ class RunFigures:
     @cached_property
     def turns(self) -> Floats:
         """Turns of the lead, in the sense in which it turns."""
-        return np.asarray(self.of.problem.way * self.turns_of(self.of.problem.lead), dtype=np.float64)
+        return np.asarray(self.of.problem.way * self.turns_of(self.of.problem.driving_link), dtype=np.float64)
 
     @cached_property
     def names(self) -> list[str]:
@@ -121,9 +121,9 @@ class RunFigures:
                 name,
                 float(counts[TIME_APART] / steps),
                 float(counts[TIME_COAST] / steps),
-                float(counts[BLOW_COUNT] / time),
-                float(counts[BLOW_ENERGY] / time),
-                float(counts[BLOW_SPEED]),
+                float(counts[IMPACT_COUNT] / time),
+                float(counts[IMPACT_ENERGY] / time),
+                float(counts[IMPACT_SPEED]),
                 float(counts[IMPULSE] / time),
                 float(counts[RUBBED] / time),
                 float(counts[GAP]),
@@ -151,7 +151,7 @@ class RunFigures:
             bearings=float(energy[BEARINGS]),
             drag=float(energy[VISCOUS]),
             friction=float(energy[FRICTION]),
-            blows=float(energy[BLOWS]),
+            impact_loss=float(energy[IMPACT_LOSS]),
             steps=float(energy[STEP]),
             kinetic=self.run.end - self.run.start,
             stored=self.run.end,
@@ -215,11 +215,11 @@ class RunFigures:
         return found
 
     @cached_property
-    def leads(self) -> tuple[OutputLead, ...]:
+    def deviations(self) -> tuple[OutputDeviation, ...]:
         """How far outputs are ahead and behind."""
         counted = {name: each[self.first :] for name, each in self.differences.items()}
         return tuple(
-            OutputLead(
+            OutputDeviation(
                 name,
                 float(max(each.max(initial=0.0), 0.0)),
                 float(max(-each.min(initial=0.0), 0.0)),
@@ -231,7 +231,7 @@ class RunFigures:
     def means(self) -> Iterator[_Figure]:
         """Means over the run."""
         yield "torque of the drive", "N m", self.torque, "mean"
-        yield "power of blows", "W", self.energy.blows / self.duration, "mean"
+        yield "power of blows", "W", self.energy.impact_loss / self.duration, "mean"
         for each in self.contacts:
             yield f"{each.name} apart", "", each.apart, "mean"
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
@@ -244,13 +244,13 @@ class RunFigures:
     def extremes(self) -> Iterator[_Figure]:
         """Greatest values of the run."""
         for each in self.contacts:
-            if each.blows:
+            if each.impact_rate:
                 yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
             if each.peak is not None:
                 yield f"{each.name} peak torque", "N m", each.peak, "extreme"
-        for lead in self.leads:
-            yield f"{lead.output} ahead", "rad", lead.ahead, "extreme"
-            yield f"{lead.output} behind", "rad", lead.behind, "extreme"
+        for deviation in self.deviations:
+            yield f"{deviation.output} ahead", "rad", deviation.ahead, "extreme"
+            yield f"{deviation.output} behind", "rad", deviation.behind, "extreme"
 
     @cached_property
     def gaps(self) -> tuple[Floats, Floats]:
@@ -274,8 +274,8 @@ class RunFigures:
         return TimeRun(
             self.of.train.name,
             self.of.state,
-            self.of.problem.lead,
-            float(self.of.speeds[self.of.index[self.of.problem.lead]] @ self.run.turned) / self.duration,
+            self.of.problem.driving_link,
+            float(self.of.speeds[self.of.index[self.of.problem.driving_link]] @ self.run.turned) / self.duration,
             self.of.case.drive.link,
             self.of.case.drive.kind,
             self.plan.step,
@@ -295,7 +295,7 @@ class RunFigures:
             self.contacts,
             self._impacts(),
             self.energy,
-            self.leads,
+            self.deviations,
             {name: tuple(self._peaks(name)) for name, _, _ in self.outputs},
             () if coarse is None else tuple(self._compared(coarse)),
             self.run.numbers[UNSOLVED],
@@ -306,14 +306,14 @@ class RunFigures:
             max((self.of.case.restitution.get(name, 0.0) for name in self.names), default=0.0),
         )
 
-    def _compared(self, coarse: RunFigures) -> Iterator[SettledFigure]:
+    def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
         """Every figure beside that of a run of longer steps."""
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
         rows += [(coarse_extremes.get(each[0], (*each[:2], 0.0, each[3])), each, None) for each in self.extremes()]
         for one, other, interval in rows:
             name, unit, value, kind = other
-            yield SettledFigure(name, unit, one[2], value, kind, _settled(one, other, interval), interval)
+            yield ConvergedFigure(name, unit, one[2], value, kind, _converged(one, other, interval), interval)
 
     def _impacts(self) -> ImpactList:
         time, which, speed, energy, impulse = (_frozen(each) for each in self.run.impacts.T.copy())
@@ -334,7 +334,7 @@ class RunFigures:
         return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
 
 
-def _settled(one: _Figure, other: _Figure, interval: float | None) -> bool:
+def _converged(one: _Figure, other: _Figure, interval: float | None) -> bool:
     _, unit, value, kind = one
     share = _AGREE[kind] * max(abs(value), abs(other[2])) if unit else _SHARE
     near = max(share, _ANGLE if unit == "rad" else 0.0)

@@ -126,9 +126,9 @@ class PartingSearch:
             if share is None:
                 break
             one = self.run(share, plan, place.angle, place.speed)
-            least, where = _least(one.forces[:, place.pair])
-            if least > 0:
-                known.append((share, least))
+            minimum, where = _minimum(one.forces[:, place.pair])
+            if minimum > 0:
+                known.append((share, minimum))
                 if share > low:
                     low, run, at = share, one, where
             else:
@@ -170,7 +170,7 @@ def _vanishing(first: Floats, slow: float, second: Floats, quick: float) -> Floa
     return np.where((fall > 0) & (square > 0), np.sqrt(np.maximum(square, 0.0)), inf)
 
 
-def _least(forces: Floats) -> tuple[float, int]:
+def _minimum(forces: Floats) -> tuple[float, int]:
     """The least torque that a pair carries for some steps on end, and the step in the middle of those."""
     spans = np.lib.stride_tricks.sliding_window_view(forces, FLIGHT).max(axis=1)[_SETTLE:]
     at = int(spans.argmin())
@@ -238,7 +238,7 @@ def find_stepped_separation(
     search = PartingSearch(study.of.model, 1 / predicted, study.is_fast, lambda steps: on_done(steps / whole))
     flight = (2 * plan.stride - 1) / study.per_turn
     none = (None,) * 6
-    known = SteppedSeparation(study.of.problem.lead, study.turns, predicted, *none, flight)
+    known = SteppedSeparation(study.of.problem.driving_link, study.turns, predicted, *none, flight)
     try:
         share, places = _suspects(search, plan)
         known = replace(known, holds=share * predicted)

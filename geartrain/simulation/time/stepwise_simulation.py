@@ -11,7 +11,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.results import Shown
-from geartrain.simulation.steps.contact_solution import BLOW_ENERGY, TIME_APART, UNSOLVED, RunRecord
+from geartrain.simulation.steps.contact_solution import IMPACT_ENERGY, TIME_APART, UNSOLVED, RunRecord
 from geartrain.simulation.steps.simulation import (
     StepPlan,
     check_convergence,
@@ -51,7 +51,7 @@ class Simulation(Shown):
         By pair, pin and escapement.
     torque : float
         Of the drive, the way its link turns; mean of the last advance [N m].
-    torques, apart, blows : dict of str to float
+    torques, apart, impact_energy : dict of str to float
         By pair, pin and escapement, over the last advance: mean torque on the driven side [N m], share of time in which
         no flank touches, energy that blows took [J].
     unsolved : int
@@ -108,7 +108,7 @@ class Simulation(Shown):
         self._torque = np.array(self._system.torque)
         self.time = 0.0
         self.torque = 0.0
-        self.torques, self.apart, self.blows = (dict.fromkeys(self._names, 0.0) for _ in range(3))
+        self.torques, self.apart, self.impact_energy = (dict.fromkeys(self._names, 0.0) for _ in range(3))
         self.unsolved = 0
         self._set_torques()
 
@@ -287,7 +287,7 @@ class Simulation(Shown):
         """Some steps; a sample that is never full keeps the sums of all impulses."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)
-        self._run(self._system, self._model.laws, self._state, self._room, record, rules, steps, True)
+        self._run(self._system, self._model.transmissions, self._state, self._room, record, rules, steps, True)
         check_convergence(self._state, record, self.step)
 
     def _read(self, record: RunRecord, steps: int) -> None:
@@ -295,7 +295,7 @@ class Simulation(Shown):
         forces, drive = record.forces[0] / time, record.drive[0] / time
         self.torques = dict(zip(self._names, forces.tolist(), strict=True))
         self.apart = dict(zip(self._names, (record.counts[:, TIME_APART] / steps).tolist(), strict=True))
-        self.blows = dict(zip(self._names, record.counts[:, BLOW_ENERGY].tolist(), strict=True))
+        self.impact_energy = dict(zip(self._names, record.counts[:, IMPACT_ENERGY].tolist(), strict=True))
         self.unsolved += int(record.numbers[UNSOLVED])
         way = -1.0 if self._of.typical(self.drive_link) < 0 else 1.0
         if self.drive_kind == "rate":

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.exact import percent_text, watts_text
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
-from geartrain.report.torque_report import turns_text
+from geartrain.report.torque_report import energy_table, turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.simulation.contacts.link_inertia import LinkInertia
     from geartrain.simulation.contacts.separation_rate import SeparationRates
     from geartrain.simulation.time.stepped_separation import SteppedSeparation
-    from geartrain.simulation.time.time_run import ContactInTime, SettledFigure, TimeRun
+    from geartrain.simulation.time.time_run import ContactInTime, ConvergedFigure, TimeRun
 
 
 _SURE = 1e-9  # an account that closes to less says nothing more
@@ -76,7 +76,7 @@ def collect_time_report(
     >>> import geartrain
     >>> train = geartrain.load("moon-triangular-inertia")
     >>> found = collect_time_report(train, train.dynamics("1 turn/s", turns=0.01, skip=0, steps=2000))
-    >>> found.separation.pair, found.to_dict()["lead"]
+    >>> found.separation.pair, found.to_dict()["driving_link"]
     ('d2~e', 'crank')
     """
     from geartrain.simulation.contacts.link_inertia import find_link_inertias
@@ -109,7 +109,7 @@ def describe_time_run(found: TimeReport) -> Document:
     >>> [section.title for section in describe_time_run(collect_time_report(train, run)).sections[:3]]
     ['Up to which rate it holds', 'Contacts', 'Drive and outputs']
     """
-    return Document(f"Motion in time of {found.run.train}", list(_lead(found.run)), list(_sections(found)))
+    return Document(f"Motion in time of {found.run.train}", list(_summary(found.run)), list(_sections(found)))
 
 
 def time_document(run: TimeRun) -> Document | None:
@@ -140,7 +140,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
                 (figure(peak.order, 6), figure(peak.frequency, 6), figure(degrees(peak.amplitude), 4), peak.source)
                 for peak in peaks
             ]
-            header = (f"per turn of {run.lead}", "Hz", "amplitude (deg)", "pair and harmonic")
+            header = (f"per turn of {run.driving_link}", "Hz", "amplitude (deg)", "pair and harmonic")
             apart = figure(2 * tau / (abs(run.rate) * run.duration), 2)
             text = (
                 "The strongest lines of its angle about its mean motion, under a Hann window, which tells orders apart "
@@ -148,7 +148,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
             )
             yield Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
     if any(_compared(each) for each in run.figures):
-        yield _settled(run)
+        yield _converged(run)
     if found.inertias:
         yield _inertia(found.inertias)
 
@@ -163,7 +163,7 @@ def _unlike(run: TimeRun) -> Iterator[str]:
         yield "These rates are without restitution: with one, teeth bounce wherever their speed ratio jumps."
 
 
-def _lead(run: TimeRun) -> Iterator[str]:
+def _summary(run: TimeRun) -> Iterator[str]:
     ways = {
         "rate": f"the speed of '{run.link}' is kept",
         "torque": f"a steady torque, such as a weight's, drives '{run.link}'",
@@ -173,9 +173,10 @@ def _lead(run: TimeRun) -> Iterator[str]:
     state = "" if run.state is None else f", in state {run.state}"
     turns = round(abs(run.rate) * run.duration / tau, 6)
     if run.driven == "torque" and not turns:
-        yield f"'{run.lead}' STANDS STILL: what drives '{run.link}' does not overcome what resists it."
+        yield f"'{run.driving_link}' STANDS STILL: what drives '{run.link}' does not overcome what resists it."
     yield (
-        f"While '{run.lead}' makes {turns_text(turns)} at {figure(abs(run.rate) / tau, 6)} turn/s{state}, after "
+        f"While '{run.driving_link}' makes {turns_text(turns)} at {figure(abs(run.rate) / tau, 6)} "
+        f"turn/s{state}, after "
         f"{figure(run.skip, 4)} s that are not counted; {ways[run.driven]}. Steps of {figure(run.step, 4)} s."
         + (f" Restitution {figure(run.restitution, 4)}." if run.restitution else "")
     )
@@ -213,7 +214,8 @@ def _contacts(run: TimeRun) -> Section:
         *("hardest (rad/s)", "gap (deg)", "torque (N mm)", "friction (mW)", "peak (N mm)", "dynamic factor"),
     )
     text = [
-        f"Shares of time apart and on the coast flank; impacts in a turn of '{run.lead}', the energy of each and the "
+        f"Shares of time apart and on the coast flank; impacts in a turn of '{run.driving_link}', the "
+        f"energy of each and the "
         "power of all, the closing speed of the hardest; the greatest angle between the driven side and its nearer "
         "flank; the mean torque on the driven side.",
         "Teeth are rigid here: an impact is an impulse, whose force has no peak, and so there is no dynamic factor."
@@ -230,10 +232,10 @@ def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
         each.name,
         figure(100 * each.apart, 4),
         figure(100 * each.coast, 4),
-        figure(each.blows * turn, 4),
-        figure(1e6 * each.power / each.blows, 4) if each.blows else "",
-        figure(1e3 * each.power, 4) if each.blows else "",
-        figure(each.hardest, 4) if each.blows else "",
+        figure(each.impact_rate * turn, 4),
+        figure(1e6 * each.power / each.impact_rate, 4) if each.impact_rate else "",
+        figure(1e3 * each.power, 4) if each.impact_rate else "",
+        figure(each.hardest, 4) if each.impact_rate else "",
         figure(degrees(each.gap), 4) if each.gap > _STILL else "",
         figure(1e3 * each.torque, 5),
         figure(1e3 * each.rubbed, 4) if each.rubbed else "",
@@ -249,10 +251,12 @@ def _outputs(run: TimeRun) -> Section:
         f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; {word}: {watts_text(abs(power))}.",
         "Outputs against the motion in which all drive flanks touch, which is that of `geartrain motion`.",
     ]
-    off = [lead for lead in run.leads if max(lead.ahead, lead.behind) > _STILL]
+    off = [each for each in run.deviations if max(each.ahead, each.behind) > _STILL]
     if not off:
         text.append("None is ahead or behind.")
-    rows = [(lead.output, *(_angle(each) for each in (lead.ahead, lead.behind, lead.rms))) for lead in off]
+    rows = [
+        (summary.output, *(_angle(each) for each in (summary.ahead, summary.behind, summary.rms))) for summary in off
+    ]
     header = ("output", "ahead, at most (deg)", "behind, at most (deg)", "rms (deg)")
     return Section("Drive and outputs", text, (Table(header, cut(rows)),) if rows else ())
 
@@ -271,18 +275,14 @@ def _energy(run: TimeRun) -> Section:
         "lost in bearings": energy.bearings,
         "lost to viscous drag": energy.drag,
         "lost by friction of teeth and pins": energy.friction,
-        "lost in impacts" if run.model == "rigid" else "lost in teeth that yield": energy.blows,
+        "lost in impacts" if run.model == "rigid" else "lost in teeth that yield": energy.impact_loss,
         "taken by the length of steps": energy.steps,
         "more kinetic energy than at first": energy.kinetic,
         "more in teeth that yield": energy.elastic,
     }
-    rows = [
-        (name, figure(value, 6), percent_text(value / whole) if whole else "-")
-        for name, value in amounts.items()
-        if abs(value) > 1e-12 * whole
-    ]
+    table = energy_table("J", amounts, whole, 6)
     closure = max(energy.closure, 1e-15)
-    if not rows:
+    if not table.rows:
         return Section(
             "Energy", ("None is put in, lost or kept: nothing loads the train, and nothing heavy gets faster.",)
         )
@@ -290,10 +290,10 @@ def _energy(run: TimeRun) -> Section:
         f"the account claims {_SURE:.0e}" if closure <= _SURE else f"which is less well than the {_SURE:.0e} claimed"
     )
     text = f"What is put in, lost and kept agrees to {closure:.0e} of it; {claim}."
-    return Section("Energy", (text,), (Table(("over the run", "J", "of all put in"), rows),))
+    return Section("Energy", (text,), (table,))
 
 
-def _settled(run: TimeRun) -> Section:
+def _converged(run: TimeRun) -> Section:
     means = [each for each in run.figures if each.kind == "mean"]
     text = ["Each figure by steps of length h, and of h/2, which is used elsewhere."]
     if any(each.interval is not None for each in means):
@@ -309,13 +309,13 @@ def _settled(run: TimeRun) -> Section:
             "blows, and so extremes, angles at one moment, and which teeth part when: another start gives others."
         )
     rows = [_compared(each) for each in (*means, *(each for each in run.figures if each.kind == "extreme"))]
-    header = ("figure", "unit", "h", "h/2", "±", "kind", "settled")
+    header = ("figure", "unit", "h", "h/2", "±", "kind", "converged")
     return Section("What settled", text, (filled_table(header, cut([row for row in rows if row is not None]), 2),))
 
 
 def _unsettled(run: TimeRun) -> Iterator[str]:
     """Figures that depend on the length of steps or of the run, by how much, and what to ask for instead."""
-    loose = [each for each in run.figures if not each.settled]
+    loose = [each for each in run.figures if not each.converged]
     if not loose:
         yield "All agree."
         return
@@ -333,19 +333,19 @@ def _unsettled(run: TimeRun) -> Iterator[str]:
         yield "Where ± is the greater, ask for more `--turns`: four times as many halve it."
 
 
-def _compared(each: SettledFigure) -> tuple[str, ...] | None:
-    scale, unit, least = {
+def _compared(each: ConvergedFigure) -> tuple[str, ...] | None:
+    scale, unit, minimum = {
         "rad": (degrees(1), "deg", _STILL),
         "N m": (1e3, "N mm", 0.0),
         "W": (1e3, "mW", 0.0),
         "": (100.0, "%", 0.0),
         "rad/s": (1.0, "rad/s", 0.0),
     }[each.unit]
-    if max(abs(each.coarse), abs(each.fine)) <= least:
+    if max(abs(each.coarse), abs(each.fine)) <= minimum:
         return None
     values = (figure(scale * value, 5) for value in (each.coarse, each.fine))
     interval = "" if each.interval is None else figure(scale * each.interval, 2)
-    return (each.name, unit, *values, interval, each.kind, "yes" if each.settled else "no")
+    return (each.name, unit, *values, interval, each.kind, "yes" if each.converged else "no")
 
 
 def _inertia(found: Sequence[LinkInertia]) -> Section:

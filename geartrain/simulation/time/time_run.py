@@ -53,7 +53,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
         "train",
         "state",
         "model",
-        "lead",
+        "driving_link",
         "rate",
         "link",
         "driven",
@@ -65,7 +65,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
         "contacts",
         "impacts",
         group("energy", Key("", "energy")),
-        "leads",
+        "deviations",
         "spectra",
         "figures",
         "unsolved",
@@ -78,7 +78,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     """Its name."""
     state: str | None
     """The declared state."""
-    lead: str
+    driving_link: str
     """The input that sets the scale."""
     rate: float
     """Its mean speed in the counted part of the run [rad/s], below 0 where it turns backwards."""
@@ -121,11 +121,11 @@ class TimeRun(Tabular, Pictured, TrainResult):
     """Those of the counted part."""
     energy: EnergyAccount
     """Of the counted part."""
-    leads: tuple[OutputLead, ...]
+    deviations: tuple[OutputDeviation, ...]
     """Outputs against `motion`."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
     """By output, strongest first."""
-    figures: tuple[SettledFigure, ...]
+    figures: tuple[ConvergedFigure, ...]
     """What steps of h and h/2 say."""
     unsolved: int
     """Steps in which no consistent set of contacts was found; their last guess was taken."""
@@ -143,7 +143,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"
-        rate = f"{abs(self.rate) / tau:.4g} turn/s of {self.lead}"
+        rate = f"{abs(self.rate) / tau:.4g} turn/s of {self.driving_link}"
         apart = max((each.apart for each in self.contacts), default=0.0)
         figures = [f"{self.duration:.4g} s", f"mean torque {self.torque:.4g} N m at {self.link}"]
         figures.append(f"teeth apart at most {100 * apart:.3g} % of the time")
@@ -159,7 +159,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, leads."""
+        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, deviations."""
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
             (self.angles, "angle (rad)"),
@@ -170,8 +170,8 @@ class TimeRun(Tabular, Pictured, TrainResult):
         made["drive torque (N m)"] = self.drive
         for name, drive, coast in zip(self.gaps.labels[0], self.gaps.values, self.coast_gaps.values, strict=True):
             made |= {f"{name} gap (rad)": drive, f"{name} coast gap (rad)": coast}
-        leads = zip(self.ahead.labels[0], self.ahead.values, strict=True)
-        made |= {f"output {name} ahead (rad)": row for name, row in leads}
+        deviations = zip(self.ahead.labels[0], self.ahead.values, strict=True)
+        made |= {f"output {name} ahead (rad)": row for name, row in deviations}
         return {name: column.tolist() for name, column in made.items()}
 
     def to_csv(self) -> str:
@@ -204,7 +204,7 @@ class ContactInTime(Result):
     """Share of time in which no flank touches."""
     coast: float
     """Share of time on the coast flank, or nearer to it."""
-    blows: float
+    impact_rate: float
     """Impacts a second [1/s]."""
     power: float
     """What they take [W]."""
@@ -265,7 +265,7 @@ class EnergyAccount(Result):
         "bearings",
         "drag",
         "friction",
-        "blows",
+        "impact_loss",
         "steps",
         "kinetic",
         "elastic",
@@ -285,7 +285,7 @@ class EnergyAccount(Result):
     """Energy lost by viscous drag [J]."""
     friction: float
     """Energy lost by friction of teeth and pins [J]."""
-    blows: float
+    impact_loss: float
     """Taken by impacts; of teeth that yield, by their damping."""
     steps: float
     """Taken, or given, by contact that lasts: an error of the steps' length, that falls with it."""
@@ -304,19 +304,19 @@ class EnergyAccount(Result):
     @property
     def closure(self) -> float:
         """By how much the account does not close, over all that passed through it and what is stored."""
-        taken = self.bearings + self.drag + self.friction + self.blows + self.steps
+        taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
         scale = sum(abs(each) for each in (self.put_in, taken, kept, self.stored))
         return abs(self.put_in - taken - kept) / scale if scale else 0.0
 
 
 @dataclass(frozen=True)
-class OutputLead(Result):
+class OutputDeviation(Result):
     """How far an output runs ahead of the motion in which all drive flanks touch, and behind it.
 
     See Also
     --------
-    TimeRun.leads : where these stand.
+    TimeRun.deviations : where these stand.
     """
 
     output: str
@@ -330,7 +330,7 @@ class OutputLead(Result):
 
 
 @dataclass(frozen=True)
-class SettledFigure(Result):
+class ConvergedFigure(Result):
     """A figure by steps of length h and h/2, with what the length of the run leaves open.
 
     See Also
@@ -348,7 +348,7 @@ class SettledFigure(Result):
     """Value by steps of length h/2."""
     kind: Literal["mean", "extreme"]
     """A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic."""
-    settled: bool
+    converged: bool
     """Whether both agree: a mean to 5 %, an extreme to 1 %, a share of time to 0.005, an angle to 1e-6 rad if that
     is more; and whether the interval of a mean is as narrow."""
     interval: float | None = None

@@ -216,7 +216,7 @@ def step_to_separation(
     own = found.case
     # as in the condition: a torque that drives at another link pulls there while the input turns evenly
     load = loads_with_drive(dict(own.load), train.declaration, train.kinematics.case(state), found.problem.speeds)
-    drive = own.drive if load == own.load else PowerInput(found.problem.lead, "rate", rate=own.rate)
+    drive = own.drive if load == own.load else PowerInput(found.problem.driving_link, "rate", rate=own.rate)
     found = replace(found, case=replace(own, load=load, drive=drive), tolerance=FINE_TABLES)
     return find_stepped_separation(TimeStudy(found, (), turns, 0.0, steps, fast=fast), predicted, on_done)
 

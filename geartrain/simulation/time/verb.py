@@ -80,22 +80,25 @@ def run(
     if csv and to.path is not None:
         raise typer.BadParameter("the course is printed, or written: give --csv, or -o x.csv", param_hint="--csv")
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
-    asked = request.arguments() | {"outputs": tuple(output or ())}
+    requested = request.arguments() | {"outputs": tuple(output or ())}
     train = load(file)
-    found = run_in_time(train, train.declaration.state_or_first(state), asked)
+    found = run_in_time(train, train.declaration.state_or_first(state), requested)
     stepped = None
     if csv or to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
     else:
         if find_rate and found.complete:
-            stepped = _stepped(train, found, asked)
-        report = collect_time_report(train, found, asked["without"], stepped)
+            stepped = _stepped(train, found, requested)
+        report = collect_time_report(train, found, requested["without"], stepped)
         give(to, json, lambda: report, lambda: [describe_time_run(report)])
     if plot is not None:
         from geartrain.simulation.time.time_run_plot import time_run_figure
 
         name = train.name if found.state is None else f"{train.name}, state {found.state}"
-        draw(time_run_figure(found, f"{name}: in time, {abs(found.rate) / tau:.4g} turn/s of {found.lead}"), picture)
+        draw(
+            time_run_figure(found, f"{name}: in time, {abs(found.rate) / tau:.4g} turn/s of {found.driving_link}"),
+            picture,
+        )
     if not found.complete:
         tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are of those")
         raise typer.Exit(INTERRUPTED)
@@ -106,11 +109,11 @@ def run(
         raise typer.Exit(VERDICT)
 
 
-def _stepped(train: GearTrain, found: TimeRun, asked: dict[str, Any]) -> SteppedSeparation:
+def _stepped(train: GearTrain, found: TimeRun, requested: dict[str, Any]) -> SteppedSeparation:
     """The rate at which teeth first part, in as many turns from the start; Ctrl-C ends it with what is known."""
     from geartrain.simulation.time.train_in_time import step_to_separation
 
-    more = {name: asked[name] for name in ("steps", "without", "fast")}
+    more = {name: requested[name] for name in ("steps", "without", "fast")}
     with interruptible("rate at which teeth part") as on_done:
-        turns = asked["turns"] + asked["skip"]
+        turns = requested["turns"] + requested["skip"]
         return step_to_separation(train.mechanics, found.state, turns, **more, on_done=on_done)

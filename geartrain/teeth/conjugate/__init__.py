@@ -11,7 +11,7 @@ closed_form_sides         cycloids, round pins, the source's extremal
 optimal_sides             uniform stress, uniform temperature, least friction (Chebyshev collocation, Newton's method)
 involute_geometry         involute wheels cut by a rack: thickness, working pressure angle, arcs
 admissibility             undercut, pointed tips, contact ratio, interference
-path_costs                loss, stress, heat, flash temperature, depth; efficiency exact in friction
+path_losses                loss, stress, heat, flash temperature, depth; efficiency exact in friction
 conjugate_form            base class of the forms, and checks of a declaration
 conjugate_transmission    the pair as designed, and its transmission function
 displaced_contact         displaced flanks, and axles at another centre distance
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
     from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission, pair_outlines
-    from geartrain.teeth.conjugate.path_costs import PathCosts, PathMeasures, efficiency, measure
+    from geartrain.teeth.conjugate.path_losses import PathLosses, PathMeasures, efficiency, measure
     from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
@@ -38,7 +38,7 @@ __all__ = [
     "ConjugateTransmission",
     "OffDesignTransmission",
     "PathContact",
-    "PathCosts",
+    "PathLosses",
     "PathMeasures",
     "PathOfContact",
     "WheelPair",
@@ -53,12 +53,12 @@ _PLACES = {
     "ConjugateTransmission": "conjugate_transmission",
     "OffDesignTransmission": "displaced_contact",
     "PathContact": "path_of_contact",
-    "PathCosts": "path_costs",
-    "PathMeasures": "path_costs",
+    "PathLosses": "path_losses",
+    "PathMeasures": "path_losses",
     "PathOfContact": "path_of_contact",
     "WheelPair": "wheel_pair",
-    "efficiency": "path_costs",
-    "measure": "path_costs",
+    "efficiency": "path_losses",
+    "measure": "path_losses",
     "pair_outlines": "displaced_contact",
 }
 

@@ -45,7 +45,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
         contact = path.along(d, recess)
         for gear, U in ((1, contact.U1), (2, contact.U2)):
             if (U <= 0).any():
-                X = _standstill(path, d, U, gear, recess)
+                X = _dwell(path, d, U, gear, recess)
                 angle = degrees(X / path.pitch.reach_of(gear))
                 where = "recess" if recess else "approach"
                 yield ToothFault(
@@ -59,7 +59,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
                 )
 
 
-def _standstill(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
+def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
     """X at the first distance where U of one gear is 0."""
     at = int(np.argmax(U <= 0))
     if at == 0:
@@ -179,7 +179,7 @@ def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault
 
 
 def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
-    if pair.play < -_ROUNDING:
+    if pair.backlash < -_ROUNDING:
         try:
             apart = f"give a centre_distance of at least {free_distance(pair.first, pair.second):.6g} modules, or "
         except GearTrainError:
@@ -189,7 +189,8 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
             0,
             float("nan"),
             "the teeth jam",
-            f"at the centre distance {pair.distance:.6g} modules they are thicker than the spaces by {-pair.play:.4g}",
+            f"at the centre distance {pair.distance:.6g} modules they are thicker than the spaces by "
+            f"{-pair.backlash:.4g}",
             f"{apart}thin them with `backlash`, or shift the wheels less",
         )
 
@@ -230,7 +231,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
         lowest = hypot(wheel.base, max(R * sin(pair.psi) - arc * cos(pair.psi), 0.0))
         if gone > lowest + _ROUNDING:
-            least = wheel.cut - wheel.r * sin(wheel.psi) ** 2
+            minimum = wheel.cut - wheel.r * sin(wheel.psi) ** 2
             # a whole number that rounding has raised a little is that number
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
             other = ", or take `form: cycloidal`, which suits few leaves" if 2 * wheel.r <= _LEAVES else ""
@@ -241,7 +242,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
                 f"gear {gear} is undercut",
                 f"the rack's corner cuts its involute away up to a radius of {gone:.6g} modules, and contact goes down "
                 f"to {lowest:.6g}",
-                f"shift gear {gear} outwards by {least:.4g} modules, or give it {teeth} teeth{other}",
+                f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}",
             )
 
 

@@ -286,8 +286,8 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
     still = np.flatnonzero(speeds <= 0)
     if still.size == 0:
         # at 0 itself L is |A - R|, which may be 0: then the speed is not defined
-        least = 1e-9 * far
-        return root(speed, least, grid[0], speed(least), speeds[0]) if speed(least) < 0 else None
+        minimum = 1e-9 * far
+        return root(speed, minimum, grid[0], speed(minimum), speeds[0]) if speed(minimum) < 0 else None
     at = int(still[-1])
     return far if at == len(grid) - 1 else root(speed, grid[at], grid[at + 1], speeds[at], speeds[at + 1])
 

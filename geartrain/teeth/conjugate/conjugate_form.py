@@ -80,7 +80,7 @@ class ConjugateToothForm(ToothForm):
         ring_first = wheels.internal[0]
         if ring_first:
             check_order(self, wheels.gear.pair)
-        law = self.law(
+        transmission = self.transmission(
             *(wheels.counts[::-1] if ring_first else wheels.counts),
             wheels.friction or 0.0,
             2 if ring_first else 1,
@@ -89,12 +89,12 @@ class ConjugateToothForm(ToothForm):
             shaft_angle=shaft_angle_of(self, wheels, shaft_angle),
             helix=abs(wheels.helix[0]),
         )
-        mesh = ConjugateMesh(wheels, self, wheels.driver, law)
+        mesh = ConjugateMesh(wheels, self, wheels.driver, transmission)
         if not mesh.rigid:
             _ = mesh.faults  # teeth too far apart to touch raise: here, where the pair is named
         return mesh
 
-    def own_play(self, pair: str) -> Problem | None:
+    def own_backlash(self, pair: str) -> Problem | None:
         """Why a maker's play does not hold for this pair: declared play wins.
 
         Returns
@@ -152,7 +152,7 @@ class ConjugateToothForm(ToothForm):
         del wheels, gear
         return None
 
-    def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
+    def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
         """Play of axes that stand too far apart.
 
         Parameters
@@ -264,7 +264,7 @@ class ConjugateToothForm(ToothForm):
         """
         return conjugate_pair_of(self, WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance, helix)).path
 
-    def law(
+    def transmission(
         self,
         z1: int,
         z2: int,
@@ -342,10 +342,10 @@ class ConjugateToothForm(ToothForm):
         """A pair whose teeth share the pitch equally, less half the backlash each."""
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
-        half = path.pitch.p / 4 - self._play(path.pitch, wheels) / 4
+        half = path.pitch.p / 4 - self._backlash(path.pitch, wheels) / 4
         return ConjugatePair(path, (half, half))
 
-    def _play(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
+    def _backlash(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
         """The declared backlash as X: of a bevel pair a module is p / pi on the unit sphere."""
         return wheels.modules(self.backlash, "backlash") * pitch.p / pi
 

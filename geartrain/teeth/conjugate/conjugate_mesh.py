@@ -17,7 +17,7 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.conjugate.admissibility import tip_thickness
-from geartrain.teeth.conjugate.path_costs import SHARED, PathMeasures, measure, sliding
+from geartrain.teeth.conjugate.path_losses import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import NamedForm, PairSize
@@ -55,7 +55,7 @@ class ConjugateDetails(NamedForm, Protocol):
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
         """What is free under the mate's tip (modules)."""
 
-    def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
+    def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
         """Play of axes that stand too far apart (modules)."""
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
@@ -70,22 +70,22 @@ class ConjugateMesh(GearMesh):
     """
 
     tooth_form: ConjugateDetails
-    law: ConjugateTransmission | OffDesignTransmission
+    transmission: ConjugateTransmission | OffDesignTransmission
 
     @cached_property
     def reversed(self) -> ConjugateTransmission | OffDesignTransmission:
         """The law with the other wheel driving."""
-        return self.law.reversed
+        return self.transmission.reversed
 
     @property
     def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
-        return self.law.verdict
+        return self.transmission.verdict
 
     @property
     def stands(self) -> float:
         """Half a tooth of both wheels: the driven angle is counted from where flanks touch."""
-        pair = self.law.pair
+        pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
 
     @property
@@ -97,7 +97,7 @@ class ConjugateMesh(GearMesh):
     @property
     def path(self) -> PathOfContact:
         """The path of contact at the design distance."""
-        return self.law.path
+        return self.transmission.path
 
     @property
     def separation(self) -> float:
@@ -107,15 +107,15 @@ class ConjugateMesh(GearMesh):
     @property
     def wheel_pair(self) -> WheelPair:
         """The two wheels as the form knows them, axes taken as parallel."""
-        pitch, helix = self.law.path.pitch, abs(self.wheels.helix[0])
+        pitch, helix = self.transmission.path.pitch, abs(self.wheels.helix[0])
         return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module, helix=helix)
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
         """Lengths of the law are modules already."""
         del tips
-        if self.law.path.pitch.bevel:
+        if self.transmission.path.pitch.bevel:
             return None
-        return PairSize(1.0, self.law.distance, self.law.distance / self.wheels.touching)
+        return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
         """The flank of the design, with a root that lets the mate pass."""
@@ -124,7 +124,9 @@ class ConjugateMesh(GearMesh):
         del scale
         gear, wheels = self.gears.index(wheel) + 1, self.wheel_pair
         free, pins = self.tooth_form.bottom_clearance(wheels, gear), self.tooth_form.lantern_pins(wheels)
-        return ToothRequirement(self.law.pair, gear, tolerance, CLEARANCE if free is None else max(free, 0.0), pins)
+        return ToothRequirement(
+            self.transmission.pair, gear, tolerance, CLEARANCE if free is None else max(free, 0.0), pins
+        )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
         """The flank of the design over a root of the blank's sizes; by default as deep as the form says."""
@@ -136,11 +138,11 @@ class ConjugateMesh(GearMesh):
             if free < 0:
                 raise QuestionError(_shallow(own, -free))
             cut = replace(cut, clearance=free * cut.module)
-        return outline(self.law.pair, own, cut, self.tooth_form.lantern_pins(wheels))
+        return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
-    def play_apart(self, gap: float) -> float | None:
+    def backlash_apart(self, gap: float) -> float | None:
         """As the form has it: involutes run at any distance."""
-        return self.tooth_form.play_apart(self.wheel_pair, gap)
+        return self.tooth_form.backlash_apart(self.wheel_pair, gap)
 
     @property
     def label(self) -> str:
@@ -153,9 +155,9 @@ class ConjugateMesh(GearMesh):
         """Of the design; axles that stand elsewhere displace all flanks alike."""
         from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 
-        pitch, law = self.law.path.pitch, self.law
-        gap = 0.0 if pitch.bevel else law.distance - abs(pitch.R1 + pitch.R2)
-        return displaced_contact(law.pair, law.driver, gap)
+        pitch, transmission = self.transmission.path.pitch, self.transmission
+        gap = 0.0 if pitch.bevel else transmission.distance - abs(pitch.R1 + pitch.R2)
+        return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
         """Arcs and contact ratio of its design, error, play and efficiency."""
@@ -206,13 +208,13 @@ class ConjugateFigures(PairFigures):
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
     """Of a pair as it is driven; involutes keep their motion where they cannot run."""
-    law, path = mesh.law, mesh.law.path
+    transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)
-    approach, recess = _driver_arcs(law)
+    approach, recess = _driver_arcs(transmission)
     return ConjugateFigures(
         mesh.counts,
         mesh.verdict,
-        *motion_figures(law, mesh.rigid or runs),
+        *motion_figures(transmission, mesh.rigid or runs),
         mesh.efficiency(mesh.driver) if runs else None,
         arcs=(approach / pitch.p, recess / pitch.p),
         contact_ratio=path.contact_ratio,
@@ -238,23 +240,23 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
         " + ".join(f"{round(arc, 9):.4g}" for arc in figures.arcs),
         f"{figures.contact_ratio:.5g}",
         figures.error_text,
-        f"{degrees(mesh.verdict.play):.4g}",
+        f"{degrees(mesh.verdict.backlash):.4g}",
         *mesh.efficiency_texts,
         mesh.verdict.kind,
     )
 
 
-def _driver_arcs(law: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
+def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
     """The driver's approach and recess (X)."""
-    approach, recess = law.path.arcs
-    return (approach, recess) if law.driver == 1 else (recess, approach)
+    approach, recess = transmission.path.arcs
+    return (approach, recess) if transmission.driver == 1 else (recess, approach)
 
 
 # ----------------------------------------------------------------------------------------------------- design of a pair
 
 
 @dataclass(frozen=True)
-class DesignCosts(Result):
+class DesignLosses(Result):
     """What a path of contact costs."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
@@ -285,7 +287,14 @@ class PairDesign(Result):
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
-        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "costs", "efficiency", "outlines"),
+        *(
+            "arcs",
+            Key("contact_ratio", "path.contact_ratio"),
+            "pressure_angles",
+            "losses_and_stresses",
+            "efficiency",
+            "outlines",
+        ),
     )
 
     mesh: ConjugateMesh
@@ -321,13 +330,13 @@ class PairDesign(Result):
     @property
     def thickness(self) -> tuple[float, float]:
         """Of a tooth, or pin, on the pitch circle (pitches)."""
-        first, second = self.mesh.law.pair.halves
+        first, second = self.mesh.transmission.pair.halves
         return 2 * first / self.path.pitch.p, 2 * second / self.path.pitch.p
 
     @cached_property
     def top_lands(self) -> tuple[float | None, float | None]:
         """Angle of the land at the tip of a tooth (rad); None for round pins."""
-        pair = self.mesh.law.pair
+        pair = self.mesh.transmission.pair
         first, second = (
             tip_thickness(self.path, gear, pair.halves) if solid else None for gear, solid in enumerate(pair.solid, 1)
         )
@@ -347,9 +356,9 @@ class PairDesign(Result):
         return first, middle, last
 
     @cached_property
-    def costs(self) -> DesignCosts | None:
+    def losses_and_stresses(self) -> DesignLosses | None:
         """What the path costs; None for teeth that cannot run."""
-        return DesignCosts(measure(self.path), *sliding(self.path)) if self.runs else None
+        return DesignLosses(measure(self.path), *sliding(self.path)) if self.runs else None
 
     @property
     def efficiency(self) -> SharedEfficiency | None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.admissibility import faults, ring_tips
-from geartrain.teeth.conjugate.path_costs import efficiency, locking_friction, powers
+from geartrain.teeth.conjugate.path_losses import efficiency, locking_friction, powers
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
 from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
@@ -64,7 +64,7 @@ class ConjugatePair(Shown):
         return self.path.arcs
 
     @property
-    def play(self) -> float:
+    def backlash(self) -> float:
         """Play as X."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
@@ -92,7 +92,7 @@ class ConjugateTransmission(ExactRatio):
 
     See Also
     --------
-    geartrain.teeth.Involute : every conjugate form has a method `law` that gives it.
+    geartrain.teeth.Involute : every conjugate form has a method `transmission` that gives it.
     """
 
     def __init__(self, pair: ConjugatePair, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -102,14 +102,14 @@ class ConjugateTransmission(ExactRatio):
         z1, z2 = int(pitch.teeth_of(driver)), int(pitch.teeth_of(3 - driver))
         super().__init__(Fraction(z1, z2), 2 * pi / z1)
         self._reach = pitch.reach_of(driver)
-        self._play = pair.play / pitch.reach_of(3 - driver)
-        self._ahead = self._play if direction < 0 else 0.0
+        self._backlash = pair.backlash / pitch.reach_of(3 - driver)
+        self._ahead = self._backlash if direction < 0 else 0.0
         self._lead = pair.halves[driver - 1]
 
     @cached_property
     def verdict(self) -> PairVerdict:
         """Whether the pair can run."""
-        return verdict_of_faults(self.pair.faults, self._play)
+        return verdict_of_faults(self.pair.faults, self._backlash)
 
     @property
     def distance(self) -> float:
@@ -121,7 +121,7 @@ class ConjugateTransmission(ExactRatio):
         """The law with the other wheel driving."""
         return ConjugateTransmission(self.pair, self.friction, 3 - self.driver, self.direction)
 
-    def turned_back(self) -> ConjugateTransmission:
+    def reversed_motion(self) -> ConjugateTransmission:
         """The law of the other flanks; angles keep their sense and decrease."""
         return ConjugateTransmission(self.pair, self.friction, self.driver, -self.direction)
 
@@ -168,7 +168,7 @@ class ConjugateTransmission(ExactRatio):
         slack = _TOUCH * p
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
-    def corners(self) -> list[float]:
+    def kinks(self) -> list[float]:
         """Driver angles (rad) at which a pair of teeth meets, parts or passes a corner of its path."""
         approach, recess = self.path.approach, self.path.recess
         if self.driver == 2:
@@ -215,7 +215,7 @@ class ConjugateTransmission(ExactRatio):
     @cached_property
     def _stretches(self) -> list[tuple[float, float]]:
         """The smooth stretches of one period, in driver angle."""
-        cuts = sorted({float(np.mod(corner, self.period)) for corner in self.corners()})
+        cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()})
         edges = pairwise([*cuts, cuts[0] + self.period])
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
@@ -247,7 +247,7 @@ class ConjugateTransmission(ExactRatio):
         found, weights = self._sampled
         return 1 / float(weights @ (1 / found))
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Least efficiency: at an end of a stretch, or within, looked for with two hundred samples each."""
         if self._locks:
             return nan

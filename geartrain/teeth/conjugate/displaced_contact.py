@@ -60,7 +60,7 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
     return found
 
 
-def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
+def kink_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
     """How far both gears have turned (as X) while the tip of `gear` touches its mate's flank at points of it.
 
     The points are polar in the mate's X = 0 position. The tip of gear 1 touches beyond the recess, that of gear 2
@@ -109,7 +109,7 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
-class CornerLag:
+class KinkLag:
     """How far (rad) the driven wheel falls behind while a tip touches beyond an end of the path, over even steps."""
 
     step: float
@@ -172,13 +172,13 @@ class DisplacedContact:
     """Of axles farther apart, or a wider shaft angle."""
     normal: Floats
     """Of a flank lower by 1 along its normal: 1 over the moment arm."""
-    entering: CornerLag
+    entering: KinkLag
     """Of tips beyond the ends of the path."""
-    leaving: CornerLag
+    leaving: KinkLag
     """Of tips beyond the ends of the path."""
     longer: tuple[float, float]
     """How far (rad of the driver) a tip higher by 1 moves the end (the driver's) or the start."""
-    play: float
+    backlash: float
     """Rad of the driven wheel."""
     stands: float
     """Where a driven tooth stands when its angle is 0 (rad past the line of centres)."""
@@ -233,10 +233,10 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
         tilt=_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
         apart=-radial if ring else radial,
         normal=normal,
-        entering=_corner(pair, 3 - driver, driver),
-        leaving=_corner(pair, driver, driver),
+        entering=_kink(pair, 3 - driver, driver),
+        leaving=_kink(pair, driver, driver),
         longer=_both(gears, lambda gear: _end_shift(path, gear) / own),
-        play=pair.play / other,
+        backlash=pair.backlash / other,
         stands=sum(pair.halves) / other,
         even=np.zeros(_NODES),
         distance=inf if pitch.bevel else abs(pitch.R1 + pitch.R2),
@@ -249,11 +249,11 @@ def _both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Value,
     return value(gears[0]), value(gears[1])
 
 
-def _corner(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
+def _kink(pair: ConjugatePair, gear: int, driver: int) -> KinkLag:
     """The lag of the driven gear while the tip of one gear touches: the driver's where it leaves, else as it enters."""
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)
-    turned = corner_contact(path, gear, *_touched(pair, gear))
+    turned = kink_contact(path, gear, *_touched(pair, gear))
     lag = (turned[0] - turned[1]) / pitch.reach_of(3 - driver)
     beyond = (turned[driver - 1] - first) / pitch.reach_of(driver) * (1.0 if gear == 1 else -1.0)
     good = np.isfinite(beyond) & np.isfinite(lag) & (beyond >= 0)
@@ -264,7 +264,7 @@ def _corner(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
     beyond, lag = beyond[:stop], np.maximum.accumulate(lag[:stop])
     most = max(float(beyond[-1]), _SMALL)
     even = np.linspace(0.0, most, _NODES)
-    return CornerLag(most / (_NODES - 1), np.interp(even, beyond, lag))
+    return KinkLag(most / (_NODES - 1), np.interp(even, beyond, lag))
 
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
@@ -305,7 +305,7 @@ class OffDesignTransmission(OutlineTransmission):
 
     See Also
     --------
-    geartrain.teeth.Involute : every conjugate form has a method `law` that gives it.
+    geartrain.teeth.Involute : every conjugate form has a method `transmission` that gives it.
     """
 
     def __init__(
@@ -319,7 +319,7 @@ class OffDesignTransmission(OutlineTransmission):
         """The law with the other wheel driving."""
         return OffDesignTransmission(self.pair, self.distance, self.friction, 3 - self.driver, self.direction)
 
-    def turned_back(self) -> OffDesignTransmission:
+    def reversed_motion(self) -> OffDesignTransmission:
         """The law of the other flanks; angles keep their sense and decrease."""
         return OffDesignTransmission(self.pair, self.distance, self.friction, self.driver, -self.direction)
 
@@ -327,7 +327,7 @@ class OffDesignTransmission(OutlineTransmission):
 @lru_cache(maxsize=64)
 def _gears(pair: ConjugatePair, distance: float) -> OutlineGears:
     """Made once, so that what is found of it is."""
-    return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.play, pair.faults)
+    return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
 
 
 @lru_cache(maxsize=64)

@@ -81,10 +81,10 @@ class InvoluteWheel:
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
         X = -u * tan(psi) - sqrt(radius**2 - below**2)
-        corner = atan2(u * tan(psi) + X, below) - X / r
+        kink = atan2(u * tan(psi) + X, below) - X / r
         roll = (sqrt(radius**2 - self.base**2) - r * sin(psi)) / cos(psi)
         P = roll * cos(psi)
-        return corner - (atan2(P * cos(psi), r + P * sin(psi)) - roll / r)
+        return kink - (atan2(P * cos(psi), r + P * sin(psi)) - roll / r)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +118,7 @@ class InvolutePair:
         return first - self.thinned / 4, second - self.thinned / 4
 
     @property
-    def play(self) -> float:
+    def backlash(self) -> float:
         """Play of the teeth, as X; negative where they jam."""
         return self.pitch.p - 2 * sum(self.halves)
 

@@ -51,7 +51,7 @@ _NEAR = 0.05  # of a side: nearer to the pitch point slopes are those of the ser
 _GAUSS = np.polynomial.legendre.leggauss(64)
 _TRIES, _CUTS = 20, 4  # how many ends a series is solved up to, and how many one series is cut at
 _BEYOND = 1e-7  # of a series' length: so far past its end it is as good as inside
-_SETTLED = 1e-9  # of the end: so near, one more Newton step on the piece's own series is exact
+_CONVERGED = 1e-9  # of the end: so near, one more Newton step on the piece's own series is exact
 _FARTHER, _REACH = 0.1, 8.0  # so far past its end a series still tells where to solve next: this, or (8 / nodes)^2
 _GIVEN_UP = 1e-4  # of the end: what cannot be reached nearer than this cannot be reached
 
@@ -120,7 +120,7 @@ def _cut(made: Callable[[float], PathPiece], X: float, v: ChebyshevSeries) -> tu
         found = _end(piece, X, v)
         if found > v.end + _BEYOND * (v.end - v.start) or (v.tail > FALLEN and found < v.end * (1 - _BEYOND)):
             return found, None
-        if abs(found - end) <= _SETTLED * end:
+        if abs(found - end) <= _CONVERGED * end:
             return found, piece if found == end else made(found)
         end = found
     return end, made(end)
@@ -263,14 +263,14 @@ def least_friction(
     if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
         raise _too_long(pitch, X, psi, u)
     # the bracket keeps off a ray, and a second piece, of no length
-    least, most = 1e-3 * longest, longest * (1 - 1e-6)
-    if weight is not None and variation(least) * variation(most) > 0:
+    minimum, most = 1e-3 * longest, longest * (1 - 1e-6)
+    if weight is not None and variation(minimum) * variation(most) > 0:
         raise other_shape("no length of it would let the other piece be the best")
-    first = root(variation, least, most, variation(least), variation(most))
+    first = root(variation, minimum, most, variation(minimum), variation(most))
     if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
-        if above(least) > 0:
+        if above(minimum) > 0:
             raise _too_long(pitch, X, psi, u)
-        first = root(above, least, first, above(least), above(first))
+        first = root(above, minimum, first, above(minimum), above(first))
     elif weight is not None:
         check_pieces(pitch, *lifted(first), first, weight)
     rest = X - first / cos(psi)

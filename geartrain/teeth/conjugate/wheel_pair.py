@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 FEWEST, MOST_TEETH = 3, 10**9
-_LEAST_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, and cones lost in rounding
+_MINIMUM_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, and cones lost in rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,10 +117,10 @@ class WheelPair(Shown):
                 "its teeth are lost in the rounding of its radius",
                 f"give at most {MOST_TEETH:g} teeth",
             )
-        if self.shaft_angle is not None and not _LEAST_ANGLE <= self.shaft_angle <= pi - _LEAST_ANGLE:
+        if self.shaft_angle is not None and not _MINIMUM_ANGLE <= self.shaft_angle <= pi - _MINIMUM_ANGLE:
             raise refused(
                 f"a shaft angle of {self.shaft_angle:.6g} rad is none",
-                f"bevel axes meet between 0 and 180 deg, and {_LEAST_ANGLE:g} rad from either at least",
+                f"bevel axes meet between 0 and 180 deg, and {_MINIMUM_ANGLE:g} rad from either at least",
                 "give parallel axes to a spur pair",
             )
 

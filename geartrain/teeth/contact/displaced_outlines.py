@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.polynomial_pieces import value
-from geartrain.teeth.conjugate.displaced_contact import CornerLag, DisplacedContact, DisplacedWheelSizes
+from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, DisplacedWheelSizes, KinkLag
 from geartrain.teeth.contact.first_touch import CandidatePairs
 from geartrain.teeth.contact.outline_contact import OutlinePair
 
@@ -35,7 +35,7 @@ _ROUGH = 1e-4  # rad: what is sought to rounding, among touches so near to the f
 _BLUNT = radians(10)  # half the aperture, at least
 
 
-class CoupleContact(NamedTuple):
+class ToothPairContact(NamedTuple):
     """One couple alone at driver's angles x (rad past its place), the driver's axle at 0, the driven one on the x
     axis."""
 
@@ -52,7 +52,7 @@ class CoupleContact(NamedTuple):
     """1 where the driver's tip touches, 2 the driven one's, 3 both, 0 neither; -1 where nothing touches."""
 
 
-class CoupleSearch:
+class ToothPairSearch:
     """The contact of single couples of two outlines, front flanks driving."""
 
     def __init__(self, gears: OutlineGears, driver: int) -> None:
@@ -61,16 +61,16 @@ class CoupleSearch:
         self.distance = gears.distance
         self.offset = 2 * gears.lead / self.second.z
 
-    def at(self, x: Floats) -> CoupleContact:
+    def at(self, x: Floats) -> ToothPairContact:
         """The contact at driver's angles."""
         count, none = len(x), np.zeros(len(x), int)
         judge = self.pair.judge
-        couples = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
-        touches = judge.touch(couples, judge.furthest(couples, judge.segments(couples), _ROUGH))
+        tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
+        touches = judge.touch(tooth_pairs, judge.furthest(tooth_pairs, judge.segments(tooth_pairs), _ROUGH))
         # the furthest touch of each angle comes last
-        order = np.lexsort((touches.angle, touches.couple))
-        last = order[np.flatnonzero(np.diff(touches.couple[order], append=count))]
-        where = touches.couple[last]
+        order = np.lexsort((touches.angle, touches.tooth_pair))
+        last = order[np.flatnonzero(np.diff(touches.tooth_pair[order], append=count))]
+        where = touches.tooth_pair[last]
         corner = np.full(count, -1)
         corner[where] = self._corners(touches.piece1[last], touches.u[last], touches.piece2[last], touches.v[last])
         angle, point, normal = np.full(count, np.nan), np.full((2, count), np.nan), np.full((2, count), np.nan)
@@ -82,12 +82,12 @@ class CoupleSearch:
         along = np.stack([dr * np.cos(a) - r * da * np.sin(a), dr * np.sin(a) + r * da * np.cos(a)])
         normal[:, where] = self._normals(point[:, where], along, touches.speed[last])
         ratio = self.first.z / self.second.z
-        return CoupleContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
+        return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _corners(self, piece1: Indices, u: Floats, piece2: Indices, v: Floats) -> Indices:
         judge, found = self.pair.judge, np.zeros(len(u), int)
         for at, (table, piece, end) in enumerate(((judge.first, piece1, u), (judge.second, piece2, v)), 1):
-            found += at * ((end == -1) & table.corners[0][piece] | (end == 1) & table.corners[1][piece])
+            found += at * ((end == -1) & table.kinks[0][piece] | (end == 1) & table.kinks[1][piece])
         return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
@@ -107,9 +107,9 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
     Raises `RangeError` where the teeth do not touch for a whole pitch.
     """
-    search = CoupleSearch(gears, driver)
+    search = ToothPairSearch(gears, driver)
     first, second = search.first, search.second
-    start, end, least, most = _ends(search)
+    start, end, minimum, most = _ends(search)
     found = search.at(np.linspace(start, end, _NODES))
     axles = np.array([[0.0, gears.distance], [0.0, 0.0]])
     px, py = found.point
@@ -136,17 +136,17 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
         tilt=(levers[0], levers[1]),
         apart=away,
         normal=normal,
-        entering=_corner(search, start, least),
+        entering=_corner(search, start, minimum),
         leaving=_corner(search, end, most),
         longer=(longer[0], longer[1]),
-        play=2 * gears.play / second.z,
+        backlash=2 * gears.backlash / second.z,
         stands=search.offset,
         even=found.lag,
         distance=gears.distance,
     )
 
 
-def _ends(search: CoupleSearch) -> tuple[float, float, float, float]:
+def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
     """From where to where flanks touch, and before and after it tips (rad of the driver)."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
@@ -157,8 +157,8 @@ def _ends(search: CoupleSearch) -> tuple[float, float, float, float]:
         what = "these teeth do not touch for a whole pitch"
         raise RangeError(Problem(what, "no flank can be displaced", "give them longer tips, or axles nearer together"))
     # the places of the search are fine beside the tables; an end lies within
-    start, end, least, most = (float(found.x[at]) for at in (flanks[0], flanks[-1], reach[0], reach[-1]))
-    return start, end, least, most
+    start, end, minimum, most = (float(found.x[at]) for at in (flanks[0], flanks[-1], reach[0], reach[-1]))
+    return start, end, minimum, most
 
 
 def _around(held: Bools, at: int) -> Bools:
@@ -170,21 +170,21 @@ def _around(held: Bools, at: int) -> Bools:
     return found
 
 
-def _corner(search: CoupleSearch, end: float, last: float) -> CornerLag:
+def _corner(search: ToothPairSearch, end: float, last: float) -> KinkLag:
     """How much more the driven wheel lags while a tip touches beyond an end of the contact."""
     if abs(last - end) < _NO_CORNER:
-        return CornerLag(_NO_CORNER, np.zeros(2))
+        return KinkLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
-    return CornerLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
+    return KinkLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
 
 
-def _foremost(found: CoupleContact, pitch: float) -> Indices:
+def _foremost(found: ToothPairContact, pitch: float) -> Indices:
     """Where this couple holds the driven wheel, not one a pitch before or behind."""
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))
 
 
-def _half_widths(search: CoupleSearch, found: CoupleContact, gear: int) -> Floats:
+def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
     """Half the thickness of the tooth (modules) where it touches."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
@@ -199,7 +199,7 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
     return DisplacedWheelSizes(wheel.z, float(tip - radius[foot]), max(lean, _BLUNT))
 
 
-def _pitch_points(search: CoupleSearch, found: CoupleContact, gear: int) -> tuple[Floats, Floats]:
+def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
     """Where the flank that touches crosses the pitch circle, about which it is turned."""
     wheel, table = ((search.first, search.pair.judge.first), (search.second, search.pair.judge.second))[gear]
     radius = wheel.z / 2

@@ -46,8 +46,8 @@ class AxlePlacement:
         """The view of points at radii r (bevel: polar angles) and azimuths b about the first axle."""
         return DrivenFrame(self, r, b)
 
-    def bounds(self, lowest: float, highest: float, least: float, most: float) -> float:
-        """The greatest |azimuth| at which a radius from `lowest` to `highest` is seen from `least` to `most`.
+    def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
+        """The greatest |azimuth| at which a radius from `lowest` to `highest` is seen from `minimum` to `most`.
 
         Taken from samples, and widened: never too small but for rounding.
         """
@@ -56,7 +56,7 @@ class AxlePlacement:
         seen = DrivenFrame(self, *np.broadcast_arrays(r, b)).radius
         # what may pass between two samples, and rounding
         slack = 2 * (highest - lowest) / 128 + 1e-9 * highest
-        inside = ((seen <= most + slack) & (seen >= least - slack)).any(axis=0)
+        inside = ((seen <= most + slack) & (seen >= minimum - slack)).any(axis=0)
         if not inside.any():
             return -1.0
         return float(b[0, inside].max() + np.pi / 720)
@@ -134,7 +134,7 @@ class CandidatePairs(NamedTuple):
 class FlankSegments(NamedTuple):
     """Parts of the driver's side on which G is smooth; n of them."""
 
-    couple: Indices
+    tooth_pair: Indices
     """Where."""
     piece1: Indices
     """Where."""
@@ -156,11 +156,11 @@ class FlankSegmentation:
     second: FlankTable
     sight: AxlePlacement
 
-    def segments(self, couples: CandidatePairs) -> FlankSegments:
+    def segments(self, tooth_pairs: CandidatePairs) -> FlankSegments:
         """All segments at which the couples can touch."""
-        cells = self._unturned(couples, self._cells(couples))
+        cells = self._unturned(tooth_pairs, self._cells(tooth_pairs))
         low, high = cells.seen[0].min(axis=0), cells.seen[0].max(axis=0)
-        tooth = couples.tooth2[cells.couple]
+        tooth = tooth_pairs.tooth2[cells.tooth_pair]
         start, end = self.second.first[tooth], self.second.first[tooth + 1]
         found = []
         for local in range(int(np.diff(self.second.first).max())):
@@ -169,34 +169,38 @@ class FlankSegmentation:
             within = (low <= self.second.ends[1, piece2]) & (high >= self.second.ends[0, piece2])
             which = np.flatnonzero(within & (start + local < end) & ~self.second.flat[piece2])
             found.append(some(cells, which)._replace(piece2=piece2[which]))
-        return self._clipped(couples, joined(found))
+        return self._clipped(tooth_pairs, joined(found))
 
-    def _cells(self, couples: CandidatePairs) -> FlankSegments:
+    def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
         """Stretches between nodes that may be seen at radii of the driven side, which piece of it being open."""
         nodes = self.first.nodes
-        pieces, us, begins = nodes[0][couples.tooth1], nodes[1][couples.tooth1], nodes[2][couples.tooth1, :-1]
-        r, dr, a, da = (each[couples.tooth1] for each in self.first.node_values)
-        view = self.sight.look(r, a + couples.x[:, None])
+        pieces, us, begins = (
+            nodes[0][tooth_pairs.tooth1],
+            nodes[1][tooth_pairs.tooth1],
+            nodes[2][tooth_pairs.tooth1, :-1],
+        )
+        r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
+        view = self.sight.look(r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
         # where the distance turns inside a cell it passes both ends by less than the slopes there would take it
         slack = np.where(turning, (np.abs(change[:, :-1]) + np.abs(change[:, 1:])) * np.diff(us, axis=1), 0.0)
-        least, most = (each[couples.tooth2][:, None] for each in self.second.span)
+        minimum, most = (each[tooth_pairs.tooth2][:, None] for each in self.second.span)
         here, there = view.radius[:, :-1], view.radius[:, 1:]
         low, high = np.minimum(here, there), np.maximum(here, there)
-        couple, at = np.nonzero(begins & (low - slack <= most) & (high + slack >= least))
-        ends = couple, np.stack([at, at + 1])
+        tooth_pair, at = np.nonzero(begins & (low - slack <= most) & (high + slack >= minimum))
+        ends = tooth_pair, np.stack([at, at + 1])
         seen = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
-        piece = pieces[couple, at]
-        return FlankSegments(couple, piece, np.zeros_like(piece), us[ends], seen, np.full(seen.shape[1:], np.nan))
+        piece = pieces[tooth_pair, at]
+        return FlankSegments(tooth_pair, piece, np.zeros_like(piece), us[ends], seen, np.full(seen.shape[1:], np.nan))
 
-    def _unturned(self, couples: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+    def _unturned(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
         """Cells, those in which the distance from the second axle turns cut in two."""
         which = np.flatnonzero(np.sign(cells.seen[2, 0]) * np.sign(cells.seen[2, 1]) < 0)
         if not len(which):
             return cells
         turning = some(cells, which)
-        x = couples.x[turning.couple]
+        x = tooth_pairs.x[turning.tooth_pair]
 
         def slope(u: Floats, these: Indices) -> Floats:
             found: Floats = self._seen(x[these], turning.piece1[these], u)[2]
@@ -208,7 +212,7 @@ class FlankSegmentation:
         turning.u[0], turning.seen[:, 0] = middle, seen
         return joined([cells, turning])
 
-    def _clipped(self, couples: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+    def _clipped(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
         """Cells cut to the radii of their driven piece: all at once, each root being found for itself."""
         low, high = self.second.ends[:, cells.piece2]
         u, seen = cells.u.copy(), cells.seen.copy()
@@ -216,7 +220,7 @@ class FlankSegmentation:
             which = np.flatnonzero((cells.seen[0, side] < low) | (cells.seen[0, side] > high))
             above = cells.seen[0, side, which] > high[which]
             goal = np.where(above, high[which], low[which])
-            x, piece = couples.x[cells.couple[which]], cells.piece1[which]
+            x, piece = tooth_pairs.x[cells.tooth_pair[which]], cells.piece1[which]
 
             def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
                 r, a = (value_alone(each, piece[these], at) for each in (self.first.radius, self.first.azimuth))
@@ -253,7 +257,7 @@ class FirstTouches(NamedTuple):
     v: Floats
     radius1: Floats
     radius2: Floats
-    couple: Indices
+    tooth_pair: Indices
 
 
 class FirstTouchSearch(FlankSegmentation):
@@ -261,7 +265,7 @@ class FirstTouchSearch(FlankSegmentation):
 
     # -------------------------------------------------------------------------------------------------- which matter
 
-    def furthest(self, couples: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
+    def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
         """The segments that can hold, within `margin` (rad), the furthest point of their position."""
         ends, slopes = self._rough(segments)
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -271,9 +275,9 @@ class FirstTouchSearch(FlankSegmentation):
             rise = np.where((slopes[0] > 0) & (slopes[1] < 0), ends[0] + slopes[0] * meets - ends.max(axis=0), 0.0)
         unknown = ~np.isfinite(slopes).all(axis=0) | self._stalled(segments).any(axis=0)
         rise = np.where(unknown, np.inf, np.maximum(rise, 0.0))
-        place = couples.place[segments.couple]
-        position = couples.position[segments.couple]
-        best = np.full(int(couples.position.max()) + 1 if len(couples.position) else 0, -np.inf)
+        place = tooth_pairs.place[segments.tooth_pair]
+        position = tooth_pairs.position[segments.tooth_pair]
+        best = np.full(int(tooth_pairs.position.max()) + 1 if len(tooth_pairs.position) else 0, -np.inf)
         # `maximum.at`: many segments share a position, and an assignment would keep the last
         np.maximum.at(best, position, ends.max(axis=0) - place)
         return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
@@ -305,9 +309,9 @@ class FirstTouchSearch(FlankSegmentation):
 
     # ------------------------------------------------------------------------------------------------------ exactly
 
-    def touch(self, couples: CandidatePairs, segments: FlankSegments) -> FirstTouches:
+    def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
         """The furthest point of each segment, to rounding."""
-        x = couples.x[segments.couple]
+        x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
@@ -333,29 +337,29 @@ class FirstTouchSearch(FlankSegmentation):
         middle = roots_by_false_position(
             lambda u, these: rising(u, inner[these]), low_u, high_u, at_low, at_high, _FINE
         )
-        ends = [self._found(couples, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
-        within = self._found(couples, some(segments, inner), middle, np.full(len(inner), np.nan))
+        ends = [self._found(tooth_pairs, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
+        within = self._found(tooth_pairs, some(segments, inner), middle, np.full(len(inner), np.nan))
         return joined([*ends, within])
 
-    def _found(self, couples: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
+    def _found(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
         """The touch at u; v where an end of the driven piece is met there."""
         piece1, piece2 = segments.piece1, segments.piece2
-        view, dr, da = self.view(couples.x[segments.couple], piece1, u)
-        corner = ~np.isnan(v)
+        view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
+        kink = ~np.isnan(v)
         low, high = self.second.ends[:, piece2]
-        v = np.where(corner, v, self.second.inverse(piece2, np.clip(view.radius, low, high)))
+        v = np.where(kink, v, self.second.inverse(piece2, np.clip(view.radius, low, high)))
         r, rise = value(self.second.radius, piece2, v)
         a, turn = value(self.second.azimuth, piece2, v)
         change, swing = view.moved(dr, da)
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
-            slant = np.where(corner, swing / change, turn / rise)  # of azimuth by radius, on the side that is smooth
+            slant = np.where(kink, swing / change, turn / rise)  # of azimuth by radius, on the side that is smooth
             off = view.radius - r
             # more than rounding leaves is asked for only where the smooth side stands still and `slant` is noise
-            trusted = np.abs(off / np.where(corner, change, rise)) <= _LEFT
+            trusted = np.abs(off / np.where(kink, change, rise)) <= _LEFT
             correction = np.where(trusted, slant * off, 0.0)
             speed = ahead - slant * drift
         # `correction` takes off what the inversion left of the radius, so that the angle is good to rounding
-        angle = view.azimuth - a - correction - couples.place[segments.couple]
+        angle = view.azimuth - a - correction - tooth_pairs.place[segments.tooth_pair]
         radius1 = value_alone(self.first.radius, piece1, u)
-        return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.couple)
+        return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.tooth_pair)

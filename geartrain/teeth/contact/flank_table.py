@@ -29,7 +29,7 @@ class FlankTable:
     """Coefficients (COUNT, pieces)."""
     azimuth: Floats
     """Coefficients (COUNT, pieces)."""
-    corners: Bools
+    kinks: Bools
     """(2, pieces): whether a piece begins, ends, in a corner of the outline."""
     flat: Bools
     """(pieces,): arcs about the axle."""

@@ -345,14 +345,14 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
     rise = radius[1::2].sum(axis=0)  # half the radius at u = 1 less that at u = -1
     flat = np.abs(rise) < _FLAT * radius[0]
     falls = rise < 0
-    corners = np.array([[begins, ends] for _, begins, ends in pieces]).T
+    kinks = np.array([[begins, ends] for _, begins, ends in pieces]).T
     # u reversed: odd powers change their sign
     for each in (radius, azimuth):
         each[1::2, falls] *= -1
-    corners[:, falls] = corners[::-1, falls]
+    kinks[:, falls] = kinks[::-1, falls]
     errors = np.stack([piece.error for piece, _, _ in pieces]).max(axis=0)
     return FlankTable(
-        radius, azimuth, corners, flat, np.array(first), np.array(curves), (float(errors[0]), float(errors[1]))
+        radius, azimuth, kinks, flat, np.array(first), np.array(curves), (float(errors[0]), float(errors[1]))
     )
 
 
@@ -362,14 +362,14 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _rising(curve, piece)]
         for curve in side
     ]
-    corner = [True, *(_corner(a[-1], b[0]) for a, b in pairwise(found)), True]
+    kink = [True, *(_kink(a[-1], b[0]) for a, b in pairwise(found)), True]
     return [
-        [(piece, at == 0 and corner[i], at == len(pieces) - 1 and corner[i + 1]) for at, piece in enumerate(pieces)]
+        [(piece, at == 0 and kink[i], at == len(pieces) - 1 and kink[i + 1]) for at, piece in enumerate(pieces)]
         for i, pieces in enumerate(found)
     ]
 
 
-def _corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
+def _kink(last: PolynomialPiece, new: PolynomialPiece) -> bool:
     """Whether two curves that meet change their direction there."""
     before, after = _direction(last, 1), _direction(new, -1)
     return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)

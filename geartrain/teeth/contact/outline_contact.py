@@ -48,8 +48,8 @@ class OutlinePair:
         )
         self.judge = FirstTouchSearch(mine, theirs, sight)
         low, high, behind, ahead = mine.reach
-        least, most, _, _ = theirs.reach
-        reach = sight.bounds(low, high, least, most)
+        minimum, most, _, _ = theirs.reach
+        reach = sight.bounds(low, high, minimum, most)
         self.window = (-reach - ahead, reach - behind) if reach >= 0 else (0.0, -1.0)
 
     @property
@@ -80,7 +80,7 @@ class OutlinePair:
         size = max(16, int(_BLOCK / per_angle))
         return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
 
-    def _couples(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
+    def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
         """All couples in reach, and the number of each one's driving tooth (in a mirror, counted backward)."""
         pitch = self.first.pitch
         slack = 2 * max(map(abs, self.first.turns), default=0.0)
@@ -99,26 +99,26 @@ class OutlinePair:
         return some(CandidatePairs(x, shape1, shape2, place, position), near), j[near]
 
     def _block(self, rest: Floats, within: float) -> tuple[Any, ...]:
-        couples, j = self._couples(rest)
+        tooth_pairs, j = self._tooth_pairs(rest)
         judge, count = self.judge, len(rest)
         if not len(j):
             return _nothing(count)
         margin = _MARGIN * self.second.pitch + within
-        found = judge.touch(couples, judge.furthest(couples, judge.segments(couples), margin))
-        position = couples.position[found.couple]
+        found = judge.touch(tooth_pairs, judge.furthest(tooth_pairs, judge.segments(tooth_pairs), margin))
+        position = tooth_pairs.position[found.tooth_pair]
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)
-        sharing = self._sharing(found, best[position] - within, couples, count)
+        sharing = self._sharing(found, best[position] - within, tooth_pairs, count)
         kind = self._kind(found)
         # of touches that tie: the later couple, then what has fewer corners, then the furthest
         ties = np.flatnonzero(found.angle >= best[position] - _TIE)
-        order = ties[np.lexsort((found.angle[ties], kind[ties] == 0, j[found.couple[ties]], position[ties]))]
+        order = ties[np.lexsort((found.angle[ties], kind[ties] == 0, j[found.tooth_pair[ties]], position[ties]))]
         last = np.flatnonzero(np.diff(position[order], append=count))
         chosen = order[last]
         where = position[chosen]
         angle, speed, pair, kinds, r1, r2, _, curves = _nothing(count)
         angle[where], speed[where], kinds[where] = best[where], found.speed[chosen], kind[chosen]
-        pair[where], r1[where], r2[where] = j[found.couple[chosen]], found.radius1[chosen], found.radius2[chosen]
+        pair[where], r1[where], r2[where] = j[found.tooth_pair[chosen]], found.radius1[chosen], found.radius2[chosen]
         curves[:, where] = judge.first.curve[found.piece1[chosen]], judge.second.curve[found.piece2[chosen]]
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
@@ -128,13 +128,13 @@ class OutlinePair:
         for at, (table, piece, u) in enumerate(
             ((self.judge.first, found.piece1, found.u), (self.judge.second, found.piece2, found.v))
         ):
-            kind += (1 + at) * ((u == -1) & table.corners[0][piece] | (u == 1) & table.corners[1][piece])
+            kind += (1 + at) * ((u == -1) & table.kinks[0][piece] | (u == 1) & table.kinks[1][piece])
         return kind
 
-    def _sharing(self, found: FirstTouches, least: Floats, couples: CandidatePairs, count: int) -> Indices:
-        """How many couples have a touch at `least` or beyond."""
-        touching = np.unique(found.couple[found.angle >= least])
-        return np.bincount(couples.position[touching], minlength=count)
+    def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
+        """How many couples have a touch at `minimum` or beyond."""
+        touching = np.unique(found.tooth_pair[found.angle >= minimum])
+        return np.bincount(tooth_pairs.position[touching], minlength=count)
 
 
 def _taken(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
@@ -229,14 +229,14 @@ class TwoFlankContact(Shown):
     """Contact of the coast flanks."""
 
     @property
-    def play(self) -> Floats:
+    def backlash(self) -> Floats:
         """What the driven wheel can turn freely (rad); below 0 the teeth interfere by as much."""
         found: Floats = self.back.angle - self.front.angle
         return found
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        return {"front": self.front.to_dict(), "back": self.back.to_dict(), "play": self.play.tolist()}
+        return {"front": self.front.to_dict(), "back": self.back.to_dict(), "backlash": self.backlash.tolist()}
 
 
 def solve(
@@ -284,7 +284,7 @@ def solve(
     >>> found = solve(wheel(10), wheel(20), 15.0, [0.0, pi / 5])
     >>> round(float(found.front.angle[1] - found.front.angle[0]) * 10 / pi, 9)  # a pitch of one is a pitch of the other
     1.0
-    >>> bool((found.play > 0).all())
+    >>> bool((found.backlash > 0).all())
     True
     """
     return TwoFlankContact(

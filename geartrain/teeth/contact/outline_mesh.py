@@ -32,28 +32,28 @@ _HEADER = (
 class OutlineMesh(GearMesh):
     """A spur pair with any teeth; `teeth` of the first and the second wheel as they are cut, in modules."""
 
-    law: OutlineTransmission
+    transmission: OutlineTransmission
     teeth: tuple[FixedTooth, FixedTooth]
 
     @cached_property
     def reversed(self) -> OutlineTransmission:
         """The law with the other wheel driving."""
-        return self.law.reversed
+        return self.transmission.reversed
 
     @property
     def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
-        return self.law.verdict
+        return self.transmission.verdict
 
     @property
     def stands(self) -> float:
         """Half a tooth of both wheels: the driven angle is counted from where flanks touch."""
-        return self.law.gears.lead / pi
+        return self.transmission.gears.lead / pi
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Lengths of the law are modules already."""
         del tips
-        distance = self.law.gears.distance
+        distance = self.transmission.gears.distance
         return PairSize(1.0, distance, distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
@@ -66,14 +66,14 @@ class OutlineMesh(GearMesh):
         """From the contact of one couple of its outlines."""
         from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
-        return displaced_outlines(self.law.gears, self.law.driver)
+        return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
         """Speed, error, play and efficiency, as the pair is driven and driven back."""
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 
         runs = bool(self.verdict)
-        motion, own = motion_figures(self.law, runs), self.efficiency(self.driver)
+        motion, own = motion_figures(self.transmission, runs), self.efficiency(self.driver)
         figures = PairFigures(self.counts, self.verdict, *motion, own if runs else None)
         speed = figures.speed_ratio
         row = (
@@ -82,7 +82,7 @@ class OutlineMesh(GearMesh):
             self.tooth_form.words,
             "-" if speed is None else "{:.5f}..{:.5f}".format(*speed.relative),
             figures.error_text,
-            f"{degrees(self.verdict.play):.4g}",
+            f"{degrees(self.verdict.backlash):.4g}",
             *self.efficiency_texts,
             self.verdict.kind,
         )

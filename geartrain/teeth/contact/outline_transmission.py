@@ -43,7 +43,7 @@ class OutlineGears:
     """Of their axles."""
     lead: float
     """Half a tooth of both on the pitch circles: where the driven angle is counted from."""
-    play: float
+    backlash: float
     """On the pitch circles as designed."""
     faults: tuple[ToothFault, ...] = ()
     """What is wrong with the teeth at any distance."""
@@ -64,7 +64,7 @@ class OutlineTransmission(TransmissionFunction):
         self.friction, self.driver, self.direction = check_friction(friction), driver, direction
         driving, driven = self._wheels
         self.ratio, self.period = Fraction(driving.z, driven.z), 2 * pi / driving.z
-        self._offset, self._play = 2 * gears.lead / driven.z, 2 * gears.play / driven.z
+        self._offset, self._backlash = 2 * gears.lead / driven.z, 2 * gears.backlash / driven.z
 
     @property
     def _wheels(self) -> tuple[GearOutline, GearOutline]:
@@ -80,20 +80,20 @@ class OutlineTransmission(TransmissionFunction):
         """The law with the other wheel driving."""
         return OutlineTransmission(self.gears, self.friction, 3 - self.driver, self.direction)
 
-    def turned_back(self) -> OutlineTransmission:
+    def reversed_motion(self) -> OutlineTransmission:
         """The law of the other flanks; angles keep their sense and decrease."""
         return OutlineTransmission(self.gears, self.friction, self.driver, -self.direction)
 
     @cached_property
     def verdict(self) -> PairVerdict:
         """Whether the pair can turn: what is wrong with its teeth, or the play they lack at this distance."""
-        plays = _plays(self.gears, self.driver)
-        play = float(np.nanmin(plays, initial=inf))
+        backlashes = _backlashes(self.gears, self.driver)
+        backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: the teeth of a pair without play touch on both sides but for rounding
-        found = self.gears.faults if play >= -1e-12 else (*self.gears.faults, _jam(self.distance, play))
-        if not np.isfinite(plays).all():
-            found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(plays)))))
-        return verdict_of_faults(found, play)
+        found = self.gears.faults if backlash >= -1e-12 else (*self.gears.faults, _jam(self.distance, backlash))
+        if not np.isfinite(backlashes).all():
+            found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(backlashes)))))
+        return verdict_of_faults(found, backlash)
 
     # ---------------------------------------------------------------------------------------------------- kinematics
 
@@ -103,7 +103,7 @@ class OutlineTransmission(TransmissionFunction):
     def _of(self, error: Floats | float) -> Floats:
         """Errors of the front flanks as those of this direction: turned back, the law is the mirror image."""
         ahead = np.asarray(error) - self._offset
-        return ahead if self.direction > 0 else self._play - ahead
+        return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
         """Transmission error (rad of the driven wheel) at driver angles S (rad); NaN where none touches."""
@@ -121,9 +121,9 @@ class OutlineTransmission(TransmissionFunction):
         """Of the polynomials; turned back the law is the mirror image, and falls as steeply."""
         return self.table.steepest_fall()
 
-    def corners(self) -> list[float]:
+    def kinks(self) -> list[float]:
         """Driver angles (rad) where something else begins to touch."""
-        return [self.direction * float(at) for at in self.table.corners]
+        return [self.direction * float(at) for at in self.table.kinks]
 
     def error_range(self) -> tuple[float, float]:
         """Least and greatest transmission error (rad of the driven wheel)."""
@@ -214,7 +214,7 @@ class OutlineTransmission(TransmissionFunction):
         found, speed, weights = self._sampled
         return float((weights @ speed) / (weights @ (speed / found)))
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Least efficiency among the nodes of all stretches; NaN where friction locks."""
         return float(self._sampled[0].min())
 
@@ -258,11 +258,11 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 
 @lru_cache(maxsize=64)
-def _plays(gears: OutlineGears, driver: int) -> Floats:
+def _backlashes(gears: OutlineGears, driver: int) -> Floats:
     """Play at angles of a whole period (rad of the driven wheel); NaN where nothing touches."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
-    return solve(first, second, gears.distance, S).play
+    return solve(first, second, gears.distance, S).backlash
 
 
 @lru_cache(maxsize=64)
@@ -290,12 +290,12 @@ def _apart(distance: float, share: float) -> ToothFault:
     )
 
 
-def _jam(distance: float, play: float) -> ToothFault:
+def _jam(distance: float, backlash: float) -> ToothFault:
     return ToothFault(
         "jam",
         0,
         nan,
         "the teeth jam",
-        f"at a centre distance of {distance:.6g} modules they lack {-play:.4g} rad of the driven wheel's angle",
+        f"at a centre distance of {distance:.6g} modules they lack {-backlash:.4g} rad of the driven wheel's angle",
         "move the axles apart, or thin the teeth with `backlash`",
     )

@@ -65,7 +65,7 @@ class PiecewiseTransmission:
     """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
     kind: Indices
     """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
-    corners: Floats
+    kinks: Floats
     """Driver's angles where something else begins to touch."""
     uncertainty: float
     """Twice the greatest differences found between nodes (rad; none)."""
@@ -129,7 +129,7 @@ class PiecewiseTransmission:
             "breaks": self.breaks.tolist(),
             "pair": self.pair.tolist(),
             "kind": np.array([*KINDS, "none"])[self.kind].tolist(),
-            "corners": self.corners.tolist(),
+            "kinks": self.kinks.tolist(),
             "error_min": low,
             "error_max": high,
             "uncertainty": self.uncertainty,
@@ -195,13 +195,13 @@ def tabulate(
     >>> from geartrain.teeth.contact import GearOutline, ToothFlanks, polyline
     >>> flank = polyline([(0.75, 4.0), (0.0, 5.5)])
     >>> wheel = GearOutline((ToothFlanks.symmetric(flank),), 10)
-    >>> law = tabulate(wheel, wheel, 10.0, 1e-6)
-    >>> law.ratio, law.uncertainty < 1e-6
+    >>> transmission = tabulate(wheel, wheel, 10.0, 1e-6)
+    >>> transmission.ratio, transmission.uncertainty < 1e-6
     (Fraction(1, 1), True)
     """
     meeting = OutlinePair(first, second, distance, side)
     maker = _Maker(meeting, tolerance)
-    done, breaks, corners = maker.made()
+    done, breaks, kinks = maker.made()
     if (done.kind < 0).all():
         raise RangeError(
             Problem(
@@ -220,7 +220,7 @@ def tabulate(
         done.speeds,
         done.pair,
         done.kind,
-        corners,
+        kinks,
         _SAFETY * float(np.nanmax(done.off)),
         _SAFETY * float(np.nanmax(done.speed_off)),
     )
@@ -238,17 +238,17 @@ class _Maker:
         count = _PARTS * self.meeting.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
-        done, corners = [], [np.empty(0)]
+        done, kinks = [], [np.empty(0)]
         while pending.shape[1]:
             stretches, labels = self._fitted(pending)
             good = self._good(stretches, before)
             done.append(some(stretches, good))
-            cuts = self._corners(pending[:, ~good], labels[:, ~good])
-            corners += cuts
+            cuts = self._kinks(pending[:, ~good], labels[:, ~good])
+            kinks += cuts
             pending, before = _cut(pending[:, ~good], cuts, stretches.off[~good])
             if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.meeting.cycle:
                 raise _endless(self.tolerance)
-        return self._ordered(done, np.concatenate(corners))
+        return self._ordered(done, np.concatenate(kinks))
 
     def _good(self, stretches: _Stretches, before: Floats) -> Bools:
         """Within tolerance, thin, or as good as rounding lets it be."""
@@ -262,7 +262,7 @@ class _Maker:
         """Polynomials on stretches, and what touches at their nodes: (5, n, nodes)."""
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
-        angle, speed, labels = self._asked(phi1)
+        angle, speed, labels = self._requested(phi1)
         error = angle - float(self.ratio) * phi1
         inside = np.isin(_ALL, _NODES)
         fits = [POWERS.T @ (_SERIES @ each[:, inside].T) for each in (error, speed)]
@@ -275,13 +275,13 @@ class _Maker:
         pair, kind = labels[:2, :, COUNT]  # at the middle one of 2 COUNT + 1 points
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
-    def _asked(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
+    def _requested(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
         """Driven angle, speed, and labels that tell what touches."""
         angle, speed, pair, kind, _, _, _, curves = self.meeting.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
-    def _corners(self, ends: Floats, labels: Indices) -> list[Floats]:
+    def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
         """For each stretch the driver's angles at which something else begins to touch, to rounding."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
@@ -297,7 +297,7 @@ class _Maker:
         for _ in range(20):  # 17^20 is far beyond 2^53: it ends where a gap shrinks no more
             inner = low[:, None] + (high - low)[:, None] * share
             inner = np.clip(inner, low[:, None], high[:, None])
-            _, _, labels = self._asked(inner)
+            _, _, labels = self._requested(inner)
             other = (labels != left[:, :, None]).any(axis=0)
             points = np.concatenate([low[:, None], inner, high[:, None]], axis=1)
             first = np.where(other.any(axis=1), other.argmax(axis=1), _CUTS - 1)
@@ -308,23 +308,23 @@ class _Maker:
             low, high = new_low, new_high
         return low + (high - low) / 2
 
-    def _ordered(self, done: list[_Stretches], corners: Floats) -> tuple[_Stretches, Floats, Floats]:
+    def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
         """Stretches by driver's angle, each corner moved to where the stretches on its sides cross."""
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
         breaks = np.append(everything.ends[0], everything.ends[1, -1])
-        which = np.flatnonzero(np.isin(breaks[1:-1], corners)) + 1
+        which = np.flatnonzero(np.isin(breaks[1:-1], kinks)) + 1
         breaks[which] = [self._crossing(everything, int(at), float(breaks[at])) for at in which]
         return everything, breaks, breaks[which]
 
-    def _crossing(self, stretches: _Stretches, at: int, corner: float) -> float:
+    def _crossing(self, stretches: _Stretches, at: int, kink: float) -> float:
         errors, speeds = ends(stretches.errors[:, at - 1 : at + 1]), ends(stretches.speeds[:, at - 1 : at + 1])
         # a Newton step on the difference of both fits makes the law continuous: labels place a corner no better than
         # nearly equal angles can be told apart
         step, change = float(errors[1, 0] - errors[0, 1]), float(speeds[1, 0] - speeds[0, 1])
         if not abs(change) > _FLAT * float(self.ratio) or not abs(step) < _LEAP:
-            return corner
-        return corner - step / change
+            return kink
+        return kink - step / change
 
 
 def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:

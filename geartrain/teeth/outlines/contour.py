@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 _SAME = 1e-9  # vertices nearer than this are one
-_LEAST_STEP = 2 * pi / 65536  # of a chord, in radians: wheels of a trillion teeth are drawn too
+_MINIMUM_STEP = 2 * pi / 65536  # of a chord, in radians: wheels of a trillion teeth are drawn too
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
     """Points of an arc, its end left out."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # the chord whose sagitta is the tolerance
-    step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _LEAST_STEP)
+    step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)
     count = max(1, ceil(abs(sweep) / step))
     centre = _arc_centre(start, end, bulge)
     turn = sweep * np.arange(count) / count

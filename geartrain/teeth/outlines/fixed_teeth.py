@@ -77,12 +77,12 @@ def _vertices(pitch: float, radius: float, root: float, face: float) -> Iterator
 # --------------------------------------------------------------------------------------------------------- strain waves
 
 
-def wave_tooth(z: int, play: float, ring: bool = False) -> FixedTooth:
+def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
     """Of the wheel of z teeth, or of its ring, which has straight flanks too; play (modules) along the pitch circle."""
     radius, pitch = z / 2, 2 * pi / z
     side = -1 if ring else 1
     tip, root = radius + side * ADDENDUM, radius - side * DEDENDUM
-    half = pi / 4 - play / 4  # of a tooth on the pitch circle
+    half = pi / 4 - backlash / 4  # of a tooth on the pitch circle
     ends = [(root, half + DEDENDUM * tan(FLANK)), (tip, half - ADDENDUM * tan(FLANK))]
     (foot, x), (top, tip_x) = ((asin(y / r), sqrt(r**2 - y**2)) for r, y in ends)
     low, high = ends[0][1], ends[1][1]

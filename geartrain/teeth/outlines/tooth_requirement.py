@@ -99,7 +99,7 @@ CLEARANCE = 0.25  # modules
 _FILLET = 0.38  # modules
 _BITES = (1e-9, 1e-6)  # modules: deeper is interference; flanks found by numbers are not nearer to their true ones
 _RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg; a root so much steeper than the flank it goes on from
-_LEAST_FILLET = 1e-3  # modules
+_MINIMUM_FILLET = 1e-3  # modules
 _HALVINGS = 18  # of less than 0.4 modules: to 2e-6
 _ALIKE = 1e-5  # modules: flanks that differ by less are one
 
@@ -197,7 +197,7 @@ class ToothRequirement(WheelRequirement):
             land = np.stack([np.full(9, found.r[-1]), np.linspace(-half[-1], half[-1], 9)])
             span = np.concatenate((flanks, land), axis=1)
         # both wheels being symmetric, what passes on this side of its play passes on the other
-        touching = span + np.array([[0.0], [self.pair.play / 2 / found.R]])
+        touching = span + np.array([[0.0], [self.pair.backlash / 2 / found.R]])
         distance = own.R - found.R if self.internal else own.R + found.R
         mate = MateTooth(touching, other.z, distance, self.internal, found.outward < 0)
         return passage(self.z, float(own.r[-1]), own.outward, mate)
@@ -266,7 +266,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
     root = min((each.root for each in demands), key=lambda radius: radius * s)
     own = deepest.flank
-    if fillet(own, deepest.widening, root, _LEAST_FILLET, deepest.z) is None:
+    if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
         raise _no_root(deepest)
     passages = [each.passage for each in demands]
     for most, degree in ((most, degree) for most in _BITES for degree in _RELIEFS):
@@ -313,8 +313,8 @@ def _maker(
 
 def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
     """By bisection, the tooth with the largest fillet below `wanted`; None where not even a small one fits."""
-    found = made(_LEAST_FILLET)
-    low, high = _LEAST_FILLET, wanted
+    found = made(_MINIMUM_FILLET)
+    low, high = _MINIMUM_FILLET, wanted
     if found is None or wanted <= low:
         return found
     for _ in range(_HALVINGS):

@@ -57,7 +57,7 @@ class BlankSizes:
     def __post_init__(self) -> None:
         """Raise `QuestionError` for what is no size."""
         above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
-        least = {"fillet": self.fillet, "clearance": self.clearance}
+        minimum = {"fillet": self.fillet, "clearance": self.clearance}
         problems = [
             Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} above 0", f"--{name}")
             for name, value in above.items()
@@ -65,7 +65,7 @@ class BlankSizes:
         ]
         problems += [
             Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} of 0 or more", f"--{name}")
-            for name, value in least.items()
+            for name, value in minimum.items()
             if value is not None and not (isfinite(value) and value >= 0)
         ]
         if problems:
@@ -220,7 +220,7 @@ class _Both:
             fillet=round_,
             relief=relief,
             clearance=self.demand.clearance * scale,
-            backlash=self.pair.play * scale,
+            backlash=self.pair.backlash * scale,
             centre_distance=self.demand.distance * scale,
             tolerance=self.cut.tolerance,
         )
@@ -249,10 +249,10 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
     return Contour.of(repeated(seat, z))
 
 
-def _too_round(gear: int, asked: float, fits: float) -> QuestionError:
+def _too_round(gear: int, requested: float, fits: float) -> QuestionError:
     return QuestionError(
         Problem(
-            f"a fillet of {asked:g} mm does not fit the root of gear {gear}",
+            f"a fillet of {requested:g} mm does not fit the root of gear {gear}",
             "there it would stand in the way of the mate's tips, or of the next tooth",
             f"give at most {fits:.4g} mm, or more clearance",
             "--fillet",

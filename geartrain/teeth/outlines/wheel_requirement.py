@@ -95,10 +95,10 @@ class PairRequirement:
     requirement: WheelRequirement
 
 
-def disagreement(asked: Sequence[PairRequirement]) -> Problem | None:
+def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
     """Why one wheel does not do for all its pairs; None where it does."""
-    odd = (other for other in asked[1:] if not asked[0].requirement.agrees(other.requirement))
-    return next((_at_odds(asked[0], other) for other in odd), None)
+    odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
+    return next((_at_odds(requested[0], other) for other in odd), None)
 
 
 def _at_odds(first: PairRequirement, other: PairRequirement) -> Problem:

@@ -14,10 +14,10 @@ from geartrain.numerics.roots import bracketed_root, root
 from geartrain.teeth.pair_results import PairVerdict
 from geartrain.teeth.tooth_form import refused
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import STANDSTILL, DraggedPath, DriveInterval, RealPath, drag
-from geartrain.teeth.triangular.tooth_couple import APPROACH
+from geartrain.teeth.triangular.real_path import DWELL, DraggedPath, DriveInterval, RealPath, drag
+from geartrain.teeth.triangular.tooth_pair import APPROACH
 
-MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]
+MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "dwell", "apart"]
 _ROUNDING = 1e-11  # of a driven pitch: play that is less below 0 is none
 _NEARLY_0 = 1e-9  # of the reach
 
@@ -61,7 +61,7 @@ class TriangularContact:
 
     def speed(self, interval: DriveInterval, x: float) -> float:
         """tau, 0 in a standstill."""
-        return 0.0 if interval.held is not None else float(self.path.couple.speed(interval.phase, x))
+        return 0.0 if interval.held is not None else float(self.path.tooth_pair.speed(interval.phase, x))
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
@@ -70,24 +70,24 @@ class TriangularContact:
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
     @cached_property
-    def play(self) -> float:
+    def backlash(self) -> float:
         """The least play of the back flanks over a pitch (rad of the driven wheel); below 0 they jam.
 
         The sum of the law and the mirror image of the bounds is smooth between their corners, where tau differs or
         turns; within, it is least where both have the same tau.
         """
         pitch = self.sizes.p1
-        corners = {corner % pitch for interval in self.intervals for corner in self._corners(interval)}
-        corners |= {-corner % pitch for interval in self._bounds for corner in self._corners(interval)}
-        marks = sorted(corners)
+        kinks = {kink % pitch for interval in self.intervals for kink in self._kinks(interval)}
+        kinks |= {-kink % pitch for interval in self._bounds for kink in self._kinks(interval)}
+        marks = sorted(kinks)
         cells = pairwise([*marks, marks[0] + pitch])
-        return min(self._least_within(low, high) for low, high in cells) + self.sizes.p2
+        return min(self._minimum_within(low, high) for low, high in cells) + self.sizes.p2
 
-    def _corners(self, interval: DriveInterval) -> Iterator[float]:
+    def _kinks(self, interval: DriveInterval) -> Iterator[float]:
         yield from (interval.start, interval.end)
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
-    def _least_within(self, low: float, high: float) -> float:
+    def _minimum_within(self, low: float, high: float) -> float:
         """The least play between two corners: at one of them, or where both sides have one tau."""
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
@@ -97,17 +97,17 @@ class TriangularContact:
             return inf  # a gap: nothing is in reach of the back flanks
         start, back = start - half, back + half
 
-        def play(step: float) -> float:
+        def backlash(step: float) -> float:
             return self._height(ours, start + step) + self.path.g(theirs.phase, back - step)
 
         def slope(step: float) -> float:
             return self.speed(ours, start + step) - self.speed(theirs, back - step)
 
-        ends = min(play(0.0), play(2 * half))
+        ends = min(backlash(0.0), backlash(2 * half))
         if not slope(0.0) < 0 < slope(2 * half):
             return ends
         step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)  # a slope of 0 makes it halve
-        return min(ends, play(step))
+        return min(ends, backlash(step))
 
     @cached_property
     def verdict(self) -> PairVerdict:
@@ -117,7 +117,7 @@ class TriangularContact:
             return self._failed("no valley", _no_valley(sizes))
         if not self.intervals:
             return self._failed("apart", "the tips never touch: the wheels are too far apart")
-        return PairVerdict(*self._judged(), self.play)
+        return PairVerdict(*self._judged(), self.backlash)
 
     @staticmethod
     def _failed(kind: MeshingKind, text: str) -> PairVerdict:
@@ -126,9 +126,10 @@ class TriangularContact:
     def _judged(self) -> tuple[MeshingKind, str]:
         if self.overhang:
             return "overhang", self.overhang
-        if self.play < -_ROUNDING * self.sizes.p2:
+        if self.backlash < -_ROUNDING * self.sizes.p2:
             return "jam", (
-                f"the back flanks jam: the teeth are {degrees(-self.play):.4g} deg of the driven wheel too thick for "
+                f"the back flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven "
+                f"wheel too thick for "
                 "the spaces at this clearance"
             )
         if self.dragged.clash > 0:
@@ -137,11 +138,11 @@ class TriangularContact:
                 "driven wheel"
             )
         if self.dragged.arrested:
-            return "standstill", (
+            return "dwell", (
                 "the driven wheel is left standing for good: no tooth is in reach for a while, and the next one goes by"
             )
         if self.idle > 0:
-            return "standstill", (
+            return "dwell", (
                 f"the driven wheel stands still for {degrees(self.idle):.4g} deg of the driver at each pitch, and is "
                 f"{degrees(self.lost):.4g} deg behind when the next tooth comes"
             )
@@ -150,7 +151,7 @@ class TriangularContact:
     @property
     def idle(self) -> float:
         """The driver's angle (rad) in the standstills of one pitch."""
-        return sum(each.width for each in self.intervals if each.phase == STANDSTILL)
+        return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
@@ -220,11 +221,11 @@ class ClearanceWindow(Shown):
     """Clearance up to which the pair does not turn."""
     run: float
     """Clearance up to which the pair runs."""
-    run_kind: Literal["clash", "standstill"]
+    run_kind: Literal["clash", "dwell"]
     """What happens beyond `run`."""
     reach: float
     """Excess beyond which no tip touches."""
-    jam_kind: Literal["jam", "overhang", "clash", "standstill"] = "jam"
+    jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
     """What happens up to `jam`."""
     side: int = 1
     """1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
@@ -301,35 +302,35 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
 
 @lru_cache(maxsize=8192)
 def _window(sizes: TriangularSizes) -> ClearanceWindow:
-    reach = sizes.greatest_excess
-    jam = _least_excess(sizes)
+    reach = sizes.maximum_excess
+    jam = _minimum_excess(sizes)
     leaning = _leaning_excess(sizes, jam)
     low = max(jam, leaning)
     clash = _stretch(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
     still = _stretch(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
     # equal wheels do both at once, and the driven wheel that stands lets the next tooth in
-    run_kind: Literal["clash", "standstill"] = "clash" if clash[1] < still[1] * (1 - 1e-9) else "standstill"
-    starts: dict[Literal["jam", "overhang", "clash", "standstill"], float]
-    starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "standstill": still[0]}
+    run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < still[1] * (1 - 1e-9) else "dwell"
+    starts: dict[Literal["jam", "overhang", "clash", "dwell"], float]
+    starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "dwell": still[0]}
     jam_kind = max(starts, key=lambda kind: starts[kind])
     return ClearanceWindow(starts[jam_kind], min(clash[1], still[1]), run_kind, reach, jam_kind, sizes.side)
 
 
-def _least_excess(sizes: TriangularSizes) -> float:
+def _minimum_excess(sizes: TriangularSizes) -> float:
     """The excess from which back flanks have play: 0 where they always have, the reach where they never do."""
-    reach = sizes.greatest_excess
+    reach = sizes.maximum_excess
 
-    def play(excess: float) -> float:
-        return TriangularContact(sizes.at(excess)).play
+    def backlash(excess: float) -> float:
+        return TriangularContact(sizes.at(excess)).backlash
 
-    if play(reach * _NEARLY_0) > 0:
+    if backlash(reach * _NEARLY_0) > 0:
         return 0.0
-    return _first_sign_change(play, reach * _NEARLY_0, reach)
+    return _first_sign_change(backlash, reach * _NEARLY_0, reach)
 
 
 def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
     """The excess up to which the path reaches a leaning flank; 0 if it does not where the pair ceases to jam."""
-    reach = sizes.greatest_excess
+    reach = sizes.maximum_excess
     # at the jam itself the play is 0 but for rounding
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
 
@@ -385,17 +386,17 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
     """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
 
-    def play(excess: float) -> float:
+    def backlash_at(excess: float) -> float:
         D = sizes.factor(excess) * sizes.deepest_distance
-        return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / sizes.pitch_sum
+        return TriangularContact(sizes.at(excess)).backlash * D * sizes.z2 / sizes.pitch_sum
 
     # at the greatest excess itself tips do not touch, and there is no play
-    low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
-    least, most = play(low), play(high)
-    if not least <= backlash <= most:
+    low, high = 0.0, sizes.maximum_excess * (1 - 1e-9)
+    minimum, most = backlash_at(low), backlash_at(high)
+    if not minimum <= backlash <= most:
         raise refused(
             f"no clearance gives a backlash of {text}",
-            f"these teeth have from {max(least, 0):.6g} to {most:.6g} (in m, or the plain unit)",
+            f"these teeth have from {max(minimum, 0):.6g} to {most:.6g} (in m, or the plain unit)",
             "give a backlash between the two",
         )
-    return root(lambda excess: play(excess) - backlash, low, high, least - backlash, most - backlash)
+    return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

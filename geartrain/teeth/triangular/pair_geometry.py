@@ -15,7 +15,7 @@ from typing import Literal
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
 
-_LEAST = 1e-40  # of any unit: the fourth power of a radius is a float
+_MINIMUM = 1e-40  # of any unit: the fourth power of a radius is a float
 _GRAZING = 1 - 1e-12  # sine of the angle between flank and driven radius: at 1 the speed ratio is infinite
 _NEARLY_GRAZING = 2e-6  # rad: a little more than that sine leaves to a right angle
 
@@ -94,14 +94,14 @@ class TriangularSizes(Shown):
     def __post_init__(self) -> None:
         # without valleys there are no teeth, and radii of equal depth may come out negative: a verdict says so
         exist = min(self.z1, self.z2) >= 1 and self.has_valleys
-        lengths = all(_LEAST < (radius if exist else abs(radius)) < 1 / _LEAST for radius in (self.R1, self.R2))
+        lengths = all(_MINIMUM < (radius if exist else abs(radius)) < 1 / _MINIMUM for radius in (self.R1, self.R2))
         angles = all(0 < beta < pi / 2 for beta in (self.beta1, self.beta2))
         if min(self.z1, self.z2) < 1 or not (lengths and angles and -1 < self.side * self.excess < inf):
             raise RangeError(
                 Problem(
                     f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half apertures "
                     f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} are no pair of triangular teeth",
-                    f"radii lie between {_LEAST:g} and {1 / _LEAST:g}, half apertures between 0 and a right angle",
+                    f"radii lie between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures between 0 and a right angle",
                     "give at least 3 teeth, radii and half apertures above 0, and an excess above 0",
                 )
             )
@@ -253,7 +253,7 @@ class TriangularSizes(Shown):
         return psi - asin(s)
 
     @cached_property
-    def greatest_excess(self) -> float:
+    def maximum_excess(self) -> float:
         """Excess beyond which tips never touch, or in an internal pair the tip circles overlap all round."""
         apart = min(self.depths) / self.deepest_distance
         return apart if not self.ring else min(apart, 1 + self.side * sum(self.signed_radii) / self.deepest_distance)

@@ -26,8 +26,8 @@ COLUMNS = (
     "error_rms_deg",
     "efficiency_mean",
     "efficiency_min",
-    "greatest_jump",
-    "play_deg",
+    "maximum_jump",
+    "backlash_deg",
     "lost_deg",
 )
 
@@ -84,32 +84,32 @@ def sweep(
 
 def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, str, Sequence[float]]:
     try:
-        law = make(**values)
+        transmission = make(**values)
     except GearTrainError:
         return "none", "", [nan] * len(COLUMNS)
-    verdict = law.verdict
-    if not law.intervals:
+    verdict = transmission.verdict
+    if not transmission.intervals:
         return verdict.kind, "", [nan] * len(COLUMNS)
-    least, most = law.speed_range()
-    low, high = law.error_range()
+    minimum, most = transmission.speed_range()
+    low, high = transmission.error_range()
     row = [
-        least,
+        minimum,
         most,
         degrees(high - low),
-        degrees(law.error_moments()[1]),
-        law.efficiency_mean(),
-        law.efficiency_least(),
-        max((jump.value for jump in law.jumps), default=0.0),
-        degrees(verdict.play),
-        degrees(law.contact.lost),
+        degrees(transmission.error_moments()[1]),
+        transmission.efficiency_mean(),
+        transmission.efficiency_minimum(),
+        max((jump.value for jump in transmission.jumps), default=0.0),
+        degrees(verdict.backlash),
+        degrees(transmission.contact.lost),
     ]
-    return verdict.kind, phases_of(law), row
+    return verdict.kind, phases_of(transmission), row
 
 
-def phases_of(law: TriangularTransmission) -> str:
+def phases_of(transmission: TriangularTransmission) -> str:
     """The phases of the real path from its entry on, such as "approach+recess"; one through matching is "astride"."""
-    path = law.intervals
-    through = [matches(path[at - 1], path[at], law.period) for at in range(len(path))]
+    path = transmission.intervals
+    through = [matches(path[at - 1], path[at], transmission.period) for at in range(len(path))]
     entries = [at for at, matched in enumerate(through) if not matched and path[at].held is None]
     first = max(entries, key=lambda at: path[at].start, default=0)
     names: list[str] = []

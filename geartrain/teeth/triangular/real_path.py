@@ -1,6 +1,6 @@
 """The real path of contact: which couple of teeth drives where, and whether it can.
 
-Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`tooth_couple`), so that it follows
+Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`tooth_pair`), so that it follows
 U(t) = min over k, docs/teeth.md (10), and, dragged, y <- min(y, U(t)) as t decreases. Less the mean motion this is the
 least of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between matching and the ends of reach g is convex, or
 concave and then convex (few teeth), so that on each such piece only its ends, or the two couples about its minimum, can
@@ -22,9 +22,9 @@ from math import ceil, floor, inf, ulp
 from geartrain.numerics.results import Result
 from geartrain.numerics.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, RETURN, SLIP, ToothCouple
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, RETURN, SLIP, ToothPair
 
-STANDSTILL = "standstill"
+DWELL = "dwell"
 _ROUNDING = 1e-11  # of a pitch: what is shorter is no interval
 _SMALL = 1e-10  # of a pitch: a lesser leap or gap is none
 
@@ -43,7 +43,8 @@ class MonotonePiece:
 class DriveInterval:
     """A stretch of alpha_1 from `start` down to `end` in which one couple drives, or none does (standstill).
 
-    `couple` counts teeth: alpha_1 = t + couple p1 for a position t common to all intervals of a path. In a standstill
+    `tooth_pair` counts teeth: alpha_1 = t + couple p1 for a position t common to all intervals of a path. In a
+    standstill
     it is the couple that has just let go, and `held` the angle alpha_2 at which it left the driven wheel standing.
     """
 
@@ -53,7 +54,7 @@ class DriveInterval:
     """Angle alpha_1 at which it begins [rad]."""
     end: float
     """Angle alpha_1 at which it ends [rad]."""
-    couple: int
+    tooth_pair: int
     """Number of the couple of teeth."""
     held: float | None = None
     """Angle alpha_2 at which the driven wheel stands still [rad]; None while a couple drives."""
@@ -70,18 +71,18 @@ class RealPath:
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
         """`slips` adds contact that bounds the driven wheel but cannot push it."""
         self.sizes, self.slips = sizes, slips
-        self.couple = ToothCouple(sizes)
+        self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
 
     # ---------------------------------------------------------------------------------------------------- one couple
 
     def g(self, phase: str, x: float) -> float:
         """f(x) less the mean motion: what the driven wheel lags behind it, in its own angle."""
-        return float(self.couple.angle(phase, x)) - self.ratio * x
+        return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
         """d g / d x: tau less its mean."""
-        return float(self.couple.speed(phase, x)) - self.ratio
+        return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
@@ -105,7 +106,7 @@ class RealPath:
 
     def _cut(self, phase: str, low: float, high: float) -> list[MonotonePiece]:
         def slope(x: float) -> float:
-            return float(self.couple.slope(phase, x))
+            return float(self.tooth_pair.slope(phase, x))
 
         first, last = slope(low) > 0, slope(high) > 0
         if first == last:
@@ -120,7 +121,7 @@ class RealPath:
         """g where tau passes through its mean between `low` and `high`, where tau is monotone."""
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
-        x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.couple.slope(phase, x), low, high)
+        x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.tooth_pair.slope(phase, x), low, high)
         return [self.g(phase, x)]
 
     # ------------------------------------------------------------------------------------------------- all couples
@@ -144,7 +145,7 @@ class RealPath:
             return [right]
         start = bracketed_root(
             lambda x: self._rise(piece.phase, x),
-            lambda x: self.couple.speed(piece.phase, x + pitch) - self.couple.speed(piece.phase, x),
+            lambda x: self.tooth_pair.speed(piece.phase, x + pitch) - self.tooth_pair.speed(piece.phase, x),
             low,
             high - pitch,
         )
@@ -152,17 +153,17 @@ class RealPath:
 
     def _rise(self, phase: str, x: float) -> float:
         """g(x + p1) - g(x)."""
-        return float(self.couple.angle(phase, x + self.pitch) - self.couple.angle(phase, x)) - self.sizes.p2
+        return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
         """The least g over the couples at position t, `besides` one of them; infinite where none is in reach."""
-        least = inf
+        minimum = inf
         for piece in self.pieces:
             first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
             for k in self._candidates(piece, t, first, last):
                 if k != besides:
-                    least = min(least, self.g(piece.phase, t + k * self.pitch))
-        return least
+                    minimum = min(minimum, self.g(piece.phase, t + k * self.pitch))
+        return minimum
 
     def _candidates(self, piece: MonotonePiece, t: float, first: int, last: int) -> set[int]:
         if last - first < 4 or not piece.convex:
@@ -179,7 +180,7 @@ class RealPath:
         if self.slope(piece.phase, high) <= 0:
             return high
         return bracketed_root(
-            lambda x: self.slope(piece.phase, x), lambda x: self.couple.slope(piece.phase, x), low, high
+            lambda x: self.slope(piece.phase, x), lambda x: self.tooth_pair.slope(piece.phase, x), low, high
         )
 
     # ------------------------------------------------------------------------------------------------- the envelope
@@ -202,10 +203,10 @@ class RealPath:
         if not found:
             return found
         first, last = found[0], found[-1]
-        same = first.phase == last.phase and first.couple + 1 == last.couple
+        same = first.phase == last.phase and first.tooth_pair + 1 == last.tooth_pair
         if len(found) < 2 or not same or abs(last.end - first.start) > _ROUNDING * self.pitch:
             return found
-        return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.couple)]
+        return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
         """One stretch of t in which no branch begins or ends."""
@@ -233,10 +234,10 @@ class RealPath:
     ) -> tuple[MonotonePiece, int]:
         """The lowest branch at t, the last one where it is as low to rounding: branches may coincide for a while."""
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
-        least = min(heights)
-        if last is not None and heights[active.index(last)] <= least + self._noise:
+        minimum = min(heights)
+        if last is not None and heights[active.index(last)] <= minimum + self._noise:
             return last
-        return active[heights.index(least)]
+        return active[heights.index(minimum)]
 
     @cached_property
     def _noise(self) -> float:
@@ -250,7 +251,7 @@ class RealPath:
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
         low, high = low + i * self.pitch, high + i * self.pitch
-        first, second = self.couple.angle, self.couple.speed
+        first, second = self.tooth_pair.angle, self.tooth_pair.speed
 
         def difference(x: float) -> float:
             return float(first(a.phase, x) - first(b.phase, x + shift)) + turned
@@ -259,7 +260,7 @@ class RealPath:
             return float(second(a.phase, x) - second(b.phase, x + shift))
 
         def bend(x: float) -> float:
-            return float(self.couple.slope(a.phase, x) - self.couple.slope(b.phase, x + shift))
+            return float(self.tooth_pair.slope(a.phase, x) - self.tooth_pair.slope(b.phase, x + shift))
 
         def bounds(c: float, d: float) -> tuple[float, float]:
             # where the difference bends one way its slope is bounded by the ends; three points speak for the stretch
@@ -280,8 +281,8 @@ def _joined(cells: list[DriveInterval]) -> list[DriveInterval]:
     found: list[DriveInterval] = []
     for cell in cells:
         last = found[-1] if found else None
-        if last and last.phase == cell.phase and last.couple == cell.couple:
-            found[-1] = DriveInterval(last.phase, last.start, cell.end, last.couple)
+        if last and last.phase == cell.phase and last.tooth_pair == cell.tooth_pair:
+            found[-1] = DriveInterval(last.phase, last.start, cell.end, last.tooth_pair)
         else:
             found.append(cell)
     return found
@@ -339,7 +340,7 @@ def drag(path: RealPath) -> DraggedPath:
     envelope = path.envelope
     if not envelope:
         return DraggedPath((), 0.0, inf)
-    first = min(range(len(envelope)), key=lambda at: _least(path, envelope[at])) if len(envelope) > 1 else 0
+    first = min(range(len(envelope)), key=lambda at: _minimum(path, envelope[at])) if len(envelope) > 1 else 0
     order = [*envelope[first:], *(_next_pitch(each) for each in envelope[:first])]
     walk = _Walk(path, order[0])
     for interval in (*order[1:], _next_pitch(order[0])):
@@ -348,10 +349,10 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _next_pitch(interval: DriveInterval) -> DriveInterval:
-    return DriveInterval(interval.phase, interval.start, interval.end, interval.couple + 1, interval.held)
+    return DriveInterval(interval.phase, interval.start, interval.end, interval.tooth_pair + 1, interval.held)
 
 
-def _least(path: RealPath, interval: DriveInterval) -> float:
+def _minimum(path: RealPath, interval: DriveInterval) -> float:
     """The least of g over an interval, which the driven wheel reaches whatever came before."""
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
@@ -372,8 +373,8 @@ class _Walk:
         """The next interval of the envelope: join it, stand until it comes down, or meet its tip."""
         last = self.held or self.done[-1]
         y = self._standing(last, interval)
-        leap = self.path.couple.angle(interval.phase, interval.start) - y
-        gap = last.end - interval.start + (interval.couple - last.couple) * self.path.pitch
+        leap = self.path.tooth_pair.angle(interval.phase, interval.start) - y
+        gap = last.end - interval.start + (interval.tooth_pair - last.tooth_pair) * self.path.pitch
         if leap < -self.small:
             # a tooth that enters an empty reach ahead of its mate passes by, and nothing pushes the mate any more
             self.arrested |= gap > self.gap
@@ -383,33 +384,33 @@ class _Walk:
             self.lost += max(leap, 0.0)
         if self.held is not None and leap > self.small:
             # an interval that ends above the driven wheel never comes down to it
-            if self.path.couple.angle(interval.phase, interval.end) >= y:
+            if self.path.tooth_pair.angle(interval.phase, interval.end) >= y:
                 return
             start = bracketed_root(
-                lambda x: self.path.couple.angle(interval.phase, x) - y,
-                lambda x: self.path.couple.speed(interval.phase, x),
+                lambda x: self.path.tooth_pair.angle(interval.phase, x) - y,
+                lambda x: self.path.tooth_pair.speed(interval.phase, x),
                 interval.end,
                 interval.start,
             )
-            interval = DriveInterval(interval.phase, start, interval.end, interval.couple)
+            interval = DriveInterval(interval.phase, start, interval.end, interval.tooth_pair)
         if self.held is not None:
             self._stand_until(interval)
         self.done.append(interval)
 
     def _standing(self, last: DriveInterval, interval: DriveInterval) -> float:
         """Where `last` left the driven wheel, as the angle alpha_2 of the couple of `interval`."""
-        y = self.path.couple.angle(last.phase, last.end)
-        return float(y + (interval.couple - last.couple) * self.path.sizes.p2)
+        y = self.path.tooth_pair.angle(last.phase, last.end)
+        return float(y + (interval.tooth_pair - last.tooth_pair) * self.path.sizes.p2)
 
     def _stand_until(self, interval: DriveInterval) -> None:
         last, self.held = self.held, None
         assert last is not None
-        end = interval.start + (last.couple - interval.couple) * self.path.pitch
-        held = self.path.couple.angle(last.phase, last.end)
-        self.done.append(DriveInterval(STANDSTILL, last.end, end, last.couple, float(held)))
+        end = interval.start + (last.tooth_pair - interval.tooth_pair) * self.path.pitch
+        held = self.path.tooth_pair.angle(last.phase, last.end)
+        self.done.append(DriveInterval(DWELL, last.end, end, last.tooth_pair, float(held)))
 
     def result(self) -> DraggedPath:
         """The walk closed: what is left of the first interval after the last standstill."""
         last = self.done.pop()
-        first = DriveInterval(last.phase, last.start, self.first.end, last.couple - 1)
+        first = DriveInterval(last.phase, last.start, self.first.end, last.tooth_pair - 1)
         return DraggedPath((first, *self.done[1:]), self.clash, self.lost, self.arrested)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-_CLEARANCES = ("clearance", "excess", "backlash", "centre_distance", "window")
+_CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance", "window")
 _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
@@ -37,7 +37,7 @@ class Triangular(ToothForm):
     """Triangular teeth, as in ancient gearing: straight flanks that meet in a point.
 
     The ratio changes within each pitch, and teeth collide as they take over (docs/teeth.md; F. Sorge, "A note on the
-    mechanics of ancient gear systems"). How far the axes stand apart is given in one of five ways: `clearance`,
+    mechanics of ancient gear systems"). How far the axes stand apart is given in one of five ways: `clearance_factor`,
     `excess`, `backlash`, `centre_distance` or `window`.
 
     See Also
@@ -46,10 +46,10 @@ class Triangular(ToothForm):
 
     Examples
     --------
-    >>> law = Triangular(form="triangular", half_angle="30 deg", window="0.5").law(48, 96, 0.2)
-    >>> law.verdict.text, law.ratio, [round(speed, 4) for speed in law.speed_range()]
+    >>> transmission = Triangular(form="triangular", half_angle="30 deg", window="0.5").transmission(48, 96, 0.2)
+    >>> transmission.verdict.text, transmission.ratio, [round(speed, 4) for speed in transmission.speed_range()]
     ('the wheels turn', Fraction(1, 2), [0.457, 0.5392])
-    >>> round(law.efficiency_mean(), 4)
+    >>> round(transmission.efficiency_mean(), 4)
     0.9681
     """
 
@@ -59,15 +59,14 @@ class Triangular(ToothForm):
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(twice), WithJsonSchema(_ONE_OR_TWO)] = Field(
         description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
-    clearance: Figure | None = Field(
+    clearance_factor: Figure | None = Field(
         None,
         description="Centre distance over that at which a tip touches the bottom of a space: above 1, in a ring "
         "below 1",
     )
     excess: Figure | None = Field(
         None,
-        description="The part of that distance by which the wheels are apart, above 0: clearance less 1, in a ring 1 "
-        "less clearance",
+        description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor",
     )
     backlash: Length | None = Field(
         None, description="Least play over a pitch, as an arc of the second wheel's pitch circle"
@@ -111,7 +110,7 @@ class Triangular(ToothForm):
 
     def _check_clearance(self) -> None:
         bounds = (
-            (self.clearance, 0, None, "a clearance factor is above 1, in a ring between 0 and 1"),
+            (self.clearance_factor, 0, None, "a clearance factor is above 1, in a ring between 0 and 1"),
             (self.excess, 0, None, "an excess is above 0: at 0 a tip touches the bottom of a space"),
             (self.window, 0, 1, "a window's fraction lies between 0, jamming, and 1, losing contact"),
         )
@@ -200,10 +199,12 @@ class Triangular(ToothForm):
         del shaft_angle
         if why := refusal(wheels.kinds, any(wheels.internal)):
             raise refused("it cannot have triangular teeth", why, f"{TRIANGULAR_SCOPE}; {IDEAL}")
-        law = self.law(*wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring)
-        return TriangularMesh(wheels, self, wheels.driver, law)
+        transmission = self.transmission(
+            *wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring
+        )
+        return TriangularMesh(wheels, self, wheels.driver, transmission)
 
-    def own_play(self, pair: str) -> Problem:
+    def own_backlash(self, pair: str) -> Problem:
         """Why the play of triangular teeth is not for a maker to say.
 
         Returns
@@ -214,7 +215,7 @@ class Triangular(ToothForm):
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
             "their play follows from their clearance, and thinner teeth would have another motion",
-            "leave --backlash out, or declare more `clearance`",
+            "leave --backlash out, or declare a larger `clearance_factor`",
         )
 
     def sizes(
@@ -283,7 +284,7 @@ class Triangular(ToothForm):
         if not self._given_radii and pitch_distance is not None:
             scale = pitch_distance / sizes.deepest_distance
             sizes = replace(sizes, R1=sizes.R1 * scale, R2=sizes.R2 * scale)
-        if self.clearance is not None or self.excess is not None:
+        if self.clearance_factor is not None or self.excess is not None:
             return sizes.at(self._factor(sizes))
         if self.window is not None:
             window = sizes_window(sizes)
@@ -302,19 +303,19 @@ class Triangular(ToothForm):
 
     def _factor(self, sizes: TriangularSizes) -> float:
         """The declared excess, taken exactly before it is rounded. Raises `GearTrainError` where it is not above 0."""
-        if self.excess is not None or self.clearance is None:
+        if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
-        excess = sizes.side * (self.clearance.value - 1)
+        excess = sizes.side * (self.clearance_factor.value - 1)
         if excess <= 0:
             deepest = "maximum, in a ring" if sizes.ring else "minimum"
             raise refused(
-                f"a clearance factor of {self.clearance.text} presses a tip into the bottom of a space",
+                f"a clearance factor of {self.clearance_factor.text} presses a tip into the bottom of a space",
                 f"the centre distance at which a tip touches the bottom is the {deepest}",
                 f"give a factor {'below' if sizes.ring else 'above'} 1, or `excess`",
             )
         return float(excess)
 
-    def law(
+    def transmission(
         self,
         z1: int,
         z2: int,

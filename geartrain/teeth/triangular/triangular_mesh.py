@@ -32,8 +32,8 @@ _WORDS = (
     "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
     "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
 )
-_PLACE = ("pair", "drives", "clearance", "window", "verdict")
-_LAW = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+_PLACE = ("pair", "drives", "clearance factor", "window", "verdict")
+_TRANSMISSION = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
 _WINDOW = (
     *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
     *(Key("reach", "reach_factor"), "works"),
@@ -72,12 +72,12 @@ class TriangularTooth(WheelRequirement):
         del others
         tip, half = self.tip_radius, pi / self.z
         root = tip * (1 - depth(-self.z if self.ring else self.z, self.half_angle))
-        corners = ((root, -half), (tip, 0.0), (root, half))
+        kinks = ((root, -half), (tip, 0.0), (root, half))
         return CutTooth(
             "ring" if self.ring else "external",
             tip,
             root,
-            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in corners),
+            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in kinks),
         )
 
 
@@ -93,37 +93,39 @@ class TriangularMesh(GearMesh):
     """A gear pair with triangular teeth."""
 
     tooth_form: TriangularDetails
-    law: TriangularTransmission
+    transmission: TriangularTransmission
 
     @cached_property
     def reversed(self) -> TriangularTransmission:
         """The law with the other wheel driving."""
         from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-        return TriangularTransmission(self.law.sizes.swapped(), self.law.friction, self.law.direction)
+        return TriangularTransmission(
+            self.transmission.sizes.swapped(), self.transmission.friction, self.transmission.direction
+        )
 
     @cached_property
     def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
-        found = self.law.verdict
-        return found if found else found.explained(*explain_clearance(self.law, self.window))
+        found = self.transmission.verdict
+        return found if found else found.explained(*explain_clearance(self.transmission, self.window))
 
     @cached_property
     def window(self) -> ClearanceWindow | None:
         """Clearances at which they can; None where there are no such teeth."""
         from geartrain.teeth.triangular.clearance_window import find_window
 
-        sizes = self.law.sizes
+        sizes = self.transmission.sizes
         return find_window(sizes) if sizes.has_valleys else None
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
         """Both wheels': triangular teeth have sizes up to a scale."""
-        return {self.driver: self.law.sizes.R1, self.driven: self.law.sizes.R2}
+        return {self.driver: self.transmission.sizes.R1, self.driven: self.transmission.sizes.R2}
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """As large as its wheel that has a size already; else as lengths declare it, or so that pitch circles touch."""
-        D, touching, module = self.law.sizes.D, self.wheels.touching, self.wheels.module
+        D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
         if module is not None and self.tooth_form.has_lengths:
             scale = 1 / module
@@ -143,12 +145,12 @@ class TriangularMesh(GearMesh):
         """Of the centre distance that the law has, where that is in m; else as large as the modules say."""
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
-        return self.law.sizes.D * self.wheels.counts[0] / self.law.sizes.pitch_sum
+        return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
         """A point at the tip radius; straight flanks need no tolerance."""
         del tolerance
-        sizes = self.law.sizes
+        sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
         z, R, beta = (sizes.z1, sizes.z2)[at], sizes.radii[at], sizes.half_angles[at]
         return TriangularTooth(z, R * scale, beta, sizes.signs[at] < 0)
@@ -160,10 +162,10 @@ class TriangularMesh(GearMesh):
         The normal leans by psi against the pitch line and passes both centres at n1 + n2 = D cos(psi), with a ring at
         the difference: (31) of docs/strength.md.
         """
-        sizes, arms = self.law.sizes, self.law.contact.path.couple.normal_arms
+        sizes, arms = self.transmission.sizes, self.transmission.contact.path.tooth_pair.normal_arms
         radius, total, whole = sizes.D * sizes.z2 / sizes.pitch_sum, 0.0, 0.0
         s1, s2 = sizes.signs
-        for interval, x, weights in self.law.nodes:
+        for interval, x, weights in self.transmission.nodes:
             if interval.held is None:
                 n1, n2 = arms(interval.phase, x, np)
                 total += float(weights @ (radius / n2 * np.sqrt(1 - ((s1 * n1 + s2 * n2) / sizes.D) ** 2)))
@@ -178,12 +180,12 @@ class TriangularMesh(GearMesh):
     @property
     def cut_sizes(self) -> TriangularSizes:
         """The sizes that manufacturing errors are drawn about."""
-        return self.law.sizes
+        return self.transmission.sizes
 
     def account(self) -> PairAccount:
         """Its clearance, its law and its collisions."""
-        figures = triangular_figures(self.law, self.window, losses=self.efficiency(self.driver))
-        tables = AccountTable(_PLACE, _place_row(self)), AccountTable(_LAW, _law_row(self, figures))
+        figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
+        tables = AccountTable(_PLACE, _place_row(self)), AccountTable(_TRANSMISSION, _transmission_row(self, figures))
         return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
@@ -191,8 +193,8 @@ class TriangularMesh(GearMesh):
         yield from (fault.problem for fault in self.verdict.faults)
         if self.wheels.friction_law is not None:
             yield from self.friction_faults()
-        elif self.verdict and self.law.locks:
-            yield Problem(*explain_friction_lock(self.law))
+        elif self.verdict and self.transmission.locks:
+            yield Problem(*explain_friction_lock(self.transmission))
 
 
 # -------------------------------------------------------------------------------------------------------------- figures
@@ -204,7 +206,7 @@ class TriangularFigures(PairFigures):
 
     KEYS = (
         *PairFigures.KEYS,
-        *(Key("clearance", "sizes.clearance_factor"), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
+        *(Key("clearance_factor", "sizes.clearance_factor"), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
         *(Key("intervals", keys=("phase", "start", "end")), "jumps", "impacts"),
     )
 
@@ -221,42 +223,48 @@ class TriangularFigures(PairFigures):
 
 
 def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
-    law, window = mesh.law, mesh.window
+    transmission, window = mesh.transmission, mesh.window
     where = (
         "-"
         if window is None
         else f"{window.jam_factor:.5f} {window.jam_kind} .. {window.run_factor:.5f} {window.run_kind}"
     )
-    return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{law.sizes.clearance_factor:.6g}", where, law.verdict.kind)
+    return (
+        mesh.name,
+        f"{mesh.driver} -> {mesh.driven}",
+        f"{transmission.sizes.clearance_factor:.6g}",
+        where,
+        transmission.verdict.kind,
+    )
 
 
-def _law_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...]:
+def _transmission_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...]:
     speed, efficiency = figures.speed_ratio, figures.efficiency
     if speed is None or efficiency is None:
         return (mesh.name, "-", "-", "-", "-")
-    least, most = speed.relative
+    minimum, most = speed.relative
     lost = efficiency.text if mesh.tells_losses else "-"
     jumps = ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
-    return (mesh.name, f"{least:.5f}..{most:.5f}", figures.error_text, lost, jumps)
+    return (mesh.name, f"{minimum:.5f}..{most:.5f}", figures.error_text, lost, jumps)
 
 
 def triangular_figures(
-    law: TriangularTransmission,
+    transmission: TriangularTransmission,
     window: ClearanceWindow | None,
     impacts: Result | None = None,
     losses: SlidingEfficiency | None = None,
 ) -> TriangularFigures:
     """Of a pair, whatever train it is in; `losses` where they are not those of the law alone."""
-    found, moves = law.verdict, bool(law.intervals)
+    found, moves = transmission.verdict, bool(transmission.intervals)
     return TriangularFigures(
-        (law.sizes.z1, law.sizes.z2),
-        found if found else found.explained(*explain_clearance(law, window)),
-        *motion_figures(law, moves),
-        (losses or SlidingEfficiency(law)) if moves else None,
-        sizes=law.sizes,
+        (transmission.sizes.z1, transmission.sizes.z2),
+        found if found else found.explained(*explain_clearance(transmission, window)),
+        *motion_figures(transmission, moves),
+        (losses or SlidingEfficiency(transmission)) if moves else None,
+        sizes=transmission.sizes,
         window=window,
-        intervals=law.intervals,
-        jumps=tuple(law.jumps) if moves else (),
+        intervals=transmission.intervals,
+        jumps=tuple(transmission.jumps) if moves else (),
         impacts=impacts,
     )
 
@@ -264,16 +272,16 @@ def triangular_figures(
 # --------------------------------------------------------------------------------------------------------- explanations
 
 
-def explain_clearance(law: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
+def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
     """Why a pair does not turn, and what would let it: the window of clearance, and which end was passed."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
-    excess, jam, run = law.sizes.excess, window.jam_factor, window.run_factor
+    excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor
     if not window:
         return (
             f"up to a clearance factor of {jam:.6g} there is {window.jam_kind}, and from "
             f"{run:.6g} on {window.run_kind}: no clearance works",
-            OTHER_SHAPES[bool(law.sizes.ring)],
+            OTHER_SHAPES[bool(transmission.sizes.ring)],
         )
     factor = window.factor(excess)
     end = "below" if factor < min(jam, run) else "above"
@@ -284,11 +292,11 @@ def explain_clearance(law: TriangularTransmission, window: ClearanceWindow | Non
     )
 
 
-def explain_friction_lock(law: TriangularTransmission) -> tuple[str, str, str]:
+def explain_friction_lock(transmission: TriangularTransmission) -> tuple[str, str, str]:
     """What, why, and what to do, where friction locks."""
     return (
-        f"a friction of {law.friction:g} locks these teeth",
+        f"a friction of {transmission.friction:g} locks these teeth",
         "before the line of centres the driver pushes the driven apex against its own sliding: friction times the "
-        f"tangent of the flank's lean reaches 1 at {law.locking_friction:.6g}",
-        f"give a friction below {law.locking_friction:.4g}, or let the other wheel drive",
+        f"tangent of the flank's lean reaches 1 at {transmission.locking_friction:.6g}",
+        f"give a friction below {transmission.locking_friction:.4g}, or let the other wheel drive",
     )

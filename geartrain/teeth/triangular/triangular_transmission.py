@@ -19,7 +19,7 @@ from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, Transmission
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
-from geartrain.teeth.triangular.tooth_couple import APPROACH
+from geartrain.teeth.triangular.tooth_pair import APPROACH
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -58,15 +58,15 @@ class TriangularTransmission(TransmissionFunction):
 
     See Also
     --------
-    geartrain.teeth.Triangular : its method `law` gives it from a declaration.
+    geartrain.teeth.Triangular : its method `transmission` gives it from a declaration.
 
     Examples
     --------
     >>> from math import pi
     >>> from geartrain.teeth.triangular import TriangularSizes, equal_depth
     >>> radii = equal_depth(48, 96, pi / 6, pi / 6)
-    >>> law = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, 0.01), 0.2)
-    >>> law.verdict.kind, law.ratio, [round(jump.value, 4) for jump in law.jumps]
+    >>> transmission = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, 0.01), 0.2)
+    >>> transmission.verdict.kind, transmission.ratio, [round(jump.value, 4) for jump in transmission.jumps]
     ('runs', Fraction(1, 2), [0.1582])
     """
 
@@ -115,7 +115,7 @@ class TriangularTransmission(TransmissionFunction):
             Its alpha_1 [rad].
         """
         sizes = self.sizes
-        found: Floats = self.contact.path.couple.sliding(phase, x, np) * sizes.pitch_sum / (sizes.D * sizes.z1)
+        found: Floats = self.contact.path.tooth_pair.sliding(phase, x, np) * sizes.pitch_sum / (sizes.D * sizes.z1)
         return found
 
     def coefficient(self, phase: str, x: Floats, by: PairFriction | None) -> float | Floats:
@@ -134,7 +134,7 @@ class TriangularTransmission(TransmissionFunction):
         """Sliding over the pitch line's speed, and what friction adds to the power that enters and leaves."""
         if interval.held is not None:
             return nan, nan, nan
-        side, tan2, tan1 = self.contact.path.couple.friction(interval.phase, x, np)
+        side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
         return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
@@ -142,7 +142,7 @@ class TriangularTransmission(TransmissionFunction):
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
-    def turned_back(self) -> TriangularTransmission:
+    def reversed_motion(self) -> TriangularTransmission:
         """The law of the other flanks; angles keep their sense and decrease."""
         return TriangularTransmission(self.sizes, self.friction, -self.direction)
 
@@ -202,14 +202,14 @@ class TriangularTransmission(TransmissionFunction):
     def _start(self) -> float:
         """Where the first interval starts, as a position within the pitch of the line of centres."""
         first = self._driven[0]
-        return (first.start - first.couple * self.period) % self.period
+        return (first.start - first.tooth_pair * self.period) % self.period
 
     @cached_property
     def _edges(self) -> Floats:
         """The driver's angle from the start of the first interval to the edges of all."""
         return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._driven])))
 
-    def corners(self) -> list[float]:
+    def kinks(self) -> list[float]:
         """Driver angles (rad) at the ends of all stretches."""
         edges = dict(zip(self.intervals, self._edges.tolist(), strict=False))
         angles = [edges[interval] + interval.start - high - self._start for interval, high, _ in self.stretches]
@@ -218,21 +218,21 @@ class TriangularTransmission(TransmissionFunction):
     def _lag(self, interval: DriveInterval, x: Any) -> Any:
         if interval.held is not None:
             return interval.held - self.sizes.ratio * x
-        return self.contact.path.couple.angle(interval.phase, x, np) - self.sizes.ratio * x
+        return self.contact.path.tooth_pair.angle(interval.phase, x, np) - self.sizes.ratio * x
 
     def _tau(self, interval: DriveInterval, x: Any) -> Any:
-        return 0.0 if interval.held is not None else self.contact.path.couple.speed(interval.phase, x, np)
+        return 0.0 if interval.held is not None else self.contact.path.tooth_pair.speed(interval.phase, x, np)
 
     def _lag_and_tau(self, interval: DriveInterval, x: Any) -> tuple[Any, Any]:
         if interval.held is not None:
             return self._lag(interval, x), 0.0
-        alpha2, tau = self.contact.path.couple.angle_and_speed(interval.phase, x, np)
+        alpha2, tau = self.contact.path.tooth_pair.angle_and_speed(interval.phase, x, np)
         return alpha2 - self.sizes.ratio * x, tau
 
     def _eta(self, interval: DriveInterval, x: Any) -> Any:
         if interval.held is not None:
             return nan
-        return self.contact.path.couple.efficiency(interval.phase, x, self.friction, np)
+        return self.contact.path.tooth_pair.efficiency(interval.phase, x, self.friction, np)
 
     # ------------------------------------------------------------------------------------------------ over the pitch
 
@@ -242,10 +242,10 @@ class TriangularTransmission(TransmissionFunction):
         return [
             (interval, high, low)
             for interval in self._driven
-            for high, low in pairwise(sorted({interval.start, interval.end, *self._corners(interval)}, reverse=True))
+            for high, low in pairwise(sorted({interval.start, interval.end, *self._kinks(interval)}, reverse=True))
         ]
 
-    def _corners(self, interval: DriveInterval) -> Iterator[float]:
+    def _kinks(self, interval: DriveInterval) -> Iterator[float]:
         if interval.held is not None:
             return
         low, high = interval.end, interval.start
@@ -258,11 +258,11 @@ class TriangularTransmission(TransmissionFunction):
         """alpha_1 where the contact is on the line of centres: there sliding turns round."""
         if phase != APPROACH:
             return 0.0
-        couple = self.contact.path.couple
+        tooth_pair = self.contact.path.tooth_pair
         low, high = max(self.sizes.matching, -self.sizes.reach1), self.sizes.reach1
-        if not couple.approach_angle(low) < 0 < couple.approach_angle(high):
+        if not tooth_pair.approach_angle(low) < 0 < tooth_pair.approach_angle(high):
             return inf
-        return bracketed_root(couple.approach_angle, couple.approach_speed, low, high)
+        return bracketed_root(tooth_pair.approach_angle, tooth_pair.approach_speed, low, high)
 
     @cached_property
     def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
@@ -338,16 +338,16 @@ class TriangularTransmission(TransmissionFunction):
         whole = sum(float(weights.sum()) for _, _, weights in held)
         return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Least sliding efficiency: at an end of a stretch, or within, looked for with a thousand samples each."""
-        least = inf
+        minimum = inf
         for interval, high, low in self.stretches:
             if interval.held is None:
                 # the line of centres itself belongs to both sides, where nothing is lost
                 x = np.linspace(high, low, 1001)
                 x[[0, -1]] = high - 1e-12 * (high - low), low + 1e-12 * (high - low)
-                least = min(least, float(self._eta(interval, x).min()))
-        return least
+                minimum = min(minimum, float(self._eta(interval, x).min()))
+        return minimum
 
     @cached_property
     def locking_friction(self) -> float:
@@ -356,7 +356,7 @@ class TriangularTransmission(TransmissionFunction):
         for interval, high, low in self.stretches:
             if interval.held is None:
                 x = np.linspace(high, low, 101)
-                side, tan2, tan1 = self.contact.path.couple.friction(interval.phase, x, np)
+                side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
                 # the middle one of 101: stretches end at the line of centres, so that one sample tells the side
                 inner = side[50] > 0
                 steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
@@ -364,11 +364,11 @@ class TriangularTransmission(TransmissionFunction):
 
     def steepest_fall(self) -> float:
         """Greatest d tau / d alpha_1 (1/rad), for alpha_1 falls as the driver turns."""
-        couple = self.contact.path.couple
+        tooth_pair = self.contact.path.tooth_pair
         steepest = 0.0
         for interval, high, low in self.stretches:
             if interval.held is None:
-                steepest = max(steepest, float(couple.slope(interval.phase, np.linspace(high, low, 101), np).max()))
+                steepest = max(steepest, float(tooth_pair.slope(interval.phase, np.linspace(high, low, 101), np).max()))
         return steepest
 
     @cached_property
@@ -420,14 +420,14 @@ class ContactCourse(Result):
 
 
 def contact_course(
-    law: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
+    transmission: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
 ) -> ContactCourse:
     """The course of a pair, `samples` rows for each interval of its real path; none for teeth that never touch.
 
     friction   in place of the law's own, where it depends on speed
     """
-    at = [(each, np.linspace(each.start, each.end, samples)) for each in law.intervals]
-    couple = law.contact.path.couple
+    at = [(each, np.linspace(each.start, each.end, samples)) for each in transmission.intervals]
+    tooth_pair = transmission.contact.path.tooth_pair
 
     def column(what: Callable[[str, Floats], Floats], held: Callable[[DriveInterval], float]) -> Floats:
         values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
@@ -435,17 +435,21 @@ def contact_course(
 
     def arm(wheel: int) -> Floats:
         return column(
-            lambda phase, x: couple.moment_arms(phase, x, law.coefficient(phase, x, friction), np)[wheel], lambda _: nan
+            lambda phase, x: tooth_pair.moment_arms(phase, x, transmission.coefficient(phase, x, friction), np)[wheel],
+            lambda _: nan,
         )
 
-    eta = column(lambda phase, x: couple.efficiency(phase, x, law.coefficient(phase, x, friction), np), lambda _: nan)
+    eta = column(
+        lambda phase, x: tooth_pair.efficiency(phase, x, transmission.coefficient(phase, x, friction), np),
+        lambda _: nan,
+    )
     first, second = arm(0), arm(1)
     return ContactCourse(
         tuple(each.phase for each, x in at for _ in x),
         np.concatenate([np.empty(0), *(x for _, x in at)]),
-        column(lambda phase, x: couple.angle(phase, x, np), lambda each: each.held or 0.0),
-        column(lambda phase, x: couple.speed(phase, x, np), lambda _: 0.0),
-        column(lambda phase, x: couple.instant_centre(phase, x, np), lambda _: nan),
+        column(lambda phase, x: tooth_pair.angle(phase, x, np), lambda each: each.held or 0.0),
+        column(lambda phase, x: tooth_pair.speed(phase, x, np), lambda _: 0.0),
+        column(lambda phase, x: tooth_pair.instant_centre(phase, x, np), lambda _: nan),
         first,
         second,
         np.where((first > 0) & (second > 0), eta, nan),

@@ -5,7 +5,7 @@ import { isParallel, vector } from "./space.js";
 
 const POLE = { zero: false, carrier: null }; // a function without a value
 const MOST = 10n ** 12n; // teeth of a wheel, as in a declaration
-const PLAIN = { kind: "exact", why: "", laws: [], sources: [], steps: [], offsets: {}, period: null };
+const PLAIN = { kind: "exact", why: "", transmissions: [], sources: [], steps: [], offsets: {}, period: null };
 
 export class CountFormulas {
   /** scene   as declared; `scene.formulas` is that of `SceneFormulas.to_dict()` */

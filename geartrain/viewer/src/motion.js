@@ -11,8 +11,8 @@ export class Machine {
   /** scene   as `Scene.to_dict()` gives it */
   constructor(scene) {
     this.scene = scene;
-    this.lead = scene.lead;
-    this.moves = scene.movement.kind !== "still" && scene.lead !== null;
+    this.lead = scene.driving_link;
+    this.moves = scene.movement.kind !== "still" && scene.driving_link !== null;
     this.step = Fraction.of(scene.step || "1");
     this.period = scene.movement.period === null ? null : Fraction.of(scene.movement.period);
     this.speeds = scene.bodies.map((body) => (body.speed === null ? null : Fraction.of(body.speed)));
@@ -34,7 +34,7 @@ export class Machine {
 
   /** Turns that the lead has made, which in a simulated run need not be those of its mean speed. */
   made(turns = this.turns) {
-    return this.run ? Fraction.near(this.run.turned(this.scene.lead, this.time(turns)) / TURN, 14) : Fraction.of(turns);
+    return this.run ? Fraction.near(this.run.turned(this.scene.driving_link, this.time(turns)) / TURN, 14) : Fraction.of(turns);
   }
 
   /** Declared angle of a body about its declared axis (rad), whole turns taken off; `turns` of the lead. */
@@ -107,7 +107,7 @@ export class Machine {
   aheadBy(index, turns = this.turns) {
     const { speed } = this.scene.pointers[index];
     const { mean, error } = this.followed(index, this.made(turns));
-    const way = Number(Fraction.of(speed ?? "0")) * this.run.links[this.scene.lead].rate < 0 ? -1 : 1;
+    const way = Number(Fraction.of(speed ?? "0")) * this.run.links[this.scene.driving_link].rate < 0 ? -1 : 1;
     return way * (this.played(index, turns).error - TURN * Number(mean) - error);
   }
 }
@@ -116,9 +116,9 @@ const degrees = (angle) => `${((angle * 180) / Math.PI).toFixed(3)}°`;
 
 /** The errors of all bodies, from steps in their solved order. */
 class Composition {
-  constructor({ laws, sources, steps, offsets }, names) {
+  constructor({ transmissions, sources, steps, offsets }, names) {
     this.count = names.length;
-    this.laws = laws.map((law) => new Law(law));
+    this.transmissions = transmissions.map((law) => new Law(law));
     this.sources = sources.map((source) => ({ ...source, cycles: Fraction.of(source.cycles) }));
     this.steps = steps.map((step) => ({ ...step, gain: step.coupled ? this.gain(step) : null }));
     this.offsets = Object.entries(offsets).map(([name, offset]) => [names.indexOf(name), offset]);
@@ -138,7 +138,7 @@ class Composition {
     if (!step.sources.length) return;
     const sources = step.sources.map((at) => this.sources[at]);
     const angles = sources.map((source) => this.driver(source, turns, error));
-    const laws = sources.map((source) => this.laws[source.law]);
+    const laws = sources.map((source) => this.transmissions[source.transmission]);
     const delta = step.coupled
       ? settle(laws, sources.map((source) => source.sense), angles, step.gain)
       : sources.map((source, n) => source.sense * laws[n].at(angles[n])[0]);
@@ -149,7 +149,7 @@ class Composition {
 
   /** Forward angle of a source's driver (rad); bodies of its own step count as they stand. */
   driver(source, turns, error) {
-    const mean = partOfProduct(source.cycles, turns) * this.laws[source.law].period;
+    const mean = partOfProduct(source.cycles, turns) * this.transmissions[source.transmission].period;
     const shift = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier];
     return source.start + mean + source.forward * shift;
   }

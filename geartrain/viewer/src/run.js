@@ -11,11 +11,11 @@ export class Run {
     this.contacts = run.contacts.map((contact) => ({
       ...contact,
       changes: uints(contact.changes),
-      blow_times: doubles(contact.blow_times),
-      blow_speeds: floats(contact.blow_speeds),
+      impact_times: doubles(contact.impact_times),
+      impact_speeds: floats(contact.impact_speeds),
     }));
     this.hardest = Math.max(0, ...this.contacts.map(({ hardest }) => hardest));
-    this.blows = Float64Array.from(this.contacts.flatMap(({ blow_times }) => [...blow_times])).sort();
+    this.blows = Float64Array.from(this.contacts.flatMap(({ impact_times }) => [...impact_times])).sort();
     this.glow = GLOW; // s of the run
     this.slip = 1e-12 * Math.max(this.duration, this.period); // s: what rounded turns leave between a blow and its time
   }
@@ -49,7 +49,7 @@ export class Run {
 
   /** [time, strength from 0 to 1] of a contact's blows between two times (s). */
   *blowsOf(contact, from, to) {
-    const { blow_times: times, blow_speeds: speeds } = this.contacts[contact];
+    const { impact_times: times, impact_speeds: speeds } = this.contacts[contact];
     for (let at = before(times, from) + 1; at < times.length && times[at] <= to; at += 1) yield [times[at], this.strength(speeds[at])];
   }
 
@@ -60,7 +60,7 @@ export class Run {
 
   /** How bright the last blows of a contact are: 0 to 1. */
   flash(contact, time) {
-    const { blow_times: times, blow_speeds: speeds } = this.contacts[contact];
+    const { impact_times: times, impact_speeds: speeds } = this.contacts[contact];
     let found = 0;
     for (let at = before(times, time + this.slip); at >= 0 && time - times[at] < 3 * this.glow; at -= 1) {
       found = Math.max(found, this.strength(speeds[at]) * Math.exp((times[at] - time) / this.glow));

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, cut, ppm
-from geartrain.workshop.monte_carlo.monte_carlo_report import share_text
+from geartrain.workshop.monte_carlo.monte_carlo_report import clearance_table
 
 if TYPE_CHECKING:
     from geartrain.workshop.budget.crank_load import CrankLoad
@@ -38,17 +38,18 @@ def describe_budget(found: TrainBudget) -> Document:
     ('The budget of each pointer: freeth-2008', ['Causes in degrees', 'Causes in days'])
     """
     name = found.name if found.state is None else f"{found.name}, state {found.state}"
-    lead = [
+    summary = [
         "Each cause by itself, at the pointer. Ratio: what the mean speed is off, as a drift over "
         f"{found.span_days:.8g} days. Theory: what the pins' anomaly is off from the true motion (Kepler), peak to "
-        f"peak. Teeth: ripple through the train, peak to peak, over {found.turns:g} turns of '{found.lead}'. Lost "
+        f"peak. Teeth: ripple through the train, peak to peak, over {found.turns:g} turns of "
+        f"'{found.driving_link}'. Lost "
         "motion: the greatest way a pointer stays behind when the crank turns back. Cutting: the range that holds 95 % "
         "of trains cut by hand, the ripple of even teeth taken off.",
         "Days are the time in which the pointer, at its mean speed against what it is read from, turns so far: by so "
         "much an eclipse, a conjunction or a station that is read from it is missed.",
         _missing(found),
     ]
-    return Document(f"The budget of each pointer: {name}", lead, list(_sections(found)))
+    return Document(f"The budget of each pointer: {name}", summary, list(_sections(found)))
 
 
 def _missing(found: TrainBudget) -> str:
@@ -63,7 +64,7 @@ def _sections(found: TrainBudget) -> Iterator[Section]:
     causes = [cause.name for cause in found.pointers[0].causes]
     sized = [(each.name, *(_degrees(cause) for cause in each.causes), f"{each.total:.3g}", _first(each))
              for each in found.pointers]  # fmt: skip
-    yield Section("Causes in degrees", (), (Table(("pointer", *causes, "sum", "greatest"), cut(sized)),))
+    yield Section("Causes in degrees", (), (Table(("pointer", *causes, "sum", "maximum"), cut(sized)),))
     timed = [
         (each.name, _figure(each.degrees_per_day), *(_figure(cause.days) for cause in each.causes))
         for each in found.pointers
@@ -74,8 +75,8 @@ def _sections(found: TrainBudget) -> Iterator[Section]:
         yield _pointer(pointer)
     yield _crank(found)
     yield _jams(found)
-    if found.turned_back:
-        names = ", ".join(found.turned_back)
+    if found.reversing_drivers:
+        names = ", ".join(found.reversing_drivers)
         yield Section(
             "Pairs that turn back", (f"Driven against their mean at times, where play is not followed: {names}.",)
         )
@@ -128,12 +129,9 @@ def _pointer(pointer: PointerBudget) -> Section:
     ]
     rows += [("-", cause.name, NOT_DECLARED, "-", "", "-", cause.note) for cause in pointer.undeclared]
     tables = [Table(("rank", "cause", "deg", "rms", "95 % interval", "days", "of"), rows)]
-    pairs = list((pointer.pairs or {}).items())[:_PAIRS]
-    if pairs:
-        more = len(pointer.pairs or ()) - len(pairs)
-        tables.append(Table(("pair alone", "deg peak to peak"), [(name, f"{size:.3g}") for name, size in pairs]))
-        if more > 0:
-            tables[-1] = Table(tables[-1].header, [*tables[-1].rows, (f"... {more} more", "")])
+    if pointer.pairs:
+        sizes = [(name, f"{size:.3g}") for name, size in pointer.pairs.items()]
+        tables.append(Table(("pair alone", "deg peak to peak"), cut(sizes, most=_PAIRS)))
     return Section(f"Ranked: {pointer.name}", (), tables)
 
 
@@ -161,8 +159,8 @@ def _over_turn(crank: CrankLoad) -> Iterator[Table]:
     if found.turns is None or found.mean is None:
         yield Table(("over the run", "torque"), [("-", found.verdict.text)])
         return
-    torques = (found.mean, found.greatest_torque, found.least_torque, found.starting_torque)
-    header = ("turns of the input", f"mean{_unit(crank)}", "greatest", "least", "starting", "efficiency")
+    torques = (found.mean, found.maximum_torque, found.minimum_torque, found.starting_torque)
+    header = ("turns of the input", f"mean{_unit(crank)}", "maximum", "minimum", "starting", "efficiency")
     whole = ", then all repeats" if found.span == found.period else ""
     row = (f"{found.span:.6g}{whole}", *map(_or_undeclared, torques), _efficiency(found.efficiency))
     yield Table(header, [row])
@@ -186,8 +184,8 @@ def _weight(crank: CrankLoad) -> Iterator[str]:
     if weight.needed is not None:
         word = "and starts it everywhere" if weight.suffices else "which is too little"
         text += f" The train needs up to {weight.needed:.4g} N m, {word}."
-    if weight.mean is not None and weight.least is not None:
-        text += f" Of it {weight.mean:.4g} N m arrives at '{weight.wheel}' on the mean, {weight.least:.4g} at least"
+    if weight.mean is not None and weight.minimum is not None:
+        text += f" Of it {weight.mean:.4g} N m arrives at '{weight.wheel}' on the mean, {weight.minimum:.4g} at least"
         text += "" if weight.efficiency is None else f", {100 * weight.efficiency:.4g} % of its energy"
         text += "."
     yield text
@@ -200,14 +198,9 @@ def _or_undeclared(value: float | None) -> str:
 def _jams(found: TrainBudget) -> Section:
     if not found.jams:
         return Section("Jams over clearance", (f"Not known: {found.jams_note}.",))
-    rows = [
-        (f"{each.clearance:.6g}", *(share_text(each.events[event]) for event in ("jam", "clash", "standstill")))
-        for each in found.jams
-        if each.clearance is not None
-    ]
     trials = found.jams[0].events["jam"].of
     text = (
         f"How often any pair of the train does so, in {trials} trials each, with 95 % intervals; clearances below 1 "
         "are shares of each pair's window."
     )
-    return Section("Jams over clearance", (text,), (Table(("clearance", "jam", "clash", "standstill"), rows),))
+    return Section("Jams over clearance", (text,), (clearance_table(found.jams, ("jam", "clash", "dwell")),))

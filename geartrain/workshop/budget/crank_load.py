@@ -33,22 +33,22 @@ compiled kernels."""
 SAMPLES = 2_000
 
 
-def find_natural_run(train: GearTrain, state: str | None, lead: str, of: str | None = None) -> TorqueCycle:
+def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> TorqueCycle:
     """The torque over the natural run of a train.
 
     lead   the input; `of`, the link whose torque is asked for, by default the crank
     """
-    turns = natural_turns(train, state, lead, of)
+    turns = natural_turns(train, state, driving_link, of)
     return train.torques(state, turns=turns, samples=SAMPLES, of=of)
 
 
-def natural_turns(train: GearTrain, state: str | None, lead: str, of: str | None = None) -> float:
+def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> float:
     """Turns of the input in a year; where speeds are by no time, while what they are by passes once.
 
     Or in a period after which all repeats, if that is shorter. Where nothing is uneven any run is as good: then it is
     what speeds are by, an hour or a day. Fewer turns where more teeth pass than can be followed.
     """
-    once = abs(train.declaration.case(state).inputs[lead]) or 1
+    once = abs(train.declaration.case(state).inputs[driving_link]) or 1
     period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
     if period is None:
         return float(once)
@@ -70,7 +70,7 @@ class WeightDrive(Result):
     CrankLoad : holds it
     """
 
-    KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "least", "efficiency")
+    KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "minimum", "efficiency")
 
     link: str
     """The link of the drum."""
@@ -83,7 +83,7 @@ class WeightDrive(Result):
     """The link of the escape wheel; None where none is declared, or loads are."""
     mean: float | None = None
     """Mean torque over the run at the escape wheel while the weight alone drives [N m]."""
-    least: float | None = None
+    minimum: float | None = None
     """Least torque over the run at the escape wheel while the weight alone drives [N m]."""
     efficiency: float | None = None
     """Energy that arrives there over that of the weight."""
@@ -95,7 +95,7 @@ class WeightDrive(Result):
 
 
 def find_weight_drive(
-    train: GearTrain, state: str | None, link: str, lead: str, under_load: TorqueCycle | None
+    train: GearTrain, state: str | None, link: str, driving_link: str, under_load: TorqueCycle | None
 ) -> WeightDrive | None:
     """The weight that drives a train in one state; None where another thing drives it.
 
@@ -110,10 +110,10 @@ def find_weight_drive(
     escapement = train.declaration.escapement
     if escapement is None:
         return WeightDrive(link, drive.pull)
-    found = find_natural_run(_driven_by(train, state, link, drive.pull), state, lead, escapement.link)
+    found = find_natural_run(_driven_by(train, state, link, drive.pull), state, driving_link, escapement.link)
     mean = None if found.mean is None else -found.mean
-    least = None if found.greatest is None else -found.greatest.torque
-    return WeightDrive(link, drive.pull, None, escapement.link, mean, least, found.efficiency)
+    minimum = None if found.maximum is None else -found.maximum.torque
+    return WeightDrive(link, drive.pull, None, escapement.link, mean, minimum, found.efficiency)
 
 
 def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
@@ -157,26 +157,26 @@ class CrankLoad(Result):
     """The weight that drives it; None where another thing does."""
 
 
-def find_crank_load(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:
+def find_crank_load(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:
     """Under the declared loads; where there are none, the efficiency from the input to the output. Then over a run.
 
     links   by pointer, the link that turns
     """
-    found = _at_mean_speeds(train, state, lead, links)
+    found = _at_mean_speeds(train, state, driving_link, links)
     drive = train.declaration.case(state).drive
     loaded = train.declaration.is_loaded(state)
     if not loaded and (drive is None or drive.pull is None):
         return found
     try:
-        over_turn = find_natural_run(train, state, lead) if loaded else None
-        weight = find_weight_drive(train, state, found.link, lead, over_turn)
+        over_turn = find_natural_run(train, state, driving_link) if loaded else None
+        weight = find_weight_drive(train, state, found.link, driving_link, over_turn)
     except GearTrainError as error:  # teeth in a loop, or that cannot turn
         return replace(found, note=f"{found.note}; not followed over a run: {error.problems[0].what}")
     return replace(found, over_turn=over_turn, weight=weight)
 
 
-def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:
-    link, loses = train.declaration.crank or lead, _loses(train.declaration)
+def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:
+    link, loses = train.declaration.crank or driving_link, _loses(train.declaration)
     found = train.torques(state)
     pointers = dict(_efficiencies(train, state, link, links)) if loses else {}
     if found.verdict.kind != "unloaded":

@@ -85,7 +85,7 @@ class ToothMotion:
     """By output, what each pair alone would give, peak to peak (deg)."""
     declared: Mapping[str, DeclaredPairs]
     """By output, what moves it and is declared."""
-    turned_back: tuple[str, ...]
+    reversing_drivers: tuple[str, ...]
 
 
 def without_teeth(motion: Motion) -> Motion:
@@ -105,19 +105,19 @@ def find_tooth_motion(
     ripple = ErrorDifference(motion._forward, without_teeth(motion)._forward)
     lost = ErrorDifference(motion._backward, motion._forward)
     tallies = motion._statistics()
-    greatest, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
+    maximum, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
     back: set[str] = set()
     peaks = SampledPeaks(len(tallies))
     chunk = min(ripple.chunk, lost.chunk)
     for start in range(0, samples, chunk):
         at = turns * (np.arange(start, min(start + chunk, samples)) / (samples - 1))
-        passage, play = ripple.at(at), lost.at(at)
+        passage, backlash = ripple.at(at), lost.at(at)
         for tally, error, rate in zip(tallies, passage.error, passage.rate, strict=True):
             tally.add(error, rate)
         peaks.add(passage)
-        back |= passage.turned_back | play.turned_back
-        greatest = np.maximum(greatest, np.abs(play.error).max(axis=1))
-        squares += np.sum(play.error**2, axis=1)
+        back |= passage.reversing_drivers | backlash.reversing_drivers
+        maximum = np.maximum(maximum, np.abs(backlash.error).max(axis=1))
+        squares += np.sum(backlash.error**2, axis=1)
         on_done(len(at))
     search = ExtremeSearch(ripple.one, less=ripple.other)
     count_extremes(search, turns, turns / (samples - 1), peaks, tallies)
@@ -126,7 +126,7 @@ def find_tooth_motion(
         dict(zip(names, tallies, strict=True)),
         {
             name: (float(most), sqrt(square / samples))
-            for name, most, square in zip(names, greatest, squares, strict=True)
+            for name, most, square in zip(names, maximum, squares, strict=True)
         },
         pair_ripples(motion),
         {name: declared_pairs(motion, name) for name in names},
@@ -196,9 +196,9 @@ def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCaus
     first = next(iter(found.pairs[name].items()), None)
     worst = f", most by {first[0]} ({first[1]:.3g} deg alone)" if first else ""
     more = f"; {bare}, which pass on no ripple here" if known.bare else ""
-    play = f"; play of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
+    backlash = f"; play of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
-    lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + play)
+    lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + backlash)
     if known.real and most < _FEW:
         lost = BudgetCause.unknown("lost motion", "its pairs have teeth, but no backlash is declared")
     return _cause("teeth", declared, tally.peak_to_peak, tally.rms, of + worst + more), lost
@@ -310,13 +310,13 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     if used:
         error = motion.at(phase / (2 * pi * float(used[0].cycles))).error[0]
     sense = -1.0 if problem.ratio(link) < 0 else 1.0
-    rest = least_difference(sense * error, TRUE_MOTIONS[body].eccentricity)
+    rest = minimum_difference(sense * error, TRUE_MOTIONS[body].eccentricity)
     how = f"pin of {used[0].id}" if used else "no pin, a uniform motion,"
     words = f"{how} against the {body.capitalize()}, eccentricity {TRUE_MOTIONS[body].eccentricity}"
     return TheoryError(True, float(np.ptp(rest)), float(np.std(rest)), words)
 
 
-def least_difference(error: Floats, e: float) -> Floats:
+def minimum_difference(error: Floats, e: float) -> Floats:
     """What is left of an error over one cycle less the equation of centre, at the phase that leaves least.
 
     error   (n,) at phases 2 pi k/n (rad); the mean of what is left is 0

@@ -20,7 +20,7 @@ MEASURES: Mapping[CauseName, str] = {
     "ratio": "drift over the span",
     "theory": "peak to peak",
     "teeth": "peak to peak",
-    "lost motion": "greatest",
+    "lost motion": "maximum",
     "cutting": "range that holds 95 %",
 }
 """What the degrees of each cause are."""
@@ -206,8 +206,8 @@ class TrainBudget(Tabular, Pictured, Result):
     DRAWN_IN = "workshop"
 
     KEYS = (
-        *("name", "state", "span_days", "turns", "samples", Key("input", "lead"), "pointers", "crank"),
-        *("jams", "jams_note", "turned_back", "not_declared"),
+        *("name", "state", "span_days", "turns", "samples", Key("input", "driving_link"), "pointers", "crank"),
+        *("jams", "jams_note", "reversing_drivers", "not_declared"),
     )
 
     name: str
@@ -220,7 +220,7 @@ class TrainBudget(Tabular, Pictured, Result):
     """Turns of the input over which teeth and lost motion are followed."""
     samples: int
     """Number of positions of the input."""
-    lead: str
+    driving_link: str
     """The link whose turns these are."""
     pointers: tuple[PointerBudget, ...]
     """One for each output that was asked for."""
@@ -230,7 +230,7 @@ class TrainBudget(Tabular, Pictured, Result):
     """How often wheels cut by hand jam, over clearance; empty where no cutting is declared."""
     jams_note: str = ""
     """How, or why not."""
-    turned_back: tuple[str, ...] = ()
+    reversing_drivers: tuple[str, ...] = ()
     """Pairs whose driver turns against its mean at times; the play is not followed there."""
 
     def _summary(self) -> str:

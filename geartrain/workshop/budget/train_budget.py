@@ -79,7 +79,7 @@ class BudgetQuestion:
     samples: int = 20_000
     """Positions of these turns, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Errors of cutting in place of those declared, such as "placement=1 %"; by default what the train declares."""
+    """Cutting errors that replace the declared ones, such as "pitch_deviation=1 %"."""
     trials: int = 256
     """How many times the wheels are cut."""
     seed: int = 1
@@ -110,7 +110,7 @@ STAGES = 5
 
 def find_budget(
     train: GearTrain,
-    asked: BudgetQuestion | None = None,
+    requested: BudgetQuestion | None = None,
     state: str | None = None,
     means: Execution | None = None,
     on_stage: Callable[[], None] = lambda: None,
@@ -121,7 +121,7 @@ def find_budget(
     ----------
     train : GearTrain
         Whatever it does not declare is named, and never counted as 0.
-    asked : BudgetQuestion, optional
+    requested : BudgetQuestion, optional
         Pointers, span, positions, errors of cutting.
     state : str, optional
         A declared state; None only of a train that has none.
@@ -153,35 +153,37 @@ def find_budget(
     """
     from geartrain.numerics.work import Execution
 
-    asked, means = asked or BudgetQuestion(), means or Execution()
+    requested, means = requested or BudgetQuestion(), means or Execution()
     answer = train.solve(state)
-    names = pointer_names(answer, asked)
-    motion = train.motion(state, names, asked.without)
-    theories = _theories(train, asked, answer, motion)
+    names = pointer_names(answer, requested)
+    motion = train.motion(state, names, requested.without)
+    theories = _theories(train, requested, answer, motion)
     on_stage()
-    teeth = find_tooth_motion(motion, asked.turns, asked.samples)
+    teeth = find_tooth_motion(motion, requested.turns, requested.samples)
     on_stage()
-    plan, uncut = cutting_plan(train, asked.cutting, names, state, asked.without)
-    cut = None if plan is None else find_cutting_trials(plan, motion, asked.trials, asked.seed, means)
+    plan, uncut = cutting_plan(train, requested.cutting, names, state, requested.without)
+    cut = None if plan is None else find_cutting_trials(plan, motion, requested.trials, requested.seed, means)
     on_stage()
-    jams, jams_note = _jams(plan, uncut, asked, means)
+    jams, jams_note = _jams(plan, uncut, requested, means)
     on_stage()
-    crank = find_crank_load(train, state, motion._problem.lead, {name: answer.outputs[name].of for name in names})
+    crank = find_crank_load(
+        train, state, motion._problem.driving_link, {name: answer.outputs[name].of for name in names}
+    )
     on_stage()
-    causes = _TrainCauses(asked, _float(train.declaration.unit_days), theories, teeth, cut, uncut)
+    causes = _TrainCauses(requested, _float(train.declaration.unit_days), theories, teeth, cut, uncut)
     pointers = tuple(causes.pointer(answer.outputs[name]) for name in names)
     return TrainBudget(
         train.name,
         state,
-        asked.span_days,
-        asked.turns,
-        asked.samples,
-        motion._problem.lead,
+        requested.span_days,
+        requested.turns,
+        requested.samples,
+        motion._problem.driving_link,
         pointers,
         crank,
         jams,
         jams_note,
-        teeth.turned_back,
+        teeth.reversing_drivers,
     )
 
 
@@ -189,7 +191,7 @@ def find_budget(
 class _TrainCauses:
     """What was found of the whole train, from which the budget of each pointer is taken."""
 
-    asked: BudgetQuestion
+    requested: BudgetQuestion
     unit_days: float | None
     theories: Mapping[str, list[TheoryError]]
     teeth: ToothMotion
@@ -201,7 +203,7 @@ class _TrainCauses:
         name, speed = output.name, output.speed
         # mean speed without sign; none where the pointer stands or the unit is no time
         rate = 360 * abs(float(speed)) / self.unit_days if speed and self.unit_days else None
-        drifts = find_drifts(output, self.unit_days, self.asked.span_days)
+        drifts = find_drifts(output, self.unit_days, self.requested.span_days)
         ratio, theory = ratio_cause(drifts), theory_cause(self.theories[name])
         found = (ratio, theory, *tooth_causes(self.teeth, name), self._cutting(name))
         causes = tuple(cause.in_days(rate) for cause in found)
@@ -216,12 +218,12 @@ class _TrainCauses:
         return self.cut.cause(name, known)
 
 
-def pointer_names(answer: Answer, asked: BudgetQuestion) -> tuple[str, ...]:
+def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
     """The outputs asked for, else those that somebody reads: with a target or a dial, or all where none has either."""
-    for name in (*asked.outputs, *asked.bodies):
+    for name in (*requested.outputs, *requested.bodies):
         check_choice("output", name, tuple(answer.outputs))
-    if asked.outputs:
-        return asked.outputs
+    if requested.outputs:
+        return requested.outputs
     read = tuple(name for name, each in answer.outputs.items() if each.targets or each.output.dial)
     names = read or tuple(answer.outputs)
     if not names:
@@ -234,10 +236,12 @@ def _float(value: Fraction | None) -> float | None:
     return None if value is None else float(value)
 
 
-def _theories(train: GearTrain, asked: BudgetQuestion, answer: Answer, motion: Motion) -> dict[str, list[TheoryError]]:
+def _theories(
+    train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
+) -> dict[str, list[TheoryError]]:
     """By pointer the anomalies of its link and of the link it is read against, each against its body."""
     problem, days = motion._problem, _float(train.declaration.unit_days)
-    bodies = find_bodies(answer.outputs.values(), problem.frame, days, asked.bodies)
+    bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
     found = {}
     for name in motion.outputs:
@@ -249,12 +253,12 @@ def _theories(train: GearTrain, asked: BudgetQuestion, answer: Answer, motion: M
 
 
 def _jams(
-    plan: TrialPlan | None, uncut: str, asked: BudgetQuestion, means: Execution
+    plan: TrialPlan | None, uncut: str, requested: BudgetQuestion, means: Execution
 ) -> tuple[tuple[ClearanceCase, ...], str]:
     """How often wheels jam over clearance, or why that is not known."""
     if plan is None:
         return (), uncut
-    return jams_over_clearance(plan, asked.clearances, asked.jam_trials, asked.seed, means)
+    return jams_over_clearance(plan, requested.clearances, requested.jam_trials, requested.seed, means)
 
 
 # ---------------------------------------------------------------------------------------------------------------- ratio

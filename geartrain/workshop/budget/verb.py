@@ -96,7 +96,7 @@ def _days(text: str) -> float:
     row = period_table().get(text.strip())
     if row is not None and row.kind == "period":
         return float(row.value)
-    return quantity("--span", text, "time", least="above 0") / 86400
+    return quantity("--span", text, "time", minimum="above 0") / 86400
 
 
 def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, ToothCouple
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, ToothPair
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -227,7 +227,7 @@ def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tupl
 # ----------------------------------------------------------------------------------------------------------- two wheels
 
 
-class CutToothPairs(ToothCouple):
+class CutToothPairs(ToothPair):
     """Couples of a driver's and a driven tooth; all arrays broadcast against each other and the angles asked for.
 
     R1, R2         radii of the tips, that of a ring negative
@@ -320,7 +320,7 @@ class CutGearPair:
         """Shape of the trials: () for one pair."""
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
-    def couples(self, k: Any) -> CutToothPairs:
+    def tooth_pairs(self, k: Any) -> CutToothPairs:
         """Couples k, counted on through all turns."""
         i = k % self.sizes.z1
         j = k % self.sizes.z2
@@ -355,6 +355,6 @@ class CutGearPair:
     def leans(self) -> Bools:
         """For each trial, whether a flank leans beyond the perpendicular where the tips of its couple meet."""
         k = np.arange(self.count)
-        both = [np.atleast_2d(each.leaning).any(axis=1) for each in (self.couples(k), self.mirrored.couples(k))]
+        both = [np.atleast_2d(each.leaning).any(axis=1) for each in (self.tooth_pairs(k), self.mirrored.tooth_pairs(k))]
         found: Bools = np.broadcast_to(both[0] | both[1], self.trials or (1,)).copy()
         return found

@@ -18,10 +18,17 @@ if TYPE_CHECKING:
     from geartrain.train.manufacturing import AngleError, LengthError
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
-OF_WHEELS = ("placement", "eccentricity", "tip", "aperture")
+OF_WHEELS = ("pitch_deviation", "eccentricity", "tip", "aperture_deviation")
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
-MOST = {"placement": 1.0, "aperture": 1.0, "tip": 2.0, "eccentricity": 2.0, "centre": 2.0, "bearing": 2.0}
+MOST = {
+    "pitch_deviation": 1.0,
+    "aperture_deviation": 1.0,
+    "tip": 2.0,
+    "eccentricity": 2.0,
+    "centre": 2.0,
+    "bearing": 2.0,
+}
 """Sizes beyond which there is no tooth left, as fractions of pitch, half angle and depth."""
 
 
@@ -53,7 +60,7 @@ class WheelErrors:
 
     pitch, half_angle  of the even wheel (rad); `depth` of its teeth over the radius of its tips
     ring               its teeth are inside
-    errors             by kind: placement in pitches, aperture in half angles, the others in depths
+    errors             by kind: pitch_deviation in pitches, aperture in half angles, the others in depths
     towards            where its middle lies from the axle, from the first tooth (rad); None for anywhere
     tables             measured tooth by tooth, by kind, in the same fractions
     displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth
@@ -90,8 +97,9 @@ def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
     Parameters
     ----------
     texts : iterable of str
-        `KIND=SIZE` or `NAME.KIND=SIZE`, of all or of one wheel or pair: `placement=4.13 %`, `m2.eccentricity=value
-        0.2 mm`. What is set is normal, SIZE its standard deviation, unless `value` or `uniform` stands before it.
+        `KIND=SIZE` or `NAME.KIND=SIZE`, of all or of one wheel or pair: `pitch_deviation=4.13 %`,
+        `m2.eccentricity=value 0.2 mm`. The error is normally distributed and SIZE is its standard deviation,
+        unless `value` or `uniform` precedes it.
 
     Returns
     -------
@@ -125,7 +133,7 @@ def _setting(text: str) -> ErrorOverride:
         if said.strip().startswith(f"{each} "):
             way, said = each, said.strip().removeprefix(each)
     try:
-        unit = "angle or fraction" if kind in ("placement", "aperture") else "length or fraction"
+        unit = "angle or fraction" if kind in ("pitch_deviation", "aperture_deviation") else "length or fraction"
         amount = Quantity.parse(said.strip(), unit, plain=True)
     except PydanticCustomError as error:
         fix = str((error.context or {}).get("fix", "give a size"))
@@ -158,7 +166,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
             errors[each.kind] = reader.set(each)
     errors = {kind: off for kind, off in errors.items() if off.size}
     reader.check(errors)
-    at = cutting.eccentric_at if cutting is not None else None
+    at = cutting.eccentricity_angle if cutting is not None else None
     # declared ahead, as placement is; teeth are counted as they pass, which is behind
     return replace(even, errors=errors, towards=-at.si if at else None, tables=reader.tables(cutting))
 
@@ -200,7 +208,7 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
             half = even.depth / 2
             deep = even.depth * module * even.z / 2 / (1 + half if even.ring else 1 - half)
     lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
-    return {"placement": even.pitch, "aperture": 2 * even.half_angle, **lengths}
+    return {"pitch_deviation": even.pitch, "aperture_deviation": 2 * even.half_angle, **lengths}
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,10 +242,12 @@ class _Reader:
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
             if abs(off.size) >= MOST[kind]:
-                of = {"placement": "its pitch", "aperture": "its aperture"}.get(kind, "the depth of its teeth")
+                of = {"pitch_deviation": "its pitch", "aperture_deviation": "its aperture"}.get(
+                    kind, "the depth of its teeth"
+                )
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} of {of}"
-                least = self.scales["placement"] or 0
-                why = f"an error greater than the tooth leaves none; the pitch is {degrees(least):.3g} deg"
+                minimum = self.scales["pitch_deviation"] or 0
+                why = f"an error greater than the tooth leaves none; the pitch is {degrees(minimum):.3g} deg"
                 raise RangeError(Problem(what, why, "give an error smaller than the tooth", self.place))
 
     def tables(self, cutting: WheelManufacture | PairMounting | None) -> dict[str, tuple[float, ...]]:

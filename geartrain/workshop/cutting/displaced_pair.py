@@ -196,10 +196,10 @@ class DisplacedPair:
             x = sign * u + steps * pitch
             nominal = float(self._even(np.array(x)))
             found.append((nominal, x, int(sign) * steps))
-        least = min((nominal for nominal, _, _ in found), default=np.inf)
+        minimum = min((nominal for nominal, _, _ in found), default=np.inf)
         for nominal, x, j in found:
             # far beyond its end a tip lags more than errors can make up for
-            if nominal <= least + self._spread:
+            if nominal <= minimum + self._spread:
                 yield self._side(u, x, j, back)
 
     @cached_property
@@ -221,7 +221,7 @@ class DisplacedPair:
         at = self.contact
         return max(float(np.diff(each.lags).max(initial=0.0)) / each.step for each in (at.entering, at.leaving))
 
-    def _corners(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
+    def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
         """The lag of tips beyond the ends of the path, with tips so much higher."""
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
@@ -229,7 +229,7 @@ class DisplacedPair:
 
     def _even(self, x: Floats) -> Floats:
         """The lag of even wheels, beyond the ends of the path too."""
-        return np.asarray(self._along(self.contact.even, x) + self._corners(x))
+        return np.asarray(self._along(self.contact.even, x) + self._kinks(x))
 
     def _along(self, column: Floats, x: Any) -> Any:
         """One column of the contact at x, as `_columns`."""
@@ -266,15 +266,15 @@ class DisplacedPair:
         own = own + (self._along(at.even, here) if self._uneven else even) + apart * shift
         other = -sign * two.place + flank2 * l2 + low2 * w
         if late is not None:
-            own = own + self._corners(here)
+            own = own + self._kinks(here)
         elif not at.start + self._late[1] < x < at.end - self._late[0]:
-            own = own + self._corners(here, one.tips)
+            own = own + self._kinks(here, one.tips)
             # places of the driver's teeth and heights of the driven both move where couples enter: taken one by one
             other = other + at.entering(at.start - at.longer[1] * two.tips - x) - at.entering(np.array(at.start - x))
         # a couple on the back joins the driver's tooth to the driven tooth that follows
         driver = np.roll(own, j, -1) + self._swing(one, u, 0.0, -t1 * sign, -y1)
         turned = ratio * u - sign * even
-        driven = np.roll(other, j - back, -1) + self._swing(two, turned, at.stands + back * at.play, t2 * sign, y2)
+        driven = np.roll(other, j - back, -1) + self._swing(two, turned, at.stands + back * at.backlash, t2 * sign, y2)
         return SideTerms(driver, driven, j)
 
     @staticmethod
@@ -296,15 +296,15 @@ class DisplacedPair:
         for u in (*(np.arange(phases) * (pitch / phases)), *ends):
             yield from product(self.side_terms(u, False), self.side_terms(u, True))
 
-    def play(self) -> Floats:
+    def backlash(self) -> Floats:
         """The least play over the whole cycle of teeth (rad of the driven wheel), (trials,).
 
         What wheels add is apart for each: over all couples that meet, the least sum is that of the least terms.
         """
         best = np.full(self.trials, np.inf)
         for front, back in self._meetings():
-            best = np.minimum(best, least_sum(front.driver + back.driver, front.driven + back.driven))
-        return best + self.contact.play
+            best = np.minimum(best, minimum_sum(front.driver + back.driver, front.driven + back.driven))
+        return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
         """The same with the flank that stands out farthest of the four that are nearest there."""
@@ -312,12 +312,12 @@ class DisplacedPair:
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
         for front, back in self._meetings():
-            play, n1, n2 = least_sum_places(front.driver + back.driver, front.driven + back.driven, count)
-            rows = np.flatnonzero(play < best)
+            backlash, n1, n2 = minimum_sum_places(front.driver + back.driver, front.driven + back.driven, count)
+            rows = np.flatnonzero(backlash < best)
             if len(rows):
-                best[rows] = play[rows]
+                best[rows] = backlash[rows]
                 where[:, rows] = self._farthest_out(front, back, rows, n1[rows], n2[rows])
-        return TightPlace(best + self.contact.play, where[0], where[1], where[2], gain)
+        return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _farthest_out(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
         """Wheel, tooth and side of the flank that stands out farthest of the four that meet in some trials."""
@@ -351,8 +351,8 @@ class DisplacedPair:
 
     def verdicts(self) -> MeshingVerdicts:
         """What becomes of each trial over the whole cycle of teeth."""
-        clash, standstill = self.overtaken(True), self.overtaken(False)
-        return MeshingVerdicts(self.play(), clash, standstill, self.disengaged(), np.zeros(self.trials, bool))
+        clash, dwell = self.overtaken(True), self.overtaken(False)
+        return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged(), np.zeros(self.trials, bool))
 
     def disengaged(self) -> Bools:
         """Whether somewhere no couple is in reach (trials,)."""
@@ -379,7 +379,7 @@ class DisplacedPair:
         own, mate = self._side(x, x, 0, False, late), self._side(x, other, j, False, late)
         with np.errstate(invalid="ignore"):
             # own less the neighbour's, turned round: below 0 where the neighbour lags more
-            margin = least_sum(own.driver - mate.driver, own.driven - mate.driven)
+            margin = minimum_sum(own.driver - mate.driver, own.driven - mate.driven)
         found: Bools = np.broadcast_to(~(margin >= 0), self.trials).copy()
         return found
 
@@ -398,12 +398,12 @@ class DisplacedPair:
         lag = sign * (ratio * place - of_teeth(two.place, rows, j)) + even + apart * shift
         lag = lag - of_teeth(flank1, rows, i) * l1 + of_teeth(flank2, rows, j) * l2
         lag = lag + (of_teeth(low1, rows, i) + of_teeth(low2, rows, j)) * w
-        turned = ratio * S - sign * even + at.stands + back * at.play
+        turned = ratio * S - sign * even + at.stands + back * at.backlash
         for wheel, angle, across, along in ((one, S, -t1, -y1), (two, turned, t2, y2)):
             if np.any(wheel.e):
                 e, towards = (each[rows] if np.ndim(each) else each for each in (wheel.e, wheel.towards))
                 lag = lag + e * (sign * across * np.sin(angle - towards) + along * np.cos(angle - towards))
-        found: Floats = lag + self._corners(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
+        found: Floats = lag + self._kinks(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
         return found
 
     def first_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
@@ -420,9 +420,9 @@ class DisplacedPair:
         return best, which
 
 
-def even_play(contact: DisplacedContact) -> float:
+def even_backlash(contact: DisplacedContact) -> float:
     """The least play of even wheels (rad of the driven wheel)."""
-    return float(DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels)).play())
+    return float(DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels)).backlash())
 
 
 def mean_lag(contact: DisplacedContact) -> float:
@@ -445,14 +445,14 @@ def _by_rest(driver: Any, driven: Any) -> list[Floats]:
     return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
 
-def least_sum(driver: Any, driven: Any) -> Floats:
+def minimum_sum(driver: Any, driven: Any) -> Floats:
     """The least sum of a term of the driver and one of the driven wheel that meet in the cycle."""
     one, two = _by_rest(driver, driven)
     found: Floats = (one.min(axis=-2) + two.min(axis=-2)).min(axis=-1)
     return found
 
 
-def least_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
+def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
     """The same, and the numbers of both terms, (trials,)."""
     one, two = _by_rest(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]

@@ -26,7 +26,7 @@ _ROUNDS = 4000  # of looking for the tightest place: more teeth than a pair has 
 class TightPlace:
     """The tightest place of each of some pairs, and the flank filed there."""
 
-    play: Floats
+    backlash: Floats
     """Least play over the cycle (rad of the driven wheel); below 0 it jams."""
     wheel: Ints
     """0 the driver, 1 the driven wheel; `tooth` of it, on its `side`: 0 leading, 1 trailing."""
@@ -88,12 +88,12 @@ def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
     for _ in range(_ROUNDS):
         part = pair.taken(active).filed((low[0][active], low[1][active]))
         tight = part.tight_place()
-        jams = tight.play < 0
+        jams = tight.backlash < 0
         active, tight = active[jams], _some(tight, jams)
         if not len(active):
             break
         # no more strokes than this place needs at the least; where they were too few, it comes again
-        wanted = np.maximum(np.ceil(-tight.play / (tight.gain * stroke)), 1).astype(np.int64)
+        wanted = np.maximum(np.ceil(-tight.backlash / (tight.gain * stroke)), 1).astype(np.int64)
         wanted = np.minimum(wanted, int(np.ceil(deepest / stroke)))
         strokes[active] += wanted
         for wheel in (0, 1):
@@ -108,7 +108,9 @@ def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
 
 
 def _some(tight: TightPlace, rows: Bools) -> TightPlace:
-    return replace(tight, **{name: getattr(tight, name)[rows] for name in ("play", "wheel", "tooth", "side", "gain")})
+    return replace(
+        tight, **{name: getattr(tight, name)[rows] for name in ("backlash", "wheel", "tooth", "side", "gain")}
+    )
 
 
 @dataclass(frozen=True)
@@ -140,8 +142,8 @@ class FileableCutPair:
     def tight_place(self) -> TightPlace:
         """Where each has its least play, and of the four flanks there that which stands out farthest."""
         parts = [MeshingCycle(part).tightest() for part in chunks(self.pair, CHUNK // self.pair.count)]
-        play, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
-        rows, (z1, z2), sizes = np.arange(len(play)), self.teeth, self.pair.sizes
+        backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
+        rows, (z1, z2), sizes = np.arange(len(backlash)), self.teeth, self.pair.sizes
         back = front - apart
         # the back couple joins the driver's tooth to the driven tooth that follows
         teeth = np.stack([front % z1, back % z1, (back + 1) % z2, front % z2])
@@ -159,7 +161,7 @@ class FileableCutPair:
         lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
         nearest = sizes.R2 if sizes.ring == 2 else sizes.R2 - sizes.depths[1]
         gain = 1 / (nearest * max(cos(min(lean, 1.4)), 0.1))
-        return TightPlace(play, flank // 2, teeth[flank, rows], flank % 2, np.full(len(play), gain))
+        return TightPlace(backlash, flank // 2, teeth[flank, rows], flank % 2, np.full(len(backlash), gain))
 
 
 def _stands_out(wheel: CutWheel, side: int) -> Floats:

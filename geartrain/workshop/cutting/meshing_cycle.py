@@ -24,13 +24,13 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.workshop.cutting.cut_wheel import ROUNDING, CutGearPair, CutToothPairs
-from geartrain.workshop.cutting.least_backlash import (
+from geartrain.workshop.cutting.minimum_backlash import (
     BacklashCandidate,
     backlash_candidates,
     common,
     even_tooth_pair,
     farthest,
-    least_sum,
+    minimum_sum,
     steepest,
 )
 
@@ -52,13 +52,13 @@ _UNSURE = 1e-4  # of a driven pitch: play that is nearer to 0 is looked at witho
 class MeshingVerdicts:
     """What becomes of each trial, arrays (trials,)."""
 
-    play: Floats
+    backlash: Floats
     """Least play over the cycle of teeth (rad of the driven wheel): below 0 a front flank is against a back flank;
     inf where nothing touches."""
     clash: Bools
     """A tooth comes in against a tip or in front of it, the driven wheel dragging: the pair sticks fast, or, rarely,
     skips a tooth; led by hand within its play it may pass."""
-    standstill: Bools
+    dwell: Bools
     """The driven wheel is left standing somewhere."""
     disengaged: Bools
     """Somewhere no tooth is in reach."""
@@ -68,7 +68,7 @@ class MeshingVerdicts:
     @property
     def jams(self) -> Bools:
         """True where flanks jam: whatever the driven wheel does within its play, the pair cannot turn on."""
-        stuck: Bools = self.play < 0
+        stuck: Bools = self.backlash < 0
         return stuck
 
     @property
@@ -122,15 +122,17 @@ def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
     if teeth.reach < 0:  # the tip circles do not meet
         nowhere, never = teeth.disengaged, np.zeros(pair.trials, bool)
         return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere, never)
-    play = backlash_of_pitch_errors(pair)
-    for rows in _parts(np.abs(play) < _UNSURE * pair.sizes.p2, chunk // pair.count):
-        play[rows] = MeshingCycle(_some(pair, rows)).play()
-    clash, stands = np.zeros(len(play), bool), np.zeros(len(play), bool)
+    backlash = backlash_of_pitch_errors(pair)
+    for rows in _parts(np.abs(backlash) < _UNSURE * pair.sizes.p2, chunk // pair.count):
+        backlash[rows] = MeshingCycle(_some(pair, rows)).backlash()
+    clash, stands = np.zeros(len(backlash), bool), np.zeros(len(backlash), bool)
     for rows in _parts(teeth.doubtful, chunk // pair.count):
         some = _Passing(_some(pair, rows))
         clash[rows], stands[rows], entering = some.passing()
-        play[rows] = np.minimum(play[rows], entering)
-    return MeshingVerdicts(play, clash, stands, teeth.disengaged, np.full(len(play), teeth.couple.leaning.item()))
+        backlash[rows] = np.minimum(backlash[rows], entering)
+    return MeshingVerdicts(
+        backlash, clash, stands, teeth.disengaged, np.full(len(backlash), teeth.tooth_pair.leaning.item())
+    )
 
 
 def taken(pair: CutGearPair, part: slice | Ints) -> CutGearPair:
@@ -163,10 +165,10 @@ def _some(pair: CutGearPair, rows: NDArray[np.int64]) -> CutGearPair:
 def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
     """The verdict on each trial of a batch, couple by couple."""
     cycle = MeshingCycle(pair)
-    play, standstill, clash = cycle.play(), cycle.left_standing(), cycle.clashes()
-    if standstill.any():
-        play = np.minimum(play, np.where(standstill, cycle.play_at_entries(), inf))
-    return MeshingVerdicts(play, clash, standstill, cycle.disengaged(), pair.leans)
+    backlash, dwell, clash = cycle.backlash(), cycle.left_standing(), cycle.clashes()
+    if dwell.any():
+        backlash = np.minimum(backlash, np.where(dwell, cycle.backlash_at_entries(), inf))
+    return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged(), pair.leans)
 
 
 class MeshingCycle:
@@ -175,8 +177,8 @@ class MeshingCycle:
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes, self.trials = pair, pair.sizes, pair.trials[0]
         k = np.arange(pair.count)
-        self.front = pair.couples(k)
-        self.back = pair.mirrored.couples(-k)
+        self.front = pair.tooth_pairs(k)
+        self.back = pair.mirrored.tooth_pairs(-k)
         self.driver, self.driven = pair.places(k)
 
     # ---------------------------------------------------------------------------------------------------------- places
@@ -194,7 +196,7 @@ class MeshingCycle:
 
     # ------------------------------------------------------------------------------------------------------------ jams
 
-    def play(self) -> Floats:
+    def backlash(self) -> Floats:
         """Least play of each trial (trials,)."""
         return self.tightest()[0]
 
@@ -204,44 +206,44 @@ class MeshingCycle:
         Told roughly for all couples, exactly for those that come near it.
         """
         rough: dict[int, Any] = {}
-        play = np.full(self.trials, inf)
+        backlash = np.full(self.trials, inf)
         where = np.zeros((2, self.trials), np.int64)
         for bound, each in self._candidates():
-            if bound > play.max():
+            if bound > backlash.max():
                 break
             value = self._all(self._rough(each))
             rough[each.n] = np.minimum(rough[each.n], value) if each.n in rough else value
-            play = np.minimum(play, value.min(axis=1))
+            backlash = np.minimum(backlash, value.min(axis=1))
         for n, value in rough.items():
-            self._refine(play, where, n, np.array(value))
-        return play, where[0], where[1]
+            self._refine(backlash, where, n, np.array(value))
+        return backlash, where[0], where[1]
 
-    def _refine(self, play: Floats, where: Ints, n: int, rough: Floats) -> None:
+    def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
         """The exact play of every couple that may have the least: those seen tell how far rough ones are above it."""
         slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
         chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
         while True:
-            rows, columns = np.nonzero(open_ & (chosen | (rough <= play[:, None] + slack)))
+            rows, columns = np.nonzero(open_ & (chosen | (rough <= backlash[:, None] + slack)))
             if not len(rows):
                 return
             exact = self._exactly(rows, columns, n)
-            less = np.flatnonzero(exact <= play[rows])
+            less = np.flatnonzero(exact <= backlash[rows])
             # the least of each trial comes last, and stays
             less = less[np.argsort(-exact[less], kind="stable")]
             where[0, rows[less]], where[1, rows[less]] = columns[less], n
             # tips that reach round a quarter of the wheel have no angle: such teeth jam at their other couples
-            np.fmin.at(play, rows, exact)
+            np.fmin.at(backlash, rows, exact)
             open_[rows, columns] = False
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _candidates(self) -> list[tuple[float, BacklashCandidate]]:
         """The ways of jamming, each after what errors as great as these leave it at least; the least first."""
         found = backlash_candidates(self.sizes, farthest(self.pair))
-        nearest = {each.n: each.play for each in reversed(found)}
+        nearest = {each.n: each.backlash for each in reversed(found)}
         radial = self._radial()
-        bounds = {n: play - self._rim(n) - radial - _SLACK * self.sizes.p2 for n, play in nearest.items()}
-        near = [each for each in found if each.play <= nearest[each.n] + _SLACK * self.sizes.p2]
+        bounds = {n: backlash - self._rim(n) - radial - _SLACK * self.sizes.p2 for n, backlash in nearest.items()}
+        near = [each for each in found if each.backlash <= nearest[each.n] + _SLACK * self.sizes.p2]
         return sorted(((bounds[each.n], each) for each in near), key=lambda pair: pair[0])
 
     def _rim(self, n: int) -> float:
@@ -281,7 +283,7 @@ class MeshingCycle:
 
         front, back = self.front.picked(at(columns)), self.back.picked(at((columns - n) % self.pair.count))
         delta, stop = self._all(self.ahead(n))[rows, columns], self._all(self._stop(n))[rows, columns]
-        found: Floats = least_sum(front, back, delta) + stop
+        found: Floats = minimum_sum(front, back, delta) + stop
         return found
 
     # ------------------------------------------------------------------------------------------------ entries and exits
@@ -319,13 +321,13 @@ class MeshingCycle:
         found: Bools = ((y > tip) & np.isfinite(y)).any(axis=1)
         return found
 
-    def play_at_entries(self) -> Floats:
+    def backlash_at_entries(self) -> Floats:
         """Least play where a couple comes in that stops the driven wheel, which may stand there (trials,)."""
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._most() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
-        play = y + np.roll(self._all(self.apart(1)), -1, -1) + self.back.exit_angle
-        found: Floats = np.where(self._all(self.back.reach > -inf), play, inf).min(axis=1)
+        backlash = y + np.roll(self._all(self.apart(1)), -1, -1) + self.back.exit_angle
+        found: Floats = np.where(self._all(self.back.reach > -inf), backlash, inf).min(axis=1)
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
@@ -336,18 +338,18 @@ class MeshingCycle:
         return np.where(touches, self._held(before, np.where(touches, x, 0.0)) + self.apart(n), inf)
 
     @staticmethod
-    def _held(couples: CutToothPairs, x: Any) -> Any:
+    def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
         """alpha_2 of the driven tooth: in contact, or where the couple has left it."""
         with np.errstate(all="ignore"):
-            y = couples.contact(np.clip(x, -couples.reach, couples.reach))
-            return np.where(x < -couples.reach, couples.exit_angle, y)
+            y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
+            return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
         """Whether somewhere no couple is in reach, of those that push or of those that stop (trials,)."""
         return self._gap(self.front) | self._gap(self.back)
 
-    def _gap(self, couples: CutToothPairs) -> Bools:
-        reach = self._all(couples.reach)
+    def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
+        reach = self._all(tooth_pairs.reach)
         touches = reach > -inf
         cycle = self.pair.count * self.sizes.p1
         at = np.arange(self.pair.count) * self.sizes.p1 + self.driver
@@ -376,27 +378,27 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
     spread = 2 * float(np.abs(driver).max())
-    near = {each.n: each.play for each in reversed(backlash_candidates(sizes, farthest(pair)))}
-    couple, play = even_tooth_pair(sizes), np.full(pair.trials, inf)
-    both, steep = 2 * float(couple.reach), steepest(couple)
+    near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
+    tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)
+    both, steep = 2 * float(tooth_pair.reach), steepest(tooth_pair)
     for n in sorted(near, key=lambda n: near[n]):
         apart, stop = driver - np.roll(driver, n, -1), np.roll(driven, n - 1, -1) - driven
-        if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > play.max():
+        if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > backlash.max():
             continue  # errors of place do not bring these below what others have
         own = _read(_table(sizes, n, _rounded(spread)), _rounded(spread), apart)
         own = np.where(np.abs(n * sizes.p1 + apart) < both, own, inf)
-        play = np.minimum(play, _met(own, (1 - n) * sizes.p2 + stop, np.minimum))
-    return np.asarray(play)
+        backlash = np.minimum(backlash, _met(own, (1 - n) * sizes.p2 + stop, np.minimum))
+    return np.asarray(backlash)
 
 
-def _met(driver: Any, driven: Any, least: Any) -> Any:
+def _met(driver: Any, driven: Any, minimum: Any) -> Any:
     """The least (greatest) sum of a term of a driver's tooth and a term of a driven tooth that meet in the cycle."""
     rests = gcd(driver.shape[-1], driven.shape[-1])
 
     def by_rest(each: Any) -> Any:
-        return least.reduce(each.reshape(*each.shape[:-1], -1, rests), axis=-2)
+        return minimum.reduce(each.reshape(*each.shape[:-1], -1, rests), axis=-2)
 
-    return least.reduce(by_rest(driver) + by_rest(driven), axis=-1)
+    return minimum.reduce(by_rest(driver) + by_rest(driven), axis=-1)
 
 
 def _rounded(spread: float) -> float:
@@ -409,10 +411,10 @@ def _rounded(spread: float) -> float:
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
     """J_n at places of two driver's teeth that differ by up to `spread` (rad) from even."""
     nodes = np.linspace(-spread, spread, _NODES)
-    couple = even_tooth_pair(sizes)
-    values = least_sum(couple, couple, n * sizes.p1 + nodes)
+    tooth_pair = even_tooth_pair(sizes)
+    values = minimum_sum(tooth_pair, tooth_pair, n * sizes.p1 + nodes)
     # beyond the common reach, of which there none is asked for: tips meet tips
-    tips = -2 * np.sign(n * sizes.p1 + nodes) * float(couple.exit_angle)
+    tips = -2 * np.sign(n * sizes.p1 + nodes) * float(tooth_pair.exit_angle)
     found: Floats = np.where(np.isfinite(values), values, tips)
     return found
 
@@ -430,8 +432,8 @@ class _Passing:
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, _shifted(pair)
-        self.couple = even_tooth_pair(self.sizes)
-        self.reach, self.tip = float(self.couple.reach), float(-self.couple.exit_angle)
+        self.tooth_pair = even_tooth_pair(self.sizes)
+        self.reach, self.tip = float(self.tooth_pair.reach), float(-self.tooth_pair.exit_angle)
         self.small = ROUNDING * self.sizes.p2
         self.driver, self.driven = (np.atleast_2d(wheel.place) for wheel in (pair.first, pair.second))
 
@@ -454,7 +456,7 @@ class _Passing:
         return self._held(driver - self.reach), -driven
 
     def _held(self, x: Any) -> Any:
-        y = np.where(x < -self.reach, -self.tip, self.couple.contact(np.clip(x, -self.reach, self.reach)))
+        y = np.where(x < -self.reach, -self.tip, self.tooth_pair.contact(np.clip(x, -self.reach, self.reach)))
         return np.where(x > self.reach, inf, y)
 
     @property
@@ -479,13 +481,13 @@ class _Passing:
 
         That where a tooth comes in that stops it, of trials in which it stands; else inf. All (trials,).
         """
-        stands = (self._least(self._leaving) > -self.tip + self.small).any(axis=1)
-        y = self._least(self._coming)
+        stands = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
+        y = self._minimum(self._coming)
         clash = (y > self.tip + self.small).any(axis=1)
         next_on = self._between(1)[1][:, np.arange(self.pair.count) % self.sizes.z2]
         return clash, stands, np.where(stands, (y + next_on - self.tip).min(axis=1), inf)
 
-    def _least(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
+    def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
         """The least over all couples near, for every couple of the cycle (trials, couples)."""
         k = np.arange(self.pair.count)
         coming = terms == self._coming

@@ -92,7 +92,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         """Not asked of trials."""
         return float("nan")
 
-    def efficiency_least(self) -> float:
+    def efficiency_minimum(self) -> float:
         """Not asked of trials."""
         return float("nan")
 
@@ -126,23 +126,23 @@ class CutTrialTransmission(TrialTransmissionFunction):
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)
-        x, couples = ahead + place, self._couples(rows, i, j)
-        reach = couples.reach
+        x, tooth_pairs = ahead + place, self._tooth_pairs(rows, i, j)
+        reach = tooth_pairs.reach
         with np.errstate(all="ignore"):
-            y = np.where(x < -reach, couples.exit_angle, couples.contact(np.clip(x, -reach, reach)))
+            y = np.where(x < -reach, tooth_pairs.exit_angle, tooth_pairs.contact(np.clip(x, -reach, reach)))
             lag = (y - sizes.ratio * x) + (sizes.ratio * place - of_teeth(pair.second.place, rows, j))
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
         """The speed couples k give the driven wheel; 0 where they have left."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
-        x, couples = ahead + of_teeth(self.pair.first.place, rows, i), self._couples(rows, i, j)
-        reach = couples.reach
+        x, tooth_pairs = ahead + of_teeth(self.pair.first.place, rows, i), self._tooth_pairs(rows, i, j)
+        reach = tooth_pairs.reach
         with np.errstate(all="ignore"):
             inside = np.clip(x, -reach, reach)
-            return np.where(np.abs(x) <= reach, couples.tau(inside, couples.approaches(inside)), 0.0)
+            return np.where(np.abs(x) <= reach, tooth_pairs.tau(inside, tooth_pairs.approaches(inside)), 0.0)
 
-    def _couples(self, rows: Ints, i: Ints, j: Ints) -> CutToothPairs:
+    def _tooth_pairs(self, rows: Ints, i: Ints, j: Ints) -> CutToothPairs:
         one, two, sizes = self.pair.first, self.pair.second, self.pair.sizes
         shift = self.pair.shift if np.ndim(self.pair.shift) == 0 else self.pair.shift[rows]
         tips = of_teeth(one.tip, rows, i), of_teeth(two.tip, rows, j)
@@ -159,9 +159,11 @@ class DisplacedTrialTransmission(TrialTransmissionFunction):
 
     def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
         rest = np.mod(S, self.period)
-        lag, couple = self.pair.first_lag(rows, rest)
+        lag, tooth_pair = self.pair.first_lag(rows, rest)
         step = _SLOPE * self.pitches[0]
         with np.errstate(invalid="ignore"):
             # inf - inf where nothing touches
-            slope = (self.pair.lag(rows, rest + step, couple) - self.pair.lag(rows, rest - step, couple)) / (2 * step)
+            slope = (self.pair.lag(rows, rest + step, tooth_pair) - self.pair.lag(rows, rest - step, tooth_pair)) / (
+                2 * step
+            )
         return -lag, np.where(np.isfinite(slope), float(self.ratio) - slope, 0.0)

@@ -25,7 +25,7 @@ from geartrain.workshop.export.proof.train_proof import TrainProof
 from geartrain.workshop.export.proof.turned_pair import NOTHING, TOLERANCE
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.train_teeth import PairPlay
+    from geartrain.dynamics.train_teeth import PairBacklash
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.frame_plates import FramePlates
     from geartrain.scene.solids.solid_assembly import SolidModel
@@ -79,7 +79,7 @@ def readme(
     if proof is not None:
         lines += proof_lines(proof, _cell)
     if parts:
-        lines += [*_plays(work), *_parts(parts_list(work))]
+        lines += [*_backlashes(work), *_parts(parts_list(work))]
         if work.frame is not None:
             lines += ["", "## Fits", "", *_fits(work), "", "## Putting it together", "", *_steps(work, pictures)]
     told = set() if proof is None else {found.problem for found in proof.findings}
@@ -89,18 +89,18 @@ def readme(
     return "\n".join([*lines, ""])
 
 
-def _plays(work: SolidModel) -> list[str]:
+def _backlashes(work: SolidModel) -> list[str]:
     """The play of every pair whose wheels are cut, as a list."""
-    found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.plays]
+    found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.backlashes]
     return ["", "## Play of the teeth as cut, along the pitch circles", "", *found] if found else []
 
 
-def _angles(play: PairPlay) -> str:
+def _angles(backlash: PairBacklash) -> str:
     """The play as angles of both wheels; or that they jam where they stand."""
     turned = ", ".join(
-        f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(play.wheels, play.angles, strict=True)
+        f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(backlash.wheels, backlash.angles, strict=True)
     )
-    return f"{turned}; the pair jams" if play.length < 0 else turned
+    return f"{turned}; the pair jams" if backlash.length < 0 else turned
 
 
 def _parts(rows: Sequence[ListedPart]) -> Iterator[str]:
@@ -169,7 +169,7 @@ def proof_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
     if proof.links:
         lines += ["", "While the input is held, the teeth let each link turn by:", ""]
         lines += ["| link | degrees |", "| --- | ---: |"]
-        lines += [f"| {cell(each.link)} | {_turn(each.play)} |" for each in proof.links]
+        lines += [f"| {cell(each.link)} | {_turn(each.backlash)} |" for each in proof.links]
     return lines
 
 
@@ -177,12 +177,12 @@ def _row(mesh: MeshProof, cell: Callable[[str], str]) -> str:
     ratio = "-" if mesh.contact_ratio is None else f"{mesh.contact_ratio:.3f}"
     errors = [found.rule for found in mesh.findings if found.is_error]
     words = " ".join(errors) if errors else "turns"
-    values = (cell(mesh.pair), f"{mesh.declared:.4f}", f"{mesh.least:.4f}", f"{mesh.overlap:.2g}", ratio)
+    values = (cell(mesh.pair), f"{mesh.declared:.4f}", f"{mesh.minimum:.4f}", f"{mesh.overlap:.2g}", ratio)
     return f"| {' | '.join(values)} | {mesh.clearance:.3f} | {mesh.tip_width:.3f} | {words} |"
 
 
-def _turn(play: float | None) -> str:
-    return "free" if play is None else f"{degrees(max(play, 0.0)):.3g}"
+def _turn(backlash: float | None) -> str:
+    return "free" if backlash is None else f"{degrees(max(backlash, 0.0)):.3g}"
 
 
 # ---------------------------------------------------------------------------------------------------------------- steps

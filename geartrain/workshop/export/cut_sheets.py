@@ -68,7 +68,7 @@ def _parts(work: SolidModel) -> Iterator[tuple[str, FlatPart]]:
 # -------------------------------------------------------------------------------------------------------------- wheels
 
 _LETTER_SHARE = 0.5  # of the free width of the web: height of letters
-_GREATEST = 5.0  # mm
+_MAXIMUM = 5.0  # mm
 _LETTER_WIDTH = 0.62  # of its height, as letters of this kind are in the mean
 _BESIDE = 0.3  # mm between letters and a hole
 _SMALLER, _WAYS, _STEPS = (1.0, 0.8, 0.6, 0.45, 0.3, 0.2), 24, 9  # letters, and places for them, that are tried
@@ -135,7 +135,7 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
         inner, outer = blank.root_radius, float(abs(blank.contours[0].points).max())
     elif blank.arms:
         inner = outer - RIM * blank.module  # on the rim: below it there is an arm or nothing
-    height = min(_LETTER_SHARE * (outer - inner), _GREATEST, 1.6 * outer / max(len(names), 1))
+    height = min(_LETTER_SHARE * (outer - inner), _MAXIMUM, 1.6 * outer / max(len(names), 1))
     mark = _clear_of(_holes(blank), EngravedText(names, (0.0, (inner + outer) / 2), height), inner, outer)
     return FlatDrawing(title, blank.contours, (Contour.circle(blank.pitch_radius),), (mark,))
 

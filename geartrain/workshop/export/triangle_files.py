@@ -240,7 +240,7 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
         channels.append({"sampler": len(samplers), "target": {"node": at, "path": "rotation"}})
         samplers.append({"input": clocks[count], "output": output, "interpolation": "LINEAR"})
     if channels:
-        name = f"{turning.turns} turns of {work.scene.bodies[work.scene.lead or 0].id}"
+        name = f"{turning.turns} turns of {work.scene.bodies[work.scene.driving_link or 0].id}"
         file.animations.append({"name": name, "channels": channels, "samplers": samplers})
 
 
@@ -248,7 +248,7 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
 
 _A_TURN = 3  # key frames: between two of them a rotation takes the shorter way, so two would be ambiguous
 _RIPPLING = 48  # of a turn, where teeth or pins add something
-_LEAST_RIPPLING = 240
+_MINIMUM_RIPPLING = 240
 _MOST = 60_000  # key frames of one body: a longer period is not shown whole
 _USUAL = 10  # turns of the lead, where no period is
 _PACE = 1.0  # seconds in which the fastest body turns once
@@ -273,7 +273,7 @@ class Keyframes:
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
         """The motion of a train over `turns`, by default its period, or ten turns where that is long; None if still."""
         scene = work.scene
-        if scene.movement.kind == "still" or scene.lead is None:
+        if scene.movement.kind == "still" or scene.driving_link is None:
             return None
         speeds = _relative(work)
         fastest = max((abs(speed) for speed in speeds if speed), default=Fraction(0))
@@ -298,7 +298,7 @@ class Keyframes:
         speed = self.speeds[body]
         turned = abs(float((speed or 0) * self.turns))
         if self.ripples and self.work.scene.bodies[body].speed is not None:
-            return max(ceil(_RIPPLING * turned), _LEAST_RIPPLING)
+            return max(ceil(_RIPPLING * turned), _MINIMUM_RIPPLING)
         return ceil(_A_TURN * turned)
 
     def angle(self, body: int, count: int) -> Floats:

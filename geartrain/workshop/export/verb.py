@@ -129,7 +129,7 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
     case = simulation.CoSimulationCase(
         train.declaration.state_or_first(state),
         None if rate is None else input_rate(rate),
-        None if step is None else quantity("--step", step, "time", least="above 0"),
+        None if step is None else quantity("--step", step, "time", minimum="above 0"),
         None if restitution is None else read_restitution(restitution),
         tuple(without or ()),
     )

@@ -112,7 +112,7 @@ def jamming_map(
     --------
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=0.1 %"]), ["sun"])
     >>> [case.events["jam"].count for case in jamming_map(plan, [0.5], [1.0, 80.0], trials=16)]
     [0, 16]
     """

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 
-FIGURES = ("mean", "greatest", "starting", "efficiency")
+FIGURES = ("mean", "maximum", "starting", "efficiency")
 _TRAIN = "train"
 """What the train itself declares is called."""
 
@@ -132,7 +132,7 @@ class FrictionPlan(Shown):
         found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
         if found.turns is None:
             raise QuestionError(Problem("there is no torque to try", found.verdict.text, "declare loads or bearings"))
-        return CycleFigures(found.mean, found.greatest_torque, found.starting_torque, found.efficiency)
+        return CycleFigures(found.mean, found.maximum_torque, found.starting_torque, found.efficiency)
 
     def __getstate__(self) -> dict[str, Any]:
         """Without what trials have in common, which each process works out for itself."""
@@ -147,9 +147,9 @@ class FrictionPlan(Shown):
             How many are asked for, and what they are drawn by.
         """
         made = {"geartrain": version("geartrain"), "numpy": version("numpy")}
-        asked = {"state": self.state, "turns": self.turns, "samples": self.samples, "of": self.of}
+        requested = {"state": self.state, "turns": self.turns, "samples": self.samples, "of": self.of}
         train = self.declared.model_dump(mode="json", exclude_defaults=True)
-        return {**made, "train": train, **asked, "trials": trials, "seed": seed}
+        return {**made, "train": train, **requested, "trials": trials, "seed": seed}
 
 
 def find_friction_plan(
@@ -300,7 +300,7 @@ class FrictionTrials(Result):
     """By `train` and by pair or coupling, what was drawn."""
     mean: TrialFigure
     """Mean torque of the trials that have one [N m, or plain]."""
-    greatest: TrialFigure
+    maximum: TrialFigure
     """Greatest torque of the trials that have one [N m, or plain]."""
     starting: TrialFigure
     """Starting torque of the trials that have one [N m, or plain]."""
@@ -393,7 +393,7 @@ def _link(plan: FrictionPlan) -> str:
     """The link whose torque is told; nothing of the run is followed for it."""
     from geartrain.analysis.gear_train import GearTrain
 
-    return plan.of or GearTrain(plan.declared).torques(plan.state).asked[0]
+    return plan.of or GearTrain(plan.declared).torques(plan.state).requested[0]
 
 
 # -------------------------------------------------------------------------------------------------------------- as text
@@ -419,7 +419,7 @@ def trial_sections(found: FrictionTrials) -> Iterator[Section]:
 def _figures(found: FrictionTrials) -> Table:
     told = {
         f"mean torque at {found.link}": found.mean,
-        "greatest": found.greatest,
+        "maximum": found.maximum,
         "starting": found.starting,
         "efficiency": found.efficiency,
     }

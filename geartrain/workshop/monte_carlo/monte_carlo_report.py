@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ from geartrain.report.document import Document, Section, Table, cut
 
 if TYPE_CHECKING:
     from geartrain.numerics import IntervalEstimate, ProbabilityEstimate
+    from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
     from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics, TrialResults
@@ -20,6 +21,9 @@ def trials_document(found: TrialResults) -> Document:
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
 
     return describe_monte_carlo(MonteCarloResult(found))
+
+
+_EVENTS = ("jam", "clash", "dwell", "disengaged")
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
@@ -39,15 +43,16 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     --------
     >>> import geartrain
     >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["placement=2 %"]), ("moon",))
-    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).lead[0]
+    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
+    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).summary[0]
     '2 trials, seed 1; intervals hold with 95 %.'
     """
     trials = found.trials
-    lead = [f"{trials.done} trials, seed {trials.seed}; intervals hold with 95 %.", *found.assumptions]
+    summary = [f"{trials.done} trials, seed {trials.seed}; intervals hold with 95 %.", *found.assumptions]
     if not trials.complete:
-        lead.insert(0, f"PARTIAL: stopped after {trials.done} of {trials.wanted} trials.")
-    return Document(f"Cut by hand: {trials.plan.name}", lead, list(_sections(found)))
+        summary.insert(0, f"PARTIAL: stopped after {trials.done} of {trials.wanted} trials.")
+    return Document(f"Cut by hand: {trials.plan.name}", summary, list(_sections(found)))
 
 
 def _sections(found: MonteCarloResult) -> Iterator[Section]:
@@ -101,7 +106,7 @@ def _verdict(found: MonteCarloResult) -> Section:
 
 def _pairs(found: MonteCarloResult) -> Section:
     rows = [_tallied(pair) for pair in (*found.trials.pairs, found.trials.train)]
-    header = ("pair", "play (pitches)", "jam", "clash", "standstill", "disengaged", "bound on jams")
+    header = ("pair", "play (pitches)", *_EVENTS, "bound on jams")
     text = (
         "Over the full cycle of teeth. Play is that of even wheels, in pitches of the driven wheel; the bound, of "
         "errors of placement alone, is 2 lcm Q(play/2 sigma)."
@@ -120,9 +125,9 @@ def _filing(found: MonteCarloResult) -> Section:
 
 
 def _tallied(pair: PairEventRates) -> tuple[str, ...]:
-    play, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.play, pair.bound))
-    events = (share_text(pair.events[name]) for name in ("jam", "clash", "standstill", "disengaged"))
-    return (pair.name, play, *events, bound)
+    backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
+    events = (share_text(pair.events[name]) for name in _EVENTS)
+    return (pair.name, backlash, *events, bound)
 
 
 def _pointers(found: MonteCarloResult) -> Section:
@@ -136,7 +141,7 @@ def _pointers(found: MonteCarloResult) -> Section:
                 angle_text(pointer.mean),
                 angle_text(pointer.deviation),
                 *(angle_text(ends[percent]) for percent in (2.5, 97.5)),
-                f"{degrees(pointer.greatest):.3g}",
+                f"{degrees(pointer.maximum):.3g}",
                 f"{degrees(pointer.first[0]):.2g}",
             )
         )
@@ -145,7 +150,7 @@ def _pointers(found: MonteCarloResult) -> Section:
             "* Nearly all trials jam: given is what the pushing flanks would do in all of them, were jams let pass."
         )
     texts.append("First order off: what plain superposition of the pairs' errors is off from the composed motion, rms.")
-    header = ("output", "jams", "mean", "sd", "2.5 %", "97.5 %", "greatest", "first order off")
+    header = ("output", "jams", "mean", "sd", "2.5 %", "97.5 %", "maximum", "first order off")
     return Section("Pointers", texts, (Table(header, cut(rows)),))
 
 
@@ -156,7 +161,7 @@ def _course(data: dict[str, Any]) -> Section:
 
 
 def _rounded(data: dict[str, Any]) -> Iterator[tuple[str, list[Any]]]:
-    for percent, (value, low, high) in data["greatest_deg"].items():
+    for percent, (value, low, high) in data["maximum_deg"].items():
         yield percent, [value, *("?" if each is None else f"{each:.3g}" for each in (low, high))]
 
 
@@ -182,13 +187,15 @@ def _index(figure: IntervalEstimate) -> str:
 
 
 def _cleared(found: MonteCarloResult) -> Section:
-    rows = []
-    for each in found.cleared:
-        events = (share_text(each.events[name]) for name in ("jam", "clash", "standstill", "disengaged"))
-        rows.append((f"{each.clearance:.6g}", *events))
     text = "Any pair of the train, the same wheels at every clearance."
-    header = ("clearance", "jam", "clash", "standstill", "disengaged")
-    return Section("Clearance", (text,), (Table(header, rows),))
+    return Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
+
+
+def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:
+    """Probability of each event by clearance; the train as declared is left out."""
+    given = (case for case in cases if case.clearance is not None)
+    rows = [(f"{case.clearance:.6g}", *(share_text(case.events[event]) for event in events)) for case in given]
+    return Table(("clearance", *events), rows)
 
 
 def _convergence(found: MonteCarloResult) -> Section:

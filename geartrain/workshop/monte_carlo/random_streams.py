@@ -30,10 +30,10 @@ PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERRO
 )
 FRICTION = 8
 NUMBER = {
-    "placement": PITCH_ERROR,
+    "pitch_deviation": PITCH_ERROR,
     "eccentricity": ECCENTRICITY,
     "tip": TIP,
-    "aperture": FLANK_ANGLE_ERROR,
+    "aperture_deviation": FLANK_ANGLE_ERROR,
     "centre": CENTRE_DISTANCE_ERROR,
     "bearing": BEARING_CLEARANCE,
 }
@@ -85,8 +85,8 @@ def draw_wheel(
         return found + streams.errors(item, kind, wheel.errors[kind], shape)[rows] if kind in wheel.errors else found
 
     # declared errors are ahead and wider; a wheel's arrays are behind and flatter
-    place, tip = -wheel.pitch * drawn("placement"), wheel.depth * drawn("tip")
-    flank = wheel.half_angle * drawn("aperture")
+    place, tip = -wheel.pitch * drawn("pitch_deviation"), wheel.depth * drawn("tip")
+    flank = wheel.half_angle * drawn("aperture_deviation")
     eccentric = _eccentric(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
     if wheel.displaced is not None:
         return _displaced(place, tip, flank, eccentric, trials)

@@ -114,7 +114,7 @@ def find_sobol_indices(
     --------
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=1 %"]), ["sun"])
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=1 %"]), ["sun"])
     >>> sorted(index.name for index in find_sobol_indices(plan, 0, trials=16).indices)
     ['a', 'b1', 'position']
     """

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     Marks = NDArray[np.uint8]
 
-JAM, CLASH, STANDSTILL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
+JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
 """Marks of a pair in a trial: a sum of these."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
 """A pair that, dragging, does not turn through its cycle; and one whose outputs are not averaged in."""
@@ -95,10 +95,10 @@ def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) ->
     """Marks, and least play in pitches of the driven wheel, of every pair in every trial (trials, pairs)."""
     wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
     marks = np.zeros((drawn.trials, len(drawn.plan.pairs)), np.uint8)
-    play = np.full(marks.shape, inf)
+    backlash = np.full(marks.shape, inf)
     for at in wanted:
-        marks[:, at], play[:, at] = _judged(drawn, at)
-    return marks, play
+        marks[:, at], backlash[:, at] = _judged(drawn, at)
+    return marks, backlash
 
 
 def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
@@ -110,12 +110,12 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
     marks = (
         JAM * near.jams
         + CLASH * (near.clash | loose.clash)
-        + STANDSTILL * (near.standstill | loose.standstill)
+        + DWELL * (near.dwell | loose.dwell)
         + DISENGAGED * (near.disengaged | loose.disengaged)
     )
     uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
     marks = np.where(uncut, UNCUT, marks)
-    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.play / pair.pitches[1]
+    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.backlash / pair.pitches[1]
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers
@@ -133,7 +133,7 @@ class TrialPointers:
 
     cut: ErrorComposition
     even: ErrorComposition
-    laws: dict[str, TrialTransmissionFunction]
+    transmissions: dict[str, TrialTransmissionFunction]
 
     def errors(self, turns: Floats) -> Floats:
         """How far each output is from where even teeth would have it on average (rad), (outputs, n)."""
@@ -156,12 +156,20 @@ def trial_pointers(
     wanted = whole.outputs if outputs is None else tuple(whole.outputs[each] for each in outputs)
     offsets = whole.offsets and (whole.offsets if outputs is None else tuple(whole.offsets[each] for each in outputs))
     pairs = {source.id: plan.pairs[at[source.id]] for source in whole.sources if source.id in at}
-    laws = {name: pair.law(drawn.pair(at[name]), rows) for name, pair in pairs.items()}
+    transmissions = {name: pair.transmission(drawn.pair(at[name]), rows) for name, pair in pairs.items()}
     cut, even = [], []
     for source in whole.sources:
-        pair, law = pairs.get(source.id), laws.get(source.id)
+        pair, transmission = pairs.get(source.id), transmissions.get(source.id)
         # a cut law repeats after the whole cycle of teeth, an even one after a pitch
-        cut.append(replace(source, law=law, cycles=source.cycles / law.count) if law else source)
-        even.append(replace(source, law=ConstantLag(law.ratio, law.pitches[0], pair.even)) if pair and law else source)
+        cut.append(
+            replace(source, transmission=transmission, cycles=source.cycles / transmission.count)
+            if transmission
+            else source
+        )
+        even.append(
+            replace(source, transmission=ConstantLag(transmission.ratio, transmission.pitches[0], pair.even))
+            if pair and transmission
+            else source
+        )
     made = [ErrorComposition(whole.spread, tuple(each), wanted, offsets) for each in (cut, even)]
-    return TrialPointers(made[0], made[1], laws)
+    return TrialPointers(made[0], made[1], transmissions)

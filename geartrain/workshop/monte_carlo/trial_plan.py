@@ -30,10 +30,10 @@ from geartrain.workshop.cutting.declared_errors import (
     pair_errors,
     wheel_errors,
 )
-from geartrain.workshop.cutting.displaced_pair import DisplacedPair, even_play, mean_lag
+from geartrain.workshop.cutting.displaced_pair import DisplacedPair, even_backlash, mean_lag
 from geartrain.workshop.cutting.file_strokes import FileableCutPair, FilingWork, file_to_fit
-from geartrain.workshop.cutting.least_backlash import jamming_bound, nominal_backlash
 from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
+from geartrain.workshop.cutting.minimum_backlash import jamming_bound, nominal_backlash
 from geartrain.workshop.cutting.trial_transmission import (
     CutTrialTransmission,
     DisplacedTrialTransmission,
@@ -87,7 +87,7 @@ class TrialPair(ABC):
 
     @property
     @abstractmethod
-    def play(self) -> float:
+    def backlash(self) -> float:
         """Nominal play, in pitches of the driven wheel."""
 
     @property
@@ -104,7 +104,7 @@ class TrialPair(ABC):
         """What becomes of each trial of a cut pair."""
 
     @abstractmethod
-    def law(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
+    def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
         """The transmission functions of a cut pair; `rows` says which trial is asked at each angle."""
 
     @abstractmethod
@@ -148,7 +148,7 @@ class TriangularTrialPair(TrialPair):
         return min(self.sizes.depths)
 
     @property
-    def play(self) -> float:
+    def backlash(self) -> float:
         """Nominal play, in pitches."""
         return nominal_backlash(self.sizes)
 
@@ -171,7 +171,7 @@ class TriangularTrialPair(TrialPair):
         first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
         return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
 
-    def law(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
+    def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
         """Tooth by tooth."""
         return CutTrialTransmission(pair, self.even, rows)
 
@@ -228,15 +228,15 @@ class DisplacedTrialPair(TrialPair):
         return min(each.depth for each in self.contact.wheels)
 
     @property
-    def play(self) -> float:
+    def backlash(self) -> float:
         """Nominal play, in pitches."""
-        return even_play(self.contact) / self.pitches[1]
+        return even_backlash(self.contact) / self.pitches[1]
 
     @property
     def question(self) -> tuple[float, ...]:
         """What the contact is made of, by a few of its numbers."""
         at = self.contact
-        return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.play, float(at.even[0])
+        return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
         """Wheels as they turn in this pair."""
@@ -251,7 +251,7 @@ class DisplacedTrialPair(TrialPair):
         found: MeshingVerdicts = pair.verdicts()
         return found
 
-    def law(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
+    def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
         """Of the foremost couple at each angle."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
@@ -306,7 +306,7 @@ class TrialPlan(Shown):
     """For each output the pairs that can move it, by number."""
     span: float
     """Turns of the input within which positions are drawn [turn]."""
-    lead: str
+    driving_link: str
     """The link that is turned."""
 
     def _summary(self) -> str:
@@ -409,8 +409,8 @@ def find_trial_plan(
     --------
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
-    >>> [pair.name for pair in plan.pairs], plan.wheels[0].errors["placement"].size
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=0.1 %"]), ["sun"])
+    >>> [pair.name for pair in plan.pairs], plan.wheels[0].errors["pitch_deviation"].size
     (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
     motion = train.motion(state, outputs, without)
@@ -428,7 +428,7 @@ def find_trial_plan(
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
         why = "wheels cut true neither jam nor stray"
-        fix = "declare `cutting: {placement: {normal: 2 %}}`, or give --set placement='2 %'"
+        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set placement='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
@@ -441,7 +441,7 @@ def find_trial_plan(
         speeds,
         reach,
         _span(composition, pairs),
-        motion._problem.lead,
+        motion._problem.driving_link,
     )
 
 
@@ -514,7 +514,7 @@ def _pair(
     numbers = names.index(mesh.driver), names.index(mesh.driven)
     stroke = filing_stroke(train.declaration, mesh, lesser)
     if contact is None:
-        sizes, even = mesh.cut_sizes, mesh.law.error_moments()[0]
+        sizes, even = mesh.cut_sizes, mesh.transmission.error_moments()[0]
         return TriangularTrialPair(mesh.name, *numbers, mirrored, even, sizes, fitting=fitting, stroke=stroke)
     # that of the first-order law itself, lest its own error at another distance be taken for one of cutting
     even = -mean_lag(contact)

@@ -19,7 +19,7 @@ from geartrain.numerics.confidence_intervals import (
     percentiles_of,
 )
 from geartrain.numerics.results import Key, Result, Tabular, finite
-from geartrain.workshop.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
+from geartrain.workshop.monte_carlo.trial_block import CLASH, DISENGAGED, DWELL, JAM, LOST, STOPS, UNCUT
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 FEWEST = 30
 """Trials that must run for a pointer to be judged by them alone."""
 
-EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "standstill": STANDSTILL, "disengaged": DISENGAGED}
+EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "dwell": DWELL, "disengaged": DISENGAGED}
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class TrialResults(Tabular):
     def pairs(self) -> tuple[PairEventRates, ...]:
         """Each pair."""
         return tuple(
-            _tally(pair.name, self.marks[:, at], pair.play, self.bounds.get(pair.name, nan))
+            _tally(pair.name, self.marks[:, at], pair.backlash, self.bounds.get(pair.name, nan))
             for at, pair in enumerate(self.plan.pairs)
         )
 
@@ -216,9 +216,9 @@ def _share(marks: Marks, mark: int) -> ProbabilityEstimate:
     return ProbabilityEstimate(int(np.count_nonzero(cut & mark)), len(cut))
 
 
-def _tally(name: str, marks: Marks, play: float, bound: float) -> PairEventRates:
+def _tally(name: str, marks: Marks, backlash: float, bound: float) -> PairEventRates:
     events = {event: _share(marks, mark) for event, mark in EVENTS.items()}
-    return PairEventRates(name, events, int(np.count_nonzero(marks & UNCUT)), play, bound)
+    return PairEventRates(name, events, int(np.count_nonzero(marks & UNCUT)), backlash, bound)
 
 
 def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
@@ -239,7 +239,7 @@ class EventRates(TypedDict):
     jam: ProbabilityEstimate
     clash: ProbabilityEstimate
     stops: ProbabilityEstimate
-    standstill: ProbabilityEstimate
+    dwell: ProbabilityEstimate
     disengaged: ProbabilityEstimate
 
 
@@ -252,7 +252,7 @@ class PairEventRates(Result):
     TrialResults : holds them
     """
 
-    KEYS = (Key("pair", "name"), "uncut", Key("play", to=finite), Key("bound", to=finite), Key("", "rates"))
+    KEYS = (Key("pair", "name"), "uncut", Key("backlash", to=finite), Key("bound", to=finite), Key("", "rates"))
 
     name: str
     """Of the pair, or "the train"."""
@@ -260,7 +260,7 @@ class PairEventRates(Result):
     """Jam, clash, stops (jam or clash), standstill, disengaged -> how often, of the trials whose wheels can be cut."""
     uncut: int
     """Trials that hold a wheel that cannot be cut."""
-    play: float = nan
+    backlash: float = nan
     """Nominal play of even wheels [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
     """Bound on the probability of a jam by pitch errors alone; NaN where other errors take part."""
@@ -337,7 +337,7 @@ class PointerErrorStatistics(Result):
         Key("mean_deg", "mean", in_degrees),
         Key("deviation_deg", "deviation", in_degrees),
         Key("percentiles_deg", "percentiles", in_degrees),
-        Key("greatest_deg", "greatest", degrees),
+        Key("maximum_deg", "maximum", degrees),
         Key("deviation_of_all_deg", "deviation_of_all", in_degrees),
         Key("first_order", "first", keys=(Key("off_deg", "off", degrees), Key("rms_deg", "rms", degrees))),
         Key("variance_shares", "shares"),
@@ -392,7 +392,7 @@ class PointerErrorStatistics(Result):
         return percentiles_of(self.kept)
 
     @property
-    def greatest(self) -> float:
+    def maximum(self) -> float:
         """Greatest error either way that was seen (rad)."""
         return float(np.abs(self.kept).max(initial=0.0))
 
@@ -421,7 +421,7 @@ class PointerErrorCourse(Result):
         Key("trials", "count"),
         "turns",
         "bands_deg",
-        Key("greatest_deg", "percentiles", in_degrees),
+        Key("maximum_deg", "percentiles", in_degrees),
     )
 
     name: str
@@ -432,7 +432,7 @@ class PointerErrorCourse(Result):
     """By trial, (trials, n) [rad]."""
 
     @property
-    def greatest(self) -> Floats:
+    def maximum(self) -> Floats:
         """Greatest error of each trial along the turn, either way (rad)."""
         found: Floats = np.abs(self.errors).max(axis=1)
         return found
@@ -445,7 +445,7 @@ class PointerErrorCourse(Result):
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
         """Percentiles of the greatest errors (rad)."""
-        return percentiles_of(self.greatest)
+        return percentiles_of(self.maximum)
 
     @property
     def bands_deg(self) -> Floats:

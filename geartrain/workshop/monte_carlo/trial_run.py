@@ -47,12 +47,12 @@ _MOST = 10**9
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """The trials of one task: number of the first, and arrays as in `TrialResults`; `play` least, in driven pitches."""
+    """The trials of one task: number of the first, and arrays as in `TrialResults`; `backlash` in driven pitches."""
 
     first: int
     turns: Floats
     marks: NDArray[np.uint8]
-    play: Floats
+    backlash: Floats
     errors: Floats
     off: Sequence[tuple[float, float, int]] = ()
     sums: Sequence[Mapping[str, tuple[float, ...]]] = field(default_factory=tuple)
@@ -137,7 +137,7 @@ def run_trials(
 
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=0.1 %"]), ["sun"])
     >>> jam = run_trials(plan, 64).train.events["jam"]
     >>> jam.count, [round(end, 4) for end in jam.interval]
     (0, [0.0, 0.0566])
@@ -152,7 +152,7 @@ def run_trials(
                 _check_cut(plan, rows)
             if take is not None:
                 take(rows)
-            found.append(replace(rows, play=np.zeros((0, 0))))
+            found.append(replace(rows, backlash=np.zeros((0, 0))))
     except KeyboardInterrupt:
         if not found:
             raise
@@ -182,7 +182,7 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
     """The trials of one task as plain data."""
     number, trials = task
     drawn = draw_trial_wheels(plan, RandomStreams(seed, number // BLOCK), trials, number % BLOCK)
-    marks, play = judge_trial_pairs(drawn)
+    marks, backlash = judge_trial_pairs(drawn)
     turns = input_positions(drawn)
     found = trial_pointers(drawn, np.arange(trials))
     first = found.superposed(turns) if number < _CHECKED else None
@@ -191,7 +191,7 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
     off = [] if first is None else [_off(*both) for both in zip(first, errors, strict=True)]
     return {
         "marks": _pack(marks),
-        "play": _pack(play),
+        "backlash": _pack(backlash),
         "turns": _pack(turns),
         "errors": _pack(errors.T),
         "off": off,
@@ -217,9 +217,9 @@ def _sums(
     sums: list[dict[str, tuple[float, ...]]] = []
     for at, rows in enumerate(runs):
         parts = {
-            source.id: source.sense * response * (found.laws[source.id].last[rows] - even[source.id])
+            source.id: source.sense * response * (found.transmissions[source.id].last[rows] - even[source.id])
             for source, response in zip(superposition.sources, superposition.response[at], strict=True)
-            if source.id in found.laws and response
+            if source.id in found.transmissions and response
         }
         whole = sum(parts.values(), np.zeros(int(np.count_nonzero(rows))))
         sums.append(
@@ -247,7 +247,7 @@ def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecor
         first,
         array("turns"),
         array("marks", pairs),
-        array("play", pairs),
+        array("backlash", pairs),
         array("errors", len(plan.outputs)),
         [tuple(each) for each in packed["off"]],
         packed["sums"],
@@ -288,12 +288,12 @@ def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
     found = {}
     for pair in plan.pairs:
         wheels = plan.wheels[pair.first], plan.wheels[pair.second]
-        plain = all(not each.tables and set(each.errors) <= {"placement"} for each in wheels)
+        plain = all(not each.tables and set(each.errors) <= {"pitch_deviation"} for each in wheels)
         plain = plain and not pair.fitting and not pair.stroke
         normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
         if plain and normal:
             # the bound is of one deviation for both wheels: the greater of the two
-            sizes = [each.errors["placement"].size for each in wheels if each.errors]
+            sizes = [each.errors["pitch_deviation"].size for each in wheels if each.errors]
             found[pair.name] = pair.jamming_bound(max(sizes, default=0.0))
     return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -323,7 +323,7 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     --------
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
-    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["pitch_deviation=0.1 %"]), ["sun"])
     >>> course = run_course(plan, 0, 5, trials=8)
     >>> course.errors.shape, course.bands().shape
     ((8, 5), (7, 5))
@@ -389,7 +389,7 @@ def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
     """The columns of one block, as `_names` names them."""
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
     for at in range(len(plan.pairs)):
-        values += [rows.play[:, at], rows.marks[:, at]]
+        values += [rows.backlash[:, at], rows.marks[:, at]]
     for at, pair in enumerate(plan.pairs):
         if pair.stroke:
             values += [rows.filing[:, 2 * at].astype(np.int64), rows.filing[:, 2 * at + 1].astype(np.int64)]

@@ -164,7 +164,7 @@ def find_tooth_sizes(
     search = SizeSearch(start, ranges, limits, on_design)
     rules = [start.at({"radii": radii}) for radii in (equal_depth_radii(*start.teeth, start.half_angles), 1.0)]
     equal, true = (each if each.runs else None for each in rules)
-    best = search.least(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
+    best = search.minimum(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
     if chance is not None and len(aims) == 2:
         raise QuestionError(Problem("a front has no limit on a chance", "it would cost too much", "ask for one aim"))
     best, stops = (best, None) if chance is None else best_within(search, aims[0], chance)
@@ -208,7 +208,7 @@ class OutlineAgreement(Result):
     find_tooth_sizes : confirms its answer so.
     """
 
-    KEYS = ("turns", "loss", "error", "impact", "play", "difference")
+    KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")
 
     loss: tuple[float, float]
     """Loss by the law, and by the outlines."""
@@ -216,7 +216,7 @@ class OutlineAgreement(Result):
     """Error by the law, and by the outlines, in the unit of `ToothSizes`."""
     impact: tuple[float, float]
     """Impact by the law, and by the outlines."""
-    play: tuple[float, float]
+    backlash: tuple[float, float]
     """Play by the law, and by the outlines, in the unit of `ToothSizes`."""
     turns: bool
     """The outlines turn without a jam and without losing contact."""
@@ -229,11 +229,11 @@ class OutlineAgreement(Result):
     @property
     def differences(self) -> Mapping[str, float]:
         """By figure, the difference of the two over the greater of them."""
-        pairs = {"loss": self.loss, "error": self.error, "impact": self.impact, "play": self.play}
+        pairs = {"loss": self.loss, "error": self.error, "impact": self.impact, "backlash": self.backlash}
         return {name: abs(a - b) / max(abs(a), abs(b), _NOTHING) for name, (a, b) in pairs.items()}
 
 
-def outline_law(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
+def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
     """The law of the drawn outlines of a pair, its first wheel driving."""
     first = _outline(sizes.z1, sizes.R1, sizes.beta1, sizes.flanks[0], sizes.ring == 1)
     second = _outline(sizes.z2, sizes.R2, sizes.beta2, sizes.flanks[1], sizes.ring == 2)
@@ -243,27 +243,27 @@ def outline_law(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
 
 def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
     """Whether the outlines of a design that turns do what its law says."""
-    law = outline_law(design.sizes, design.friction)
-    low, high = law.error_range()
+    transmission = outline_transmission(design.sizes, design.friction)
+    low, high = transmission.error_range()
     return OutlineAgreement(
-        (design.loss, 1 - _mean_efficiency(law)),
+        (design.loss, 1 - _mean_efficiency(transmission)),
         (design.error, high - low),
-        (design.impact, impact_of(law)),
-        (design.play, law.verdict.play),
-        bool(law.verdict),
+        (design.impact, impact_of(transmission)),
+        (design.backlash, transmission.verdict.backlash),
+        bool(transmission.verdict),
     )
 
 
-def _mean_efficiency(law: OutlineTransmission) -> float:
+def _mean_efficiency(transmission: OutlineTransmission) -> float:
     """Mean over the driver's angle, in cells so small that the corner at the line of centres is in one of many."""
     import numpy as np
 
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    breaks = law.table.breaks
+    breaks = transmission.table.breaks
     low, high = breaks[:-1, None], breaks[1:, None]
     edges = low + (high - low) * np.linspace(0, 1, _CELLS + 1)
     middle, half = (edges[:, 1:] + edges[:, :-1]) / 2, np.diff(edges) / 2
-    found = law.efficiency((middle[..., None] + half[..., None] * nodes).ravel())
+    found = transmission.efficiency((middle[..., None] + half[..., None] * nodes).ravel())
     return float(found @ (half[..., None] * weights).ravel()) / float(breaks[-1] - breaks[0])
 
 

@@ -9,7 +9,7 @@ from math import degrees, inf, isnan
 from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.errors import GearTrainError, check_choice
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Result
 from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.parameter_sweep import phases_of
@@ -32,12 +32,12 @@ def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> flo
     return R2 / R1 * z1 / z2
 
 
-def impact_of(law: TransmissionFunction) -> float:
+def impact_of(transmission: TransmissionFunction) -> float:
     """The sum of (tau+ - tau-)^2 over the collisions of a pitch, over the square of the mean of tau.
 
     What the inelastic collisions of one pitch dissipate, docs/motion.md (7), over the energy of the driven side.
     """
-    return float(sum(leap.size**2 for leap in law.speed_leaps() or ())) / float(law.ratio) ** 2
+    return float(sum(leap.size**2 for leap in transmission.speed_leaps() or ())) / float(transmission.ratio) ** 2
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,8 @@ class ToothSizes(Result):
     """
 
     KEYS = (
-        *("radii", "window", "half_angles", Key("clearance", "clearance_factor")),
-        *("loss", "loss_at_constant_load", "error", "impact", "jam", "play", "window_width", "phases"),
+        *("radii", "window", "half_angles", "clearance_factor"),
+        *("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash", "window_width", "phases"),
     )
 
     teeth: tuple[int, int]
@@ -125,7 +125,7 @@ class ToothSizes(Result):
             return None
 
     @cached_property
-    def law(self) -> TriangularTransmission | None:
+    def transmission(self) -> TriangularTransmission | None:
         """The transmission function; None where no clearance lets the pair turn."""
         if self.limits is None or not self.limits:
             return None
@@ -135,13 +135,17 @@ class ToothSizes(Result):
     @property
     def runs(self) -> bool:
         """True for a pair that turns, and that friction does not lock."""
-        return self.law is not None and bool(self.law.verdict) and self.law.friction < self.law.locking_friction
+        return (
+            self.transmission is not None
+            and bool(self.transmission.verdict)
+            and self.transmission.friction < self.transmission.locking_friction
+        )
 
     @property
     def sizes(self) -> TriangularSizes:
         """Radii and centre distance of a pair that turns, the driver first."""
-        assert self.law is not None
-        return self.law.sizes
+        assert self.transmission is not None
+        return self.transmission.sizes
 
     @property
     def clearance_factor(self) -> float:
@@ -151,27 +155,27 @@ class ToothSizes(Result):
     @cached_property
     def loss(self) -> float:
         """1 less the mean efficiency at constant driver torque, Eq. (34) of Sorge [1]."""
-        assert self.law is not None
-        return 1 - self.law.efficiency_mean()
+        assert self.transmission is not None
+        return 1 - self.transmission.efficiency_mean()
 
     @cached_property
     def loss_at_constant_load(self) -> float:
         """1 less the mean efficiency at constant load torque [1]."""
-        assert self.law is not None
-        return 1 - self.law.efficiency_at_constant_load()
+        assert self.transmission is not None
+        return 1 - self.transmission.efficiency_at_constant_load()
 
     @cached_property
     def error(self) -> float:
         """Transmission error, peak to peak [rad of the driven wheel]."""
-        assert self.law is not None
-        low, high = self.law.error_range()
+        assert self.transmission is not None
+        low, high = self.transmission.error_range()
         return high - low
 
     @cached_property
     def impact(self) -> float:
         """What collisions dissipate in a pitch, over the kinetic energy of the driven side [1]."""
-        assert self.law is not None
-        return impact_of(self.law)
+        assert self.transmission is not None
+        return impact_of(self.transmission)
 
     @cached_property
     def jam(self) -> float:
@@ -188,16 +192,16 @@ class ToothSizes(Result):
         return self.limits.run - self.limits.jam
 
     @property
-    def play(self) -> float:
+    def backlash(self) -> float:
         """Least play of the back flanks [rad of the driven wheel]."""
-        assert self.law is not None
-        return self.law.verdict.play
+        assert self.transmission is not None
+        return self.transmission.verdict.backlash
 
     @property
     def phases(self) -> str:
         """The phases of the real path."""
-        assert self.law is not None
-        return phases_of(self.law)
+        assert self.transmission is not None
+        return phases_of(self.transmission)
 
     def merit(self, aim: str) -> float:
         """The figure of an aim, small where the design is good; infinite for a pair that does not turn.
@@ -208,14 +212,14 @@ class ToothSizes(Result):
             One of `AIMS`.
         """
         if aim == "jam":
-            return inf if self.law is None else -self.jam
+            return inf if self.transmission is None else -self.jam
         if not self.runs:
             return inf
         found = float(getattr(self, aim))
         return inf if isnan(found) else found
 
 
-_FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "play", "window_width", "phases")
+_FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash", "window_width", "phases")
 
 
 def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
@@ -227,7 +231,7 @@ def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
 
 @dataclass(frozen=True)
 class SizeLimit(Result):
-    """What a design has to keep: `loss`, `error`, `impact` at most, `jam`, `window_width`, `play` at least.
+    """What a design has to keep: `loss`, `error`, `impact` at most, `jam`, `window_width`, `backlash` at least.
 
     See Also
     --------
@@ -239,8 +243,8 @@ class SizeLimit(Result):
     bound: float
     """Its limit, in the unit of the figure."""
 
-    LEAST = ("jam", "window_width", "play")
-    FIGURES = ("loss", "error", "impact", *LEAST)
+    MINIMUM = ("jam", "window_width", "backlash")
+    FIGURES = ("loss", "error", "impact", *MINIMUM)
 
     def __post_init__(self) -> None:
         check_choice("limit", self.figure, self.FIGURES)
@@ -254,7 +258,7 @@ class SizeLimit(Result):
             The design.
         """
         found = float(getattr(sizes, self.figure))
-        return self.bound - found if self.figure in self.LEAST else found - self.bound
+        return self.bound - found if self.figure in self.MINIMUM else found - self.bound
 
 
 def keeps(design: ToothSizes, limits: Iterable[SizeLimit]) -> bool:

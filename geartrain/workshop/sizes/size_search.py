@@ -34,9 +34,9 @@ _BEYOND = 1e3  # above every figure: designs that turn but miss a limit
 _NOTHING = 1e6  # designs that do not turn
 _FRONT = 9  # bounds on the second aim
 _WORTH = 0.005  # of a front in its second aim: how far apart its designs are
-_CLEARANCES = ("clearance", "excess", "backlash", "centre_distance")  # as declarations may give it
+_CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance")  # as declarations may give it
 _WIDEST = {"radii": (0.1, 10.0), "window": (0.0, 1.0), "half_angle": (0.0, pi / 2)}
-_ASKED = 30  # designs that a costly limit refuses before it is given up
+_REQUESTED = 30  # designs that a costly limit refuses before it is given up
 _NEAR = 0.02  # of a range: designs this near to a refused one are not asked
 _HALVINGS = 5  # between the best design that is let in and one that is not
 
@@ -87,7 +87,7 @@ class SizeSearch:
 
         return figure
 
-    def least(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
+    def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
         """The best design in one aim. Raises `QuestionError` where none turns and keeps the limits."""
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
@@ -102,7 +102,7 @@ class SizeSearch:
 
     def front(self, first: str, second: str) -> tuple[ToothSizes, ...]:
         """What none is better than in both aims, from the best in the first on."""
-        ends = self.least(first), self.least(second)
+        ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):
             bound = _limit(second, high + (low - high) * step / (_FRONT + 1))
@@ -146,10 +146,10 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
             fix = f"free some of {', '.join(PARAMETERS)}"
             raise QuestionError(Problem(what, why if name in _CLEARANCES else "", fix))
         low, high = USUAL_RANGES[name] if given is None else given
-        least, most = _WIDEST[name]
-        if not least <= low < high <= most or (name == "half_angle" and not low > 0):
+        minimum, most = _WIDEST[name]
+        if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
             what = f"'{name}' cannot lie from {low:g} to {high:g}"
-            raise QuestionError(Problem(what, "", f"give two bounds within {least:g} to {most:g}, the lower first"))
+            raise QuestionError(Problem(what, "", f"give two bounds within {minimum:g} to {most:g}, the lower first"))
         found[name] = (float(low), float(high))
     if not found:
         raise QuestionError(Problem("nothing is free", "", f"free some of {', '.join(PARAMETERS)}"))
@@ -187,7 +187,7 @@ class PairTrials:
     >>> from math import pi
     >>> from geartrain.workshop import ToothSizes
     >>> from geartrain.workshop import read_error_overrides
-    >>> trials = PairTrials(read_error_overrides(["placement=0.1 %"]), 64)
+    >>> trials = PairTrials(read_error_overrides(["pitch_deviation=0.1 %"]), 64)
     >>> trials.stops(ToothSizes((48, 96), 0.98, 0.5, (pi / 6, pi / 6), 0.2))
     0.0
     """
@@ -229,7 +229,7 @@ def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[Tooth
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
     for at in known:
-        if len(refused) == _ASKED:
+        if len(refused) == _REQUESTED:
             break
         if any(distance(at, other, search.bounds) < _NEAR for other in refused):
             continue

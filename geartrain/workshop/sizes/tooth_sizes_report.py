@@ -51,7 +51,7 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
     """
     aims = " and ".join(AIM_WORDS[aim] for aim in found.aims)
     z1, z2 = found.teeth
-    lead = [
+    summary = [
         f"The wheel of {found.teeth[found.driver - 1]} drives the wheel of {found.teeth[2 - found.driver]}; friction "
         f"{found.friction:g}. Free: {free_text(found.free)}.{_limits_text(found.limits)}{_stops_text(found)} "
         f"{found.evaluations} designs were looked at.",
@@ -60,7 +60,7 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
     sections = [Section("Sizes", (_WORDS,), (Table(_HEADER, list(_rows(found))),)), _agreement(found.outlines)]
     if found.front:
         sections.append(_front(found))
-    return Document(f"Triangular teeth {z1}/{z2}: {aims}", lead, sections)
+    return Document(f"Triangular teeth {z1}/{z2}: {aims}", summary, sections)
 
 
 def describe_train_sizes(found: BestTrainSizes) -> Document:
@@ -105,11 +105,11 @@ def describe_train_sizes(found: BestTrainSizes) -> Document:
     shared = ""
     if "half_angle" in found.free:
         shared = " Pairs that share a wheel have one half angle; it stays as declared where a mate is not sized."
-    lead = [
+    summary = [
         f"Power enters at '{found.source}'. Free: {free_text(found.free)}.{_limits_text(found.limits)} Each pair is "
         f"sized by itself, then all together by the figure of the train.{shared}",
     ]
-    return Document(f"{found.train}: {AIM_WORDS[aim]} at {found.output}", lead, sections)
+    return Document(f"{found.train}: {AIM_WORDS[aim]} at {found.output}", summary, sections)
 
 
 _TRAIN_FIGURES = {
@@ -156,7 +156,7 @@ def told(figure: str, value: float) -> str:
     """A figure of a design with its unit."""
     if figure == "loss":
         return f"{100 * value:.4f} %"
-    if figure in ("error", "play", "half_angle"):
+    if figure in ("error", "backlash", "half_angle"):
         return f"{degrees(value):.5g} deg"
     return f"{value:.5g}"
 
@@ -183,7 +183,7 @@ def _limits_text(limits: Sequence[SizeLimit]) -> str:
     if not limits:
         return ""
     parts = [
-        f"{limit.figure} at {'least' if limit.figure in limit.LEAST else 'most'} {told(limit.figure, limit.bound)}"
+        f"{limit.figure} at {'least' if limit.figure in limit.MINIMUM else 'most'} {told(limit.figure, limit.bound)}"
         for limit in limits
     ]
     return f" Within: {', '.join(parts)}."

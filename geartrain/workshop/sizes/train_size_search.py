@@ -154,7 +154,7 @@ class TrainSizeSearch:
         return {name: declared_sizes(mesh) for name, mesh in self._meshes.items()}
 
     @cached_property
-    def _asked(self) -> tuple[str, ...]:
+    def _requested(self) -> tuple[str, ...]:
         """The pairs whose sizes are looked for."""
         found = tuple(name for name in self._meshes if name in self._drivers)
         if not found:
@@ -179,7 +179,7 @@ class TrainSizeSearch:
         if "half_angle" not in self.free:
             return ()
         wheels = {mesh.name: tuple(mesh.gear.pair) for mesh in self._all_meshes}
-        return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._asked})
+        return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
         """What is free of one pair by itself: not the half angle of a wheel that has another mate."""
@@ -200,7 +200,7 @@ class TrainSizeSearch:
         """What the train is judged by, small where it is good; infinite where it does not run."""
         self._on_step()
         if not self._acting:
-            each = [sizes[name].merit(self.aim) for name in self._asked]
+            each = [sizes[name].merit(self.aim) for name in self._requested]
             return max(each) if self.aim == "jam" else sum(each)
         try:
             return self._loss(self._with(sizes)) if self.aim == "loss" else self._error(self._with(sizes))
@@ -221,8 +221,8 @@ class TrainSizeSearch:
 
     def found(self) -> BestTrainSizes:
         """Pair by pair, then together."""
-        before = {name: self._starts[name] for name in self._asked}
-        runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._asked}
+        before = {name: self._starts[name] for name in self._requested}
+        runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._requested}
         first = self.figure({}) if all(runs.values()) and self._acting else self.figure(before)
         apart = self._apart()
         alone = self.figure(apart)
@@ -235,7 +235,7 @@ class TrainSizeSearch:
         outlines = {name: confirm_by_outlines(each) for name, each in together.items()}
         pairs = tuple(
             PairSizes(name, self._drivers[name], before[name], apart[name], together[name], runs[name], outlines[name])
-            for name in self._asked
+            for name in self._requested
         )
         sign = -1 if self.aim == "jam" else 1
         return BestTrainSizes(
@@ -255,7 +255,7 @@ class TrainSizeSearch:
 
     def _apart(self) -> dict[str, ToothSizes]:
         """The best sizes of every pair by itself; of pairs that share wheels those at their best half angle."""
-        found = {name: self._alone(name) for name in self._asked}
+        found = {name: self._alone(name) for name in self._requested}
         for group in self._one_angle:
             if len(group) > 1:
                 start, bounds = {name: found[name] for name in group}, self.free["half_angle"]
@@ -270,7 +270,7 @@ class TrainSizeSearch:
         key = start, tuple(free.items())
         if key not in self._done:
             search = SizeSearch(start, free, self.limits)
-            self._done[key] = rounded(search.least(self.aim, [start])) if free else start
+            self._done[key] = rounded(search.minimum(self.aim, [start])) if free else start
         self._on_step()
         return self._done[key]
 
@@ -278,7 +278,7 @@ class TrainSizeSearch:
         """Coordinate descent on the figure of the train."""
         alike = [group for group in self._one_angle if len(group) > 1]
         steps: list[tuple[tuple[str, ...], str]] = [
-            ((name,), size) for name in self._asked for size in self._free_of(name)
+            ((name,), size) for name in self._requested for size in self._free_of(name)
         ]
         steps += [(group, "half_angle") for group in alike]
         reach = _REACH
@@ -454,7 +454,7 @@ def as_form(sizes: ToothSizes) -> Triangular:
 
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
     """The sizes of a pair as declared: the first wheel of the pair first; in mid window where it does not turn."""
-    sizes, window = mesh.law.sizes, mesh.window
+    sizes, window = mesh.transmission.sizes, mesh.window
     driver = 1 + mesh.gear.pair.index(mesh.driver)
     if driver == 2:
         sizes = sizes.swapped()
@@ -463,7 +463,7 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
         place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
     radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
     # friction by a law of speed is searched under with its mean coefficient at the speed of the pair
-    friction = mesh.losses.friction if mesh.verdict else mesh.law.friction
+    friction = mesh.losses.friction if mesh.verdict else mesh.transmission.friction
     return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver, sizes.ring)
 
 
@@ -515,9 +515,9 @@ def best_shared_angle(
             designs = {name: sized(name, angle) for name in start}
         except QuestionError:
             return 1e6
-        least = figure(designs)
-        found = min(found, (least, designs), key=lambda each: each[0])
-        return min(least, 1e6)
+        minimum = figure(designs)
+        found = min(found, (minimum, designs), key=lambda each: each[0])
+        return min(minimum, 1e6)
 
     low, high = bounds
     step = (high - low) / (_SCAN - 1)

@@ -41,8 +41,8 @@ _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
 """About so many designs are looked at for so many free parameters, for each aim."""
 
-_OTHER = ("clearance", "excess", "backlash", "centre_distance")
-_DIMENSIONS = {"loss": "fraction", "error": "angle", "play": "angle"}
+_OTHER = ("clearance_factor", "excess", "backlash", "centre_distance")
+_DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 """Of limits; others are plain numbers."""
 
 
@@ -152,14 +152,14 @@ class SizeQuestion:
 
         given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
         if bool(given) != bool(self.errors):
-            what = "--within stops=5% and the errors, such as --set 'placement=1 %', go together"
+            what = "--within stops=5% and the errors, such as --set 'pitch_deviation=1 %', go together"
             raise typer.BadParameter(what, param_hint="--within" if given else "--set")
         if not given:
             return None
         from geartrain.workshop.cutting.declared_errors import read_error_overrides
         from geartrain.workshop.sizes.size_search import PairTrials
 
-        bound = min(quantity("--within", text, "fraction", plain=True, least="0") for text in given)
+        bound = min(quantity("--within", text, "fraction", plain=True, minimum="0") for text in given)
         return ChanceLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
 
 
@@ -230,5 +230,5 @@ def read_limits(given: Sequence[str]) -> list[SizeLimit]:
 
 def _limit(dimension: str | None, text: str) -> float:
     if dimension is not None:
-        return quantity("--within", text, dimension, plain=dimension == "fraction", least="0")
+        return quantity("--within", text, dimension, plain=dimension == "fraction", minimum="0")
     return decimal("--within", text, "limit", "0.02")

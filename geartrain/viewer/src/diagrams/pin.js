@@ -15,7 +15,7 @@ const CENTRE = [WIDE / 2 - 6, 165];
 const NOW = "now";
 
 /** data   the wheels of pin and slot, `pin_radius`, `offset` (mm) and the law of the pair */
-export function pin(host, { wheels, pin_radius: r, offset: e, law: table }) {
+export function pin(host, { wheels, pin_radius: r, offset: e, transmission: table }) {
   const sheet = new Sheet(host, {
     height: 480,
     label: "A wheel with a pin that works in the slot of another wheel",

@@ -61,7 +61,7 @@ export class Contacts {
         ),
         now,
         flanks,
-        el("td", { class: "number" }, rounded(contact.blows)),
+        el("td", { class: "number" }, rounded(contact.impact_rate)),
         el("td", { class: "number" }, contact.hardest ? `${inDegrees(contact.hardest)}/s` : "\u2013"),
       );
     });
@@ -75,10 +75,10 @@ export class Contacts {
   }
 
   #outputs({ scene, machine }) {
-    if (!scene.run.leads.length) return null;
-    if (!scene.run.leads.some(({ ahead, behind }) => settled(ahead, SLIGHT) || settled(behind, SLIGHT)))
+    if (!scene.run.deviations.length) return null;
+    if (!scene.run.deviations.some(({ ahead, behind }) => settled(ahead, SLIGHT) || settled(behind, SLIGHT)))
       return el("p", {}, "No output leaves the motion in which all drive flanks touch.");
-    const rows = scene.run.leads.map((lead) => {
+    const rows = scene.run.deviations.map((lead) => {
       const index = scene.pointers.findIndex(({ output }) => output === lead.output);
       const now = el("td", { class: "number" });
       if (index < 0 || scene.movement.kind === "mean") now.textContent = "\u2013";

@@ -21,7 +21,7 @@ export class Crank {
     this.scene = scene;
     this.drive = drive;
     this.gearing = gearing(scene);
-    this.lead = scene.lead === null ? "the input" : scene.bodies[scene.lead].id;
+    this.lead = scene.driving_link === null ? "the input" : scene.bodies[scene.driving_link].id;
     this.epoch = scene.epoch ? new Epoch(scene.epoch) : null;
     this.date = this.epoch && el("output", { class: "date", "aria-live": "off" });
     this.wheel = this.#wheel();

@@ -64,4 +64,4 @@ export class Path {
   }
 }
 
-const title = ({ side: { scene } }) => `From ${scene.lead === null ? "the input" : scene.bodies[scene.lead].id}`;
+const title = ({ side: { scene } }) => `From ${scene.driving_link === null ? "the input" : scene.bodies[scene.driving_link].id}`;

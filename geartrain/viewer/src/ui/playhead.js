@@ -14,7 +14,7 @@ export function seconds(time, duration) {
 
 /** Seconds of the run a second in which its busiest contact can be followed by eye; not faster than it is. */
 export function paceOf(run) {
-  const most = Math.max(0, ...run.contacts.map(({ blows }) => blows));
+  const most = Math.max(0, ...run.contacts.map(({ impact_rate }) => impact_rate));
   return Math.min(1, Math.max(0.02, SEEN / Math.max(most, 1e-9)));
 }
 

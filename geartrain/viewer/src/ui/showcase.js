@@ -127,7 +127,7 @@ export class Showcase {
 
   #moved() {
     const { drive, scene } = this;
-    const lead = scene.bodies[scene.lead]?.id ?? "the input";
+    const lead = scene.bodies[scene.driving_link]?.id ?? "the input";
     this.turns.textContent = drive.run ? `${drive.time.toFixed(2)} s` : `${decimal(drive.at, 2)} turns of ${lead}`;
     if (this.epoch) this.date.textContent = inWords(this.epoch.dateAt(Fraction.of(drive.at)));
     this.read?.forEach(({ hand, value }) => (value.textContent = told(hand.now)));

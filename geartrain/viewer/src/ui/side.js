@@ -90,7 +90,7 @@ export class Side {
   }
 
   get movable() {
-    return this.scene.movement.kind !== "still" && this.scene.lead !== null;
+    return this.scene.movement.kind !== "still" && this.scene.driving_link !== null;
   }
 
   /** Units of time of the input in one turn of its lead, and what they are: days, or a unit by name; null: no time. */
@@ -109,7 +109,7 @@ export class Side {
   }
 
   get lead() {
-    return this.scene.lead === null ? "the input" : this.scene.bodies[this.scene.lead].id;
+    return this.scene.driving_link === null ? "the input" : this.scene.bodies[this.scene.driving_link].id;
   }
 
   /** What one turn of another side's lead is here, in words; nothing where that goes without saying. */

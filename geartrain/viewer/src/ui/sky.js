@@ -105,7 +105,7 @@ const breakable = (name) => name.split(/(?<=_)/).flatMap((part) => [part, el("wb
 /** When the pointers stood where, who says so, and in which calendar. */
 function epochInWords(scene) {
   const epoch = new Epoch(scene.epoch);
-  const lead = scene.bodies[scene.lead].id;
+  const lead = scene.bodies[scene.driving_link].id;
   const made = epoch.turns.numerator === 0n ? "All pointers stood at the start of their scales" : `${lead} had made ${epoch.turns} turns`;
   const date = epoch.dateAt(epoch.turns);
   const cite = scene.sources[epoch.source]?.cite;

@@ -40,7 +40,7 @@ class LinkFreedom(Result):
 
     link: str
     """Its name."""
-    play: float | None
+    backlash: float | None
     """From end to end, the play of all meshes up to it [rad]; None for a link that nothing holds."""
 
 
@@ -236,18 +236,18 @@ class _Motion:
         """Where the teeth say otherwise than `solve`."""
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
-            if link.play is None and speeds[link.link] is not None:
+            if link.backlash is None and speeds[link.link] is not None:
                 what = f"link '{link.link}' turns freely while the input is held"
                 yield _finding("error", what, "no teeth hold it, though its speed is determined", "give it a mesh")
-            elif link.play is not None and speeds[link.link] is None:
+            elif link.backlash is not None and speeds[link.link] is None:
                 what = f"link '{link.link}' is held by its teeth, and `solve` does not determine its speed"
                 yield _finding("note", what, "the proof and the solution differ", "")
-        lead = self.scene.lead
-        if lead is None or not self.case.inputs:
+        driving_link = self.scene.driving_link
+        if driving_link is None or not self.case.inputs:
             return
-        ends = [self._farthest(rows, self._held, lead, way) for way in (-1, 1)]
+        ends = [self._farthest(rows, self._held, driving_link, way) for way in (-1, 1)]
         if turns and np.isfinite(ends).any():
-            what = f"'{self.scene.bodies[lead].id}' jams after {np.degrees(ends[1] - ends[0]):.3g} degrees"
+            what = f"'{self.scene.bodies[driving_link].id}' jams after {np.degrees(ends[1] - ends[0]):.3g} degrees"
             yield _finding(
                 "error", what, "the plays of all meshes do not let it turn on", "take out a mesh of the loop"
             )

@@ -27,7 +27,7 @@ from geartrain.workshop.export.proof.turned_pair import (
 if TYPE_CHECKING:
     from typing import Any
 
-    from geartrain.dynamics.train_teeth import PairPlay
+    from geartrain.dynamics.train_teeth import PairBacklash
     from geartrain.scene.layout import Layout
     from geartrain.scene.solids.solid_assembly import SolidModel
     from geartrain.scene.solids.wheel_blanks import Blank
@@ -49,13 +49,13 @@ _LAND = (
 class MeshProof(Result):
     """A mesh as cut, its wheels turned through a pitch, or through all couples of teeth that differ."""
 
-    KEYS = ("pair", "declared", "least", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
+    KEYS = ("pair", "declared", "minimum", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 
     pair: str
     """Its name."""
     declared: float
     """Stated play along the pitch circle of the second wheel, or of the ring [mm]."""
-    least: float
+    minimum: float
     """Least play measured [mm]."""
     most: float
     """Greatest play measured [mm]."""
@@ -118,13 +118,13 @@ def _burnt(material: Any, by: float) -> Any:
     return material.buffer(by, quad_segs=_AROUND)
 
 
-def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairPlay, tuple[Blank, Blank], TurnedPair]]:
+def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
     """Every mesh whose two wheels are cut: its play, its wheels (a ring second), and both as they are turned."""
     found = {}
-    for play in work.blanks.plays:
-        bent = any(work.train.declaration.wheels[name][1].flexible for name in play.wheels)
-        if set(play.wheels) <= set(cut.materials) and not bent:
-            one, other = (work.blanks.wheels[name] for name in play.wheels)
+    for backlash in work.blanks.backlashes:
+        bent = any(work.train.declaration.wheels[name][1].flexible for name in backlash.wheels)
+        if set(backlash.wheels) <= set(cut.materials) and not bent:
+            one, other = (work.blanks.wheels[name] for name in backlash.wheels)
             wheels = (other, one) if one.kind == "ring" else (one, other)
             names = tuple(each.wheel for each in wheels)
             first, second = (cut.materials[name] for name in names)
@@ -132,7 +132,7 @@ def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairPlay, 
             apart = axis_distance(work.layout, (names[0], names[1]))
             same = max(SAME, _BUFFER * work.process.kerf)
             turned = TurnedPair((first, second), counts, apart, wheels[1].kind == "ring", same)
-            found[play.pair] = play, wheels, turned
+            found[backlash.pair] = backlash, wheels, turned
     return found
 
 
@@ -144,7 +144,7 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
     return float(np.linalg.norm(between - (between @ along) * along))
 
 
-def prove_mesh(play: PairPlay, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
+def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
     """Turn a mesh and hold what is measured against the rules."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
@@ -153,18 +153,18 @@ def prove_mesh(play: PairPlay, wheels: tuple[Blank, Blank], turned: TurnedPair) 
     blocked = bool((found.overlap > NOTHING).any())
     tips = zip(turned.materials, turned.reaches, turned.counts, strict=True)
     proof = MeshProof(
-        play.pair,
-        play.length,
+        backlash.pair,
+        backlash.length,
         0.0 if blocked else float(measured.min()),
         float(measured.max(initial=0.0)),
         float(found.overlap.max()),
-        play.contact_ratio,
+        backlash.contact_ratio,
         clearance(turned),
         min(tip_width(*each) for each in tips),
         module,
     )
     names, rolls = (wheels[0].wheel, wheels[1].wheel), wheels[1].pins is not None
-    findings = _findings(play, proof, found, turned, names)
+    findings = _findings(backlash, proof, found, turned, names)
     return replace(
         proof, findings=tuple(each for each in findings if not (rolls and each.rule == "T2"))
     )  # the bottom between two lobes is itself a flank, as near to pins as its play is small
@@ -191,19 +191,19 @@ def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
 
 
 def _findings(
-    play: PairPlay, proof: MeshProof, found: FreeTurn, turned: TurnedPair, names: tuple[str, str]
+    backlash: PairBacklash, proof: MeshProof, found: FreeTurn, turned: TurnedPair, names: tuple[str, str]
 ) -> Iterator[BuildFinding]:
     pair, module = f"pair '{proof.pair}'", proof.module
     if found.place is not None:
         where = turned.words(found.place, names)
         yield _error("T5", f"{pair}: {where} overlap by {proof.overlap:.3g} mm2", _STUCK, _LOOSER)
-    elif min(proof.least, proof.declared) <= _TOUCH:
+    elif min(proof.minimum, proof.declared) <= _TOUCH:
         what = f"{pair} has no play"
         yield _error(
             "T5", what, "two wheels that are cut never fit without", f"give a backlash of {0.05 * module:.3g} mm"
         )
-    elif proof.least < proof.declared - ALLOWED:
-        what = f"{pair} has {proof.least:.4g} mm of play, and {proof.declared:.4g} mm are declared"
+    elif proof.minimum < proof.declared - ALLOWED:
+        what = f"{pair} has {proof.minimum:.4g} mm of play, and {proof.declared:.4g} mm are declared"
         yield _error("T5", what, "its teeth are thicker as cut than as declared", _LOOSER)
     elif not np.isfinite(proof.most):
         yield _error("T5", f"{pair} does not hold: one wheel turns past the other", "their tips do not reach", _NEARER)
@@ -219,7 +219,9 @@ def _findings(
             if ratio < _WHOLE
             else "little is left for wear and distance"
         )
-        yield BuildFinding("T3", level, Problem(f"{pair} has a contact ratio of {ratio:.4g}", why, play.more_contact))
+        yield BuildFinding(
+            "T3", level, Problem(f"{pair} has a contact ratio of {ratio:.4g}", why, backlash.more_contact)
+        )
     if proof.tip_width < _TIP * module:
         what = f"{pair} has tips {proof.tip_width:.3g} mm wide"
         yield BuildFinding("T4", "note", Problem(what, "so narrow they burn or break", "shorten the addendum"))

@@ -103,7 +103,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     >>> import geartrain
     >>> from geartrain.scene import ManufacturingSizes, SolidModel
     >>> proof = prove_train(SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0)))
-    >>> proof.verdict, [mesh.pair for mesh in proof.meshes], round(proof.meshes[0].least, 2)
+    >>> proof.verdict, [mesh.pair for mesh in proof.meshes], round(proof.meshes[0].minimum, 2)
     ('ready to cut', ['s~p', 'p~ring'], 0.1)
     """
     if not proof_is_installed():
@@ -138,7 +138,7 @@ def proof_is_installed() -> bool:
 
 def proof_steps(work: SolidModel) -> int:
     """How often `prove_train` calls its watch."""
-    return len(work.blanks.plays) + 1 + pose_count(work)
+    return len(work.blanks.backlashes) + 1 + pose_count(work)
 
 
 def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
@@ -172,7 +172,7 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
     """
     solids = _Solids(work)
     found: dict[tuple[int, int], float] = {}
-    for turns in _POSES if work.scene.lead is not None else _POSES[:1]:
+    for turns in _POSES if work.scene.driving_link is not None else _POSES[:1]:
         pose = scene_pose(work.scene, turns)
         for one, other in solids.near(pose):
             if (one, other) not in found and (common := solids.common(one, other, pose)):
@@ -184,7 +184,7 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
 
 def pose_count(work: SolidModel) -> int:
     """How often `prove_solids` calls its watch."""
-    return len(_POSES) if work.scene.lead is not None else 1
+    return len(_POSES) if work.scene.driving_link is not None else 1
 
 
 class _Solids:
@@ -218,8 +218,8 @@ class _Solids:
         """The volume (mm3) that two parts share in a pose; 0 for a sliver."""
         solids = [self._made(at).transform(_matrix(pose, self.parts[at].body)) for at in (one, other)]
         volume = float((solids[0] ^ solids[1]).volume())
-        least = max(SLIVER, _SHARE * min(each.volume() for each in solids))
-        return volume if volume > least else 0.0
+        minimum = max(SLIVER, _SHARE * min(each.volume() for each in solids))
+        return volume if volume > minimum else 0.0
 
     def _made(self, at: int) -> Any:
         """A part in the zero pose."""

@@ -88,12 +88,12 @@ class TurnedPair:
 
     def turn(self) -> FreeTurn:
         """Through a pitch of wheel 1; where teeth differ, through all couples of teeth that meet."""
-        found = [self._through(couple) for couple in self.couples]
+        found = [self._through(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
-    def couples(self) -> list[tuple[int, int]]:
+    def tooth_pairs(self) -> list[tuple[int, int]]:
         """Teeth of wheel 1 and spaces of wheel 2 that meet on the line of centres; alike ones once."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
@@ -106,45 +106,47 @@ class TurnedPair:
                 break
         return list(found.values())
 
-    def free(self, turned: Floats, lags: Floats, couple: tuple[int, int] = (0, 0)) -> FreeTurn:
+    def free(self, turned: Floats, lags: Floats, tooth_pair: tuple[int, int] = (0, 0)) -> FreeTurn:
         """At angles of wheel 1 within a pitch about 0, wheel 2 standing about some lags."""
         t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
-        first = _moved(self._piece(0, couple[0]), t, 0.0)
-        areas = self._areas(first, t, lag, couple)
+        first = _moved(self._piece(0, tooth_pair[0]), t, 0.0)
+        areas = self._areas(first, t, lag, tooth_pair)
         place = None
         stuck = np.flatnonzero(areas > NOTHING)
         for at in stuck.tolist():
-            lag[at], areas[at] = self._tried(first[at], float(t[at]), couple, (float(lag[at]), float(areas[at])))
+            lag[at], areas[at] = self._tried(first[at], float(t[at]), tooth_pair, (float(lag[at]), float(areas[at])))
         if (areas > NOTHING).any():
-            place = self._place(first, t, lag, couple, int(areas.argmax()))
-        ends = [self._end(first, t, lag, way, couple) for way in (-1, 1)]
+            place = self._place(first, t, lag, tooth_pair, int(areas.argmax()))
+        ends = [self._end(first, t, lag, way, tooth_pair) for way in (-1, 1)]
         blocked = areas > NOTHING
         low, high = (np.where(blocked, np.nan, end) for end in ends)
         return FreeTurn(t, low, high, np.where(blocked, areas, 0.0), place)
 
-    def _through(self, couple: tuple[int, int]) -> FreeTurn:
+    def _through(self, tooth_pair: tuple[int, int]) -> FreeTurn:
         """Where play is measured, and every other position at which the middle of that play is no place to stand."""
         t = self._positions(_STEPS)
-        found = self.free(t, np.zeros(_STEPS), couple)
+        found = self.free(t, np.zeros(_STEPS), tooth_pair)
         held = np.isfinite(found.low) & np.isfinite(found.high)
         middle = (np.where(held, found.low, 0.0) + np.where(held, found.high, 0.0)) / 2
         dense = self._positions(_DENSE)
         # teeth that are not conjugate stand elsewhere at every position
         lags = np.interp(dense, t, middle, period=self.pitches[0])
-        areas = self._areas(_moved(self._piece(0, couple[0]), dense, 0.0), dense, lags, couple)
+        areas = self._areas(_moved(self._piece(0, tooth_pair[0]), dense, 0.0), dense, lags, tooth_pair)
         stuck = areas > NOTHING
         if not stuck.any():
             return found
-        more = self.free(dense[stuck], lags[stuck], couple)
+        more = self.free(dense[stuck], lags[stuck], tooth_pair)
         return _joined([found, more], found.place or more.place)
 
     def _positions(self, steps: int) -> Floats:
         return np.asarray(self.pitches[0] * ((np.arange(steps) + _OFF) / steps - 0.5))
 
-    def _tried(self, first: Any, t: float, couple: tuple[int, int], here: tuple[float, float]) -> tuple[float, float]:
+    def _tried(
+        self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
+    ) -> tuple[float, float]:
         """The nearest lag within half a pitch at which wheel 2 is free; else the one with the least overlap."""
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
-        areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, couple)
+        areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
         open_ = np.flatnonzero(areas <= NOTHING)
         if open_.size:
             at = open_[np.abs(tries[open_] - here[0]).argmin()]
@@ -154,34 +156,34 @@ class TurnedPair:
                 return here
         return float(tries[at]), float(areas[at])
 
-    def _end(self, first: Any, t: Floats, lag: Floats, way: int, couple: tuple[int, int]) -> Floats:
+    def _end(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
         """The last free lag on one side; infinite where nothing stops it within a pitch."""
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
-        loose = self._areas(first, t, met, couple) <= NOTHING
+        loose = self._areas(first, t, met, tooth_pair) <= NOTHING
         if loose.any():  # play of half a pitch: the tooth that stops it is nearer or farther than that
             for part in range(1, _PARTS):
                 there = lag + way * self.pitches[1] * part / _PARTS
-                bites = loose & (self._areas(first, t, there, couple) > NOTHING)
+                bites = loose & (self._areas(first, t, there, tooth_pair) > NOTHING)
                 met, loose = np.where(bites, there, met), loose & ~bites
         for _ in range(_HALVINGS):
             middle = (free + met) / 2
-            bites = self._areas(first, t, middle, couple) > NOTHING
+            bites = self._areas(first, t, middle, tooth_pair) > NOTHING
             free, met = np.where(bites, free, middle), np.where(bites, middle, met)
         return np.where(loose, way * np.inf, free)
 
-    def _second(self, t: Floats, lag: Floats, couple: tuple[int, int]) -> Any:
+    def _second(self, t: Floats, lag: Floats, tooth_pair: tuple[int, int]) -> Any:
         ratio = self.counts[0] / self.counts[1] * (1 if self.ring else -1)
         away = -self.distance if self.ring else self.distance
-        return _moved(self._piece(1, couple[1]), t * ratio + lag, away)
+        return _moved(self._piece(1, tooth_pair[1]), t * ratio + lag, away)
 
-    def _areas(self, first: Any, t: Floats, lag: Floats, couple: tuple[int, int]) -> Floats:
+    def _areas(self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int]) -> Floats:
         shapely = plane_geometry()
-        return np.asarray(shapely.area(shapely.intersection(first, self._second(t, lag, couple))))
+        return np.asarray(shapely.area(shapely.intersection(first, self._second(t, lag, tooth_pair))))
 
-    def _place(self, first: Any, t: Floats, lag: Floats, couple: tuple[int, int], at: int) -> tuple[float, float]:
+    def _place(self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int], at: int) -> tuple[float, float]:
         """The middle of the greatest sliver."""
         shapely = plane_geometry()
-        common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], couple)[0])
+        common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], tooth_pair)[0])
         sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
         return float(sliver.centroid.x), float(sliver.centroid.y)
 

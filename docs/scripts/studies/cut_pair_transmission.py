@@ -40,13 +40,13 @@ class FirstContact(NamedTuple):
     """The first contact at some positions, all arrays of one shape.
 
     lag      of the driven wheel behind uniform motion (rad of it); inf where nothing touches
-    couple   that decides, counted on through all turns
+    tooth_pair   that decides, counted on through all turns
     x        alpha_1 of its driver's tooth (rad)
     state    RECEDES, APPROACHES or LEFT
     """
 
     lag: Floats
-    couple: Ints
+    tooth_pair: Ints
     x: Floats
     state: Ints
 
@@ -88,17 +88,17 @@ class ContactEnvelope:
     @cached_property
     def reaches(self) -> Floats:
         """The reach of every couple of a cycle (rad of the driver)."""
-        return np.broadcast_to(self.pair.couples(self.every).reach, self.every.shape)
+        return np.broadcast_to(self.pair.tooth_pairs(self.every).reach, self.every.shape)
 
     @cached_property
     def exits(self) -> Floats:
         """alpha_2 at which every couple of a cycle leaves (rad)."""
-        return np.broadcast_to(self.pair.couples(self.every).exit_angle, self.every.shape)
+        return np.broadcast_to(self.pair.tooth_pairs(self.every).exit_angle, self.every.shape)
 
     def first(self, n: Ints, u: Floats, besides: Ints | None = None) -> FirstContact:
         """The first contact at positions (n, u), each (m,); couples `besides` are left out."""
         best = np.full(len(u), inf)
-        couple, x_best, state = np.zeros(len(u), np.int64), np.zeros(len(u)), np.zeros(len(u), np.int64)
+        tooth_pair, x_best, state = np.zeros(len(u), np.int64), np.zeros(len(u)), np.zeros(len(u), np.int64)
         for m in self._window:
             k = n + m
             # from n on, not from the start of the cycle: numbers stay small and keep their digits
@@ -113,16 +113,16 @@ class ContactEnvelope:
             lag, kind = self._lag(k[at], x[at], reach[at])
             less = lag < best[at]
             at = at[less]
-            best[at], couple[at], x_best[at], state[at] = lag[less], k[at], x[at], kind[less]
-        return FirstContact(best, couple, x_best, state)
+            best[at], tooth_pair[at], x_best[at], state[at] = lag[less], k[at], x[at], kind[less]
+        return FirstContact(best, tooth_pair, x_best, state)
 
     def _lag(self, k: Ints, x: Floats, reach: Floats) -> tuple[Floats, Ints]:
         """What couples k make the driven wheel lag with the driver's tooth at x, and how."""
-        couples = self.pair.couples(k)
+        tooth_pairs = self.pair.tooth_pairs(k)
         held = x < -reach
         inside = np.where(held, -reach, x)
-        approach, recess = couples.approach_angle(inside, np), couples.recess_angle(inside, np)
-        y = np.where(held, couples.exit_angle, np.minimum(approach, recess))
+        approach, recess = tooth_pairs.approach_angle(inside, np), tooth_pairs.recess_angle(inside, np)
+        y = np.where(held, tooth_pairs.exit_angle, np.minimum(approach, recess))
         kind = np.where(held, LEFT, (approach < recess).astype(np.int64))
         return self.lag_of(k, x, y), kind
 
@@ -144,15 +144,15 @@ class ContactEnvelope:
 
     def speed(self, first: FirstContact) -> Floats:
         """tau of the couples that decide; 0 where they have left, infinite where jammed teeth overlap past a flank."""
-        couples = self.pair.couples(first.couple)
+        tooth_pairs = self.pair.tooth_pairs(first.tooth_pair)
         x = self.inside(first)
         with np.errstate(divide="ignore"):
-            found: Floats = np.where(first.state == LEFT, 0.0, couples.tau(x, first.state == APPROACHES))
+            found: Floats = np.where(first.state == LEFT, 0.0, tooth_pairs.tau(x, first.state == APPROACHES))
         return found
 
     def inside(self, first: FirstContact) -> Floats:
         """alpha_1 of the couples that decide, kept within their reach; 0 where nothing touches."""
-        reach = np.maximum(self.reaches[first.couple % self.pair.count], 0.0)
+        reach = np.maximum(self.reaches[first.tooth_pair % self.pair.count], 0.0)
         return np.clip(first.x, -reach, reach)
 
     def position(self, k: Ints, x: Floats) -> tuple[Ints, Floats]:
@@ -170,7 +170,7 @@ _GAUSS = np.polynomial.legendre.leggauss(20)  # within a stretch all is smooth: 
 
 def label(first: FirstContact) -> Ints:
     """One number for each couple in each state."""
-    return first.couple * 4 + np.where(np.isfinite(first.lag), first.state, 3)
+    return first.tooth_pair * 4 + np.where(np.isfinite(first.lag), first.state, 3)
 
 
 @dataclass(frozen=True)
@@ -225,11 +225,11 @@ class ContactIntervals:
         return self.over(lambda first: first.lag)
 
 
-def _matches(couples: CutToothPairs) -> Floats:
+def _matches(tooth_pairs: CutToothPairs) -> Floats:
     """alpha_1 where flank lies on flank, D sin(x + beta1) = R1 sin(beta1) + R2 sin(beta2); NaN where nowhere."""
-    line = (couples.R1 * couples.sin1 + couples.R2 * couples.sin2) / couples.D
+    line = (tooth_pairs.R1 * tooth_pairs.sin1 + tooth_pairs.R2 * tooth_pairs.sin2) / tooth_pairs.D
     with np.errstate(invalid="ignore"):
-        found: Floats = np.arcsin(line) - np.arctan2(couples.sin1, couples.cos1)
+        found: Floats = np.arcsin(line) - np.arctan2(tooth_pairs.sin1, tooth_pairs.cos1)
     return found
 
 
@@ -238,7 +238,7 @@ def marks_of(envelope: ContactEnvelope) -> tuple[Ints, Floats]:
     k = envelope.every
     touches = np.isfinite(envelope.reaches)
     k, reach = k[touches], envelope.reaches[touches]
-    matches = _matches(envelope.pair.couples(k))
+    matches = _matches(envelope.pair.tooth_pairs(k))
     found = [envelope.position(k, reach), envelope.position(k, -reach)]
     flat = np.abs(matches) < reach
     found.append(envelope.position(k[flat], matches[flat]))
@@ -276,7 +276,7 @@ def split(envelope: ContactEnvelope, cells: Cells) -> Cells:
         same = (label(first) == label(last)) | (high - low < 4 * small)
         done.append((n[same], low[same], high[same]))
         n, low, high = n[~same], low[~same], high[~same]
-        u = _takes_over(envelope, n, low + small, high - small, first.couple[~same], last.couple[~same])
+        u = _takes_over(envelope, n, low + small, high - small, first.tooth_pair[~same], last.tooth_pair[~same])
         # a third couple may push between: both sides are looked at again
         n, low, high = np.tile(n, 2), np.concatenate((low, u)), np.concatenate((u, high))
     n, low, high = (np.concatenate(each) for each in zip(*done, strict=True))
@@ -316,7 +316,7 @@ def find_contact_intervals(envelope: ContactEnvelope) -> ContactIntervals:
     return ContactIntervals(envelope, *joined(parts, label(envelope.first(parts[0], (parts[1] + parts[2]) / 2))))
 
 
-MeshingEventKind = Literal["jam", "clash", "standstill", "disengaged"]
+MeshingEventKind = Literal["jam", "clash", "dwell", "disengaged"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -325,7 +325,7 @@ class MeshingEvent:
 
     jam         a front flank against a back flank: the driven wheel can neither lag nor run ahead
     clash       a tooth comes in against a tip: a jam
-    standstill  the driven wheel stands, since the couple that pushed it has left and none has reached it
+    dwell  the driven wheel stands, since the couple that pushed it has left and none has reached it
     disengaged  no tooth is in reach on the one side or the other
 
     start, end         driver's angle (rad) from the start of the cycle
@@ -347,7 +347,7 @@ class MeshingEvents:
     """All events of a cycle in order, and the least play in it (rad of the driven wheel; below 0 where it jams)."""
 
     all: tuple[MeshingEvent, ...]
-    play: float
+    backlash: float
 
     def __bool__(self) -> bool:
         return bool(self.all)
@@ -364,15 +364,15 @@ class MeshingEvents:
     @property
     def jams(self) -> bool:
         """True if flanks jam: whatever the driven wheel does within its play, the pair cannot turn on."""
-        return self.play < 0
+        return self.backlash < 0
 
 
 def find_meshing_events(envelope: ContactEnvelope) -> MeshingEvents:
     """Every event of the cycle of the pair of an envelope, dragged."""
     finder = _Finder(envelope)
-    least, jams = finder.jams()
-    found = [*jams, *finder.clashes(), *finder.standstills(), *finder.gaps()]
-    return MeshingEvents(tuple(sorted(found, key=lambda event: (event.start, event.kind))), least)
+    minimum, jams = finder.jams()
+    found = [*jams, *finder.clashes(), *finder.dwells(), *finder.gaps()]
+    return MeshingEvents(tuple(sorted(found, key=lambda event: (event.start, event.kind))), minimum)
 
 
 class _Finder:
@@ -389,7 +389,7 @@ class _Finder:
         """A position as the mirrored pair sees it, and back: it is its own inverse."""
         return -1 - n, self.pitch - u
 
-    def play(self, n: Ints, u: Floats) -> Floats:
+    def backlash(self, n: Ints, u: Floats) -> Floats:
         """How far the driven wheel could be turned on (rad of it)."""
         ahead, behind = self.front.first(n, u).lag, self.back.first(*self._behind(n, u)).lag
         found: Floats = ahead + behind + self.pair.sizes.p2
@@ -427,9 +427,9 @@ class _Finder:
     def _near(self, n: Ints, low: Floats, high: Floats) -> tuple[Ints, Floats, Floats]:
         """The cells in which the play may be least, or below 0: it changes no faster than the speeds allow."""
         edge = np.minimum(1e-12 * self.pitch, (high - low) / 4)
-        ends = np.stack([self.play(n, low + edge), self.play(n, high - edge)])
-        least = ends.min(axis=0)
-        if not np.isfinite(least).any():
+        ends = np.stack([self.backlash(n, low + edge), self.backlash(n, high - edge)])
+        minimum = ends.min(axis=0)
+        if not np.isfinite(minimum).any():
             return n[:0], low[:0], high[:0]
         speeds = [
             side.speed(side.first(*at))
@@ -438,7 +438,7 @@ class _Finder:
         ]
         # half as much again: within a cell speeds may pass those at its ends
         steepest = 1.5 * float(np.ptp(np.concatenate(speeds)))
-        near = least - steepest * (high - low) / 2 < max(float(least.min()), 0.0)
+        near = minimum - steepest * (high - low) / 2 < max(float(minimum.min()), 0.0)
         return n[near], low[near], high[near]
 
     def jams(self) -> tuple[float, list[MeshingEvent]]:
@@ -447,34 +447,34 @@ class _Finder:
         if not len(n):
             return inf, []
         edge = np.minimum(1e-12 * self.pitch, (high - low) / 4)
-        at_low, at_high = self.play(n, low + edge), self.play(n, high - edge)
-        least = np.minimum(at_low, at_high)
-        bad = np.flatnonzero(least < -self.small)
+        at_low, at_high = self.backlash(n, low + edge), self.backlash(n, high - edge)
+        minimum = np.minimum(at_low, at_high)
+        bad = np.flatnonzero(minimum < -self.small)
         n, low, high, at_low, at_high = n[bad], low[bad], high[bad], at_low[bad], at_high[bad]
         worst = np.where(at_low < at_high, low + edge[bad], high - edge[bad])
         for outer, touched in ((low, at_low), (high, at_high)):
             crosses = np.flatnonzero(touched >= -self.small)
             here = n[crosses]
             outer[crosses] = roots_by_chandrupatla(
-                lambda i, u, here=here: self.play(here[i], u),  # type: ignore[misc]
+                lambda i, u, here=here: self.backlash(here[i], u),  # type: ignore[misc]
                 low[crosses],
                 high[crosses],
             )
         front, back = self.front.first(n, worst), self.back.first(*self._behind(n, worst))
         # play that is used up at once was taken by a tooth that came in
-        before = self.play(n, low - 1e-9 * self.pitch)
+        before = self.backlash(n, low - 1e-9 * self.pitch)
         events = [
             MeshingEvent(
                 "clash" if at_low[at] < -self.small <= before[at] else "jam",
                 float(n[at] * self.pitch + low[at]),
                 float(n[at] * self.pitch + high[at]),
-                -float(least[bad[at]]),
-                self.teeth(front.couple[at]),
-                self.teeth(back.couple[at], True),
+                -float(minimum[bad[at]]),
+                self.teeth(front.tooth_pair[at]),
+                self.teeth(back.tooth_pair[at], True),
             )
             for at in range(len(n))
         ]
-        return float(least_of(least)), self._merged(events)
+        return float(minimum_of(minimum)), self._merged(events)
 
     def _merged(self, events: list[MeshingEvent]) -> list[MeshingEvent]:
         """Events that follow each other without a gap as one, that of the greatest amount; round the cycle too."""
@@ -500,15 +500,15 @@ class _Finder:
         k = self.front.every[np.isfinite(self.front.reaches)]
         reach = self.front.reaches[k]
         n, u = self.front.position(k, reach)
-        own = self.front.lag_of(k, reach, self.pair.couples(k).contact(reach))
+        own = self.front.lag_of(k, reach, self.pair.tooth_pairs(k).contact(reach))
         over = self.front.first(n, u, besides=k).lag - own
         return [self._at(n[at], u[at], "clash", float(over[at]), k[at]) for at in np.flatnonzero(over > self.small)]
 
-    def _at(self, n: int, u: float, kind: MeshingEventKind, amount: float, couple: int) -> MeshingEvent:
+    def _at(self, n: int, u: float, kind: MeshingEventKind, amount: float, tooth_pair: int) -> MeshingEvent:
         start = float(n % self.pair.count * self.pitch + u)
-        return MeshingEvent(kind, start, start, amount, self.teeth(couple), None)
+        return MeshingEvent(kind, start, start, amount, self.teeth(tooth_pair), None)
 
-    def standstills(self) -> list[MeshingEvent]:
+    def dwells(self) -> list[MeshingEvent]:
         """Stretches in which the couple that pushed has left."""
         cycle: ContactIntervals = find_contact_intervals(self.front)
         middle = (cycle.start + cycle.end) / 2
@@ -520,7 +520,7 @@ class _Finder:
         starts, ends = (cycle.n * self.pitch + each for each in (cycle.start, cycle.end))
         events = [
             MeshingEvent(
-                "standstill", float(starts[at]), float(ends[at]), float(gap), self.teeth(first.couple[at]), None
+                "dwell", float(starts[at]), float(ends[at]), float(gap), self.teeth(first.tooth_pair[at]), None
             )
             for at, gap in zip(still, lost, strict=True)
             if ends[at] - starts[at] > ROUNDING * self.pitch
@@ -538,7 +538,7 @@ class _Finder:
     def _pushing(self, start: float, end: float) -> tuple[int, int]:
         middle = np.array([(start + end) / 2 / self.pitch])
         n = np.floor(middle).astype(np.int64)
-        return self.teeth(self.front.first(n, (middle - n) * self.pitch).couple[0])
+        return self.teeth(self.front.first(n, (middle - n) * self.pitch).tooth_pair[0])
 
     def _gaps(self, side: ContactEnvelope, turned: bool) -> Iterator[tuple[float, float]]:
         cycle = self.pair.count * self.pitch
@@ -559,7 +559,7 @@ class _Finder:
                 yield (start, end) if not turned else ((-end) % cycle, (-end) % cycle + end - start)
 
 
-def least_of(values: Floats) -> float:
+def minimum_of(values: Floats) -> float:
     """The least; inf of none."""
     return float(values.min()) if len(values) else inf
 
@@ -612,18 +612,18 @@ class CutPairLaw:
         """dq/dS; 0 where the driven wheel stands still."""
         return self._map(S, self._envelope.speed)
 
-    def play(self, S: ArrayLike) -> Floats:
+    def backlash(self, S: ArrayLike) -> Floats:
         """How far the driven wheel could be turned on (rad of it); below 0 it jams there, inf if nothing stops it."""
         ahead = self._map(S, lambda found: found.lag)
         back = ContactEnvelope(self._envelope.pair.mirrored, dragged=False)
         behind = self._map(S, lambda found: found.lag, back, -1)
-        play: Floats = ahead + behind + self.pair.sizes.p2
-        return play
+        backlash: Floats = ahead + behind + self.pair.sizes.p2
+        return backlash
 
     def driving(self, S: ArrayLike) -> tuple[Ints, Ints]:
         """Numbers of the driver's tooth and the driven tooth that touch, or touched last."""
-        couple = self._map(S, lambda found: found.couple).astype(np.int64)
-        k, back = (couple, 0) if self.direction > 0 else (-couple, 1)
+        tooth_pair = self._map(S, lambda found: found.tooth_pair).astype(np.int64)
+        k, back = (tooth_pair, 0) if self.direction > 0 else (-tooth_pair, 1)
         return k % self.pair.sizes.z1, (k + back) % self.pair.sizes.z2
 
     def _map(self, S: ArrayLike, what: Any, envelope: ContactEnvelope | None = None, sense: int = 1) -> Floats:
@@ -700,13 +700,13 @@ def roots_by_chandrupatla(value: Value, low: Floats, high: Floats) -> Floats:
         best = np.where(np.abs(at_a[i]) < np.abs(at_b[i]), a[i], b[i])
         found[i] = best
         width = np.abs(b[i] - a[i])
-        least = 2 * np.spacing(np.abs(best)) + 1e-300  # at a root of 0, too, the width must come below something
-        part[i] = _next(a[i], b[i], c[i], at_a[i], at_b[i], at_c[i], least / np.maximum(width, least))
-        open_[i] = (width > 2 * least) & (here != 0)
+        minimum = 2 * np.spacing(np.abs(best)) + 1e-300  # at a root of 0, too, the width must come below something
+        part[i] = _next(a[i], b[i], c[i], at_a[i], at_b[i], at_c[i], minimum / np.maximum(width, minimum))
+        open_[i] = (width > 2 * minimum) & (here != 0)
     return found
 
 
-def _next(a: Floats, b: Floats, c: Floats, at_a: Floats, at_b: Floats, at_c: Floats, least: Floats) -> Floats:
+def _next(a: Floats, b: Floats, c: Floats, at_a: Floats, at_b: Floats, at_c: Floats, minimum: Floats) -> Floats:
     """The share of the bracket to go next: by inverse quadratic interpolation where it is safe, else half."""
     with np.errstate(all="ignore"):
         xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)
@@ -716,4 +716,4 @@ def _next(a: Floats, b: Floats, c: Floats, at_a: Floats, at_b: Floats, at_c: Flo
         share += (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)
     share = np.where(safe & np.isfinite(share), share, 0.5)
     # a step that no longer moves a float would be lost; nor may the two limits cross
-    return np.clip(share, np.minimum(least, 0.5), np.maximum(1 - least, 0.5))
+    return np.clip(share, np.minimum(minimum, 0.5), np.maximum(1 - minimum, 0.5))

@@ -30,7 +30,7 @@ DrivenApex: TypeAlias = tuple[Any, Any, Any, Any, Any]
 """sin x, cos x, arm R2 cos(beta2) - v with v of Eq. (16, lesser root), and sine and cosine of alpha_2."""
 
 
-class ToothCouple:
+class ToothPair:
     """The constants of one couple of teeth, and what follows from them at any position."""
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")

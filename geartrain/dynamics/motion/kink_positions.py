@@ -19,13 +19,13 @@ from geartrain.dynamics.motion.error_composition import ErrorComposition, InputP
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
-from geartrain.teeth.transmission_table import folded_corners
+from geartrain.teeth.transmission_table import folded_kinks
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.numerics.arrays import Floats, Indices
 
-MOST_CORNERS = 20_000_000
+MOST_KINKS = 20_000_000
 """More corners are not listed at once."""
 
 _STEPS = 4  # a period of the fastest law: so narrow a step is monotonic, or its driver turns slowly at an end
@@ -38,12 +38,12 @@ _SAME = 1e-9  # of a period: two corners so near are one found twice, from eithe
 _NEAR = 1e-11  # of a period beyond a step, in which its corners are sought too: rounding must lose none at its end
 
 
-class CornerPositions(NamedTuple):
+class KinkPositions(NamedTuple):
     """Where the input stands as pairs pass corners of their laws, in ascending order.
 
     See Also
     --------
-    Motion.corner_positions : what gives these.
+    Motion.kink_positions : what gives these.
     """
 
     turns: Floats
@@ -68,20 +68,20 @@ class InputSteps(NamedTuple):
 
 
 @dataclass(frozen=True)
-class PairCorners:
+class PairKinks:
     """The corners of one law, and its driver's angle by turns of the input.
 
-    corners    rad, within one period, each once
+    kinks    rad, within one period, each once
     """
 
     source: PairErrorSource
     drivers: ErrorComposition
 
     @cached_property
-    def corners(self) -> Floats:
+    def kinks(self) -> Floats:
         """Driver's angles (rad) at which the law has a corner, within a period, each once."""
-        period = self.source.law.period
-        found = folded_corners(self.source.law)
+        period = self.source.transmission.period
+        found = folded_kinks(self.source.transmission)
         # one at 0 may be told again, by rounding, just before the period ends
         apart = np.diff(found, append=found[:1] + period) > _NEAR * period
         return np.asarray(found[apart]) if apart.any() else found[:1]
@@ -104,7 +104,7 @@ class PairCorners:
 
         A corner at the end of a step may stand twice.
         """
-        if not len(self.corners) or not len(steps.low):
+        if not len(self.kinks) or not len(steps.low):
             return np.zeros((2, 0))
         (low, speed_low), (high, speed_high) = self.shift(steps.low), self.shift(steps.high)
         if (np.minimum(speed_low, speed_high) < _SLOW * self.source.mean).any():
@@ -132,18 +132,18 @@ class PairCorners:
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
         """As `between`, in steps in which the driver turns one way, from its shifts at their ends (rad)."""
-        period, cycles = self.source.law.period, self.source.cycles
+        period, cycles = self.source.transmission.period, self.source.cycles
         width = steps.high - steps.low
         phase = np.mod(InputPhase(steps.low).cycles(cycles) * period + self.source.start + low, period)
         travel = float(cycles) * period * width + (high - low)
-        least, most = np.minimum(0, travel) - _NEAR * period, np.maximum(0, travel) + _NEAR * period
-        first = np.ceil((phase[:, None] + least[:, None] - self.corners) / period)
-        count = np.floor((phase[:, None] + most[:, None] - self.corners) / period) - first + 1
+        minimum, most = np.minimum(0, travel) - _NEAR * period, np.maximum(0, travel) + _NEAR * period
+        first = np.ceil((phase[:, None] + minimum[:, None] - self.kinks) / period)
+        count = np.floor((phase[:, None] + most[:, None] - self.kinks) / period) - first + 1
         # an angle that is not known, where no teeth touch, passes none
         count = np.where(np.isfinite(count), np.maximum(count, 0), 0).astype(np.intp)
-        step, corner = (np.repeat(each, count.ravel()) for each in np.indices(count.shape).reshape(2, -1))
+        step, kink = (np.repeat(each, count.ravel()) for each in np.indices(count.shape).reshape(2, -1))
         nth = np.arange(len(step)) - np.repeat(np.cumsum(count) - count.ravel(), count.ravel())
-        level = self.corners[corner] + (first[step, corner] + nth) * period - phase[step]
+        level = self.kinks[kink] + (first[step, kink] + nth) * period - phase[step]
 
         def beyond(share: Floats, which: Indices) -> Floats:
             at = step[which]
@@ -152,13 +152,13 @@ class PairCorners:
 
         ends = np.zeros(len(step)), np.ones(len(step))
         share = roots_by_false_position(beyond, *ends, -level, travel[step] - level, _FINE)
-        return np.stack([steps.low[step] + share * width[step], corner])
+        return np.stack([steps.low[step] + share * width[step], kink])
 
     def once(self, found: Floats) -> Floats:
         """Turns in order from what `between` gave, a corner that was found from either side of a place only once."""
-        turns, corner = found[:, np.lexsort(found)]
+        turns, kink = found[:, np.lexsort(found)]
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
-        again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(corner, prepend=-1) == 0)
+        again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(kink, prepend=-1) == 0)
         return np.sort(turns[~again])
 
 
@@ -169,14 +169,14 @@ def _filled(chosen: Floats, values: Floats, ends: Floats) -> Floats:
     return found
 
 
-class CornerSearch:
+class KinkSearch:
     """Corners of all pairs that an output of a composition depends on."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition = composition
 
     @cached_property
-    def pairs(self) -> tuple[PairCorners, ...]:
+    def pairs(self) -> tuple[PairKinks, ...]:
         """The pairs with their drivers' angles."""
         joints = self.composition.spread.joints
         found = []
@@ -184,13 +184,13 @@ class CornerSearch:
             joint = joints[source.pair]
             seen = SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
             drivers = ErrorComposition(self.composition.spread, self.composition.sources, (seen,))
-            found.append(PairCorners(source, drivers))
+            found.append(PairKinks(source, drivers))
         return tuple(found)
 
     @cached_property
     def rate(self) -> float:
         """Corners passed a turn of the input, on average."""
-        return sum(float(pair.source.cycles) * len(pair.corners) for pair in self.pairs)
+        return sum(float(pair.source.cycles) * len(pair.kinks) for pair in self.pairs)
 
     @cached_property
     def step(self) -> float:
@@ -208,15 +208,15 @@ class CornerSearch:
             ends[at == number] = end
             yield InputSteps(ends[:-1], ends[1:])
 
-    def between(self, steps: InputSteps) -> CornerPositions:
+    def between(self, steps: InputSteps) -> KinkPositions:
         """The corners within some narrow steps."""
         return self._joined([[pair.between(steps)] for pair in self.pairs])
 
-    def over(self, start: float, end: float) -> CornerPositions:
+    def over(self, start: float, end: float) -> KinkPositions:
         """The corners from one position of the input to a greater one, both included."""
-        if (expected := self.rate * (end - start)) > MOST_CORNERS:
+        if (expected := self.rate * (end - start)) > MOST_KINKS:
             what = f"from {start:g} to {end:g} turns pairs pass some {expected:.2g} corners of their laws"
-            why = f"at most {MOST_CORNERS:g} are listed"
+            why = f"at most {MOST_KINKS:g} are listed"
             raise QuestionError(Problem(what, why, "ask for fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]
         for steps in self.steps(start, end):
@@ -224,10 +224,10 @@ class CornerSearch:
                 parts.append(pair.between(steps))
         return self._joined(found)
 
-    def _joined(self, found: list[list[Floats]]) -> CornerPositions:
+    def _joined(self, found: list[list[Floats]]) -> KinkPositions:
         """What was found of each pair, in parts, in one order."""
         each = [pair.once(np.concatenate(parts, axis=1)) for pair, parts in zip(self.pairs, found, strict=True)]
         turns = np.concatenate(each or [np.zeros(0)])
         pair = np.repeat(np.arange(len(each)), [len(part) for part in each])
         order = np.argsort(turns, kind="stable")
-        return CornerPositions(turns[order], pair[order], tuple(pair.source.id for pair in self.pairs))
+        return KinkPositions(turns[order], pair[order], tuple(pair.source.id for pair in self.pairs))

@@ -1,7 +1,8 @@
 """Transmission functions as tables that a kernel reads: polynomials on cells, cut where the law has corners.
 
 A blow is a jump of the speed ratio, and a table read across one makes it many small blows that lose less. So cells end
-at `law.corners()`, and each side of a corner follows that side alone. Angle and speed ratio come from one polynomial
+at `transmission.kinks()`, and each side of a corner follows that side alone. Angle and speed ratio come from one
+polynomial
 and its derivative: what holds the gap of two flanks closed is then the gradient of that gap to the last digit.
 
 Motion, which asks one law at many angles at once, reads error and speed from a table each
@@ -17,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geartrain.numerics.kernels import kernel
-from geartrain.teeth.transmission_table import DEGREE, CellTable, fit, folded_corners
+from geartrain.teeth.transmission_table import DEGREE, CellTable, fit, folded_kinks
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
@@ -27,7 +28,7 @@ TOLERANCE = 1e-10  # of a driven pitch: the rounding of angles after a thousand 
 _SAME = 1e-6  # of the mean ratio: a smaller jump is a kink
 
 
-class LawTables(NamedTuple):
+class PairTables(NamedTuple):
     """Periodic functions of a driver's angle, one after another."""
 
     period: Floats
@@ -50,7 +51,7 @@ class LawTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """One function for `LawTables`."""
+    """One function for `PairTables`."""
 
     slope: float
     table: CellTable
@@ -62,25 +63,25 @@ class TabledFunction(NamedTuple):
         return found
 
 
-def tabled_angle(law: TransmissionFunction, tolerance: float = TOLERANCE) -> TabledFunction:
+def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANCE) -> TabledFunction:
     """The driven angle q(S) of a law, whose derivative is its speed ratio."""
-    ratio = float(law.ratio)
-    cuts = folded_corners(law)
-    table = fit(law.error, law.period, cuts, tolerance * (ratio or 1.0) * law.period)
-    away = 1e-9 * law.period
-    jumps = np.abs(law.speed(cuts + away) - law.speed(cuts - away))
-    least = np.min(jumps[jumps > _SAME * (ratio or 1.0)], initial=inf)
-    return TabledFunction(ratio, table, float(least))
+    ratio = float(transmission.ratio)
+    cuts = folded_kinks(transmission)
+    table = fit(transmission.error, transmission.period, cuts, tolerance * (ratio or 1.0) * transmission.period)
+    away = 1e-9 * transmission.period
+    jumps = np.abs(transmission.speed(cuts + away) - transmission.speed(cuts - away))
+    minimum = np.min(jumps[jumps > _SAME * (ratio or 1.0)], initial=inf)
+    return TabledFunction(ratio, table, float(minimum))
 
 
 def tabled_function(
-    function: Callable[[Floats], Floats], law: TransmissionFunction, tolerance: float = 1e-8
+    function: Callable[[Floats], Floats], transmission: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
     """A function of the driver's angle that has the corners of a law, such as what its friction adds to an arm."""
-    return TabledFunction(0.0, fit(function, law.period, folded_corners(law), tolerance), inf)
+    return TabledFunction(0.0, fit(function, transmission.period, folded_kinks(transmission), tolerance), inf)
 
 
-def join_tables(functions: Sequence[TabledFunction]) -> LawTables:
+def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
     """Functions in the arrays that kernels read; a function's number is its place in the sequence."""
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
@@ -96,7 +97,7 @@ def join_tables(functions: Sequence[TabledFunction]) -> LawTables:
         start.append(cells)
         cells += table.cells
         pieces += len(table.middles)
-    return LawTables(
+    return PairTables(
         np.array([each.table.period for each in functions], dtype=np.float64),
         np.array([each.slope for each in functions], dtype=np.float64),
         np.array([each.table.cells for each in functions], dtype=np.int64),
@@ -110,29 +111,29 @@ def join_tables(functions: Sequence[TabledFunction]) -> LawTables:
 
 
 @kernel
-def value_and_slope(laws: LawTables, which: int, S: float) -> tuple[float, float]:
+def value_and_slope(transmissions: PairTables, which: int, S: float) -> tuple[float, float]:
     """A function and its derivative at a driver's angle (rad)."""
-    period = laws.period[which]
+    period = transmissions.period[which]
     u = S - floor(S / period) * period
     if not 0.0 <= u < period:  # rounded up to it, or so far that no digit is left, or no number
         u = 0.0
-    cell = int(u * laws.cells[which] / period)
-    cell = min(cell, laws.cells[which] - 1)
-    piece = laws.first[laws.start[which] + cell]
-    while u >= laws.ends[piece]:
+    cell = int(u * transmissions.cells[which] / period)
+    cell = min(cell, transmissions.cells[which] - 1)
+    piece = transmissions.first[transmissions.start[which] + cell]
+    while u >= transmissions.ends[piece]:
         piece += 1
-    x = u - laws.middles[piece]
+    x = u - transmissions.middles[piece]
     # Horner's scheme for the polynomial and its derivative, DEGREE = 4
-    value = laws.coefficients[piece, 4]
+    value = transmissions.coefficients[piece, 4]
     slope = value
-    value = value * x + laws.coefficients[piece, 3]
+    value = value * x + transmissions.coefficients[piece, 3]
     slope = slope * x + value
-    value = value * x + laws.coefficients[piece, 2]
+    value = value * x + transmissions.coefficients[piece, 2]
     slope = slope * x + value
-    value = value * x + laws.coefficients[piece, 1]
+    value = value * x + transmissions.coefficients[piece, 1]
     slope = slope * x + value
-    value = value * x + laws.coefficients[piece, 0]
-    return value + laws.slope[which] * S, slope + laws.slope[which]
+    value = value * x + transmissions.coefficients[piece, 0]
+    return value + transmissions.slope[which] * S, slope + transmissions.slope[which]
 
 
 def _joined(parts: Sequence[Floats | Ints], kind: type) -> Any:

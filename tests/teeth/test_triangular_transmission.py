@@ -46,17 +46,17 @@ def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> Trian
     return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
-def laws(seed: int, number: int, most: float, kind: str = "runs", friction: float = 0.2):
+def transmissions(seed: int, number: int, most: float, kind: str = "runs", friction: float = 0.2):
     """Random pairs with a verdict, friction below locking."""
     random = Random(seed)
     while number:
         sizes = TriangularSizes(*drawn(random, most, "near"))
         if random.random() < 0.3:
             sizes = sizes.swapped()
-        law = TriangularTransmission(sizes, friction)
-        if law.verdict.kind == kind and friction < 0.9 * law.locking_friction:
+        transmission = TriangularTransmission(sizes, friction)
+        if transmission.verdict.kind == kind and friction < 0.9 * transmission.locking_friction:
             number -= 1
-            yield sizes, law, random
+            yield sizes, transmission, random
 
 
 # ----------------------------------------------------------------------------------------------------- printed results
@@ -64,24 +64,26 @@ def laws(seed: int, number: int, most: float, kind: str = "runs", friction: floa
 
 @pytest.mark.parametrize(("z1", "z2", "excess", "jumps"), PRINTED)
 def test_jumps_and_phases_of_the_source(z1: int, z2: int, excess: float, jumps: dict[str, float]) -> None:
-    law = TriangularTransmission(equally_deep(z1, z2, excess), 0.2)
-    assert {jump.kind: round(jump.value, 4) for jump in law.jumps} == jumps
-    assert law.verdict
+    transmission = TriangularTransmission(equally_deep(z1, z2, excess), 0.2)
+    assert {jump.kind: round(jump.value, 4) for jump in transmission.jumps} == jumps
+    assert transmission.verdict
 
 
 @pytest.mark.parametrize(("z1", "z2", "excess", "speeds", "efficiency", "peak_to_peak", "active"), MORE_DIGITS)
 def test_more_digits_of_the_source(z1, z2, excess, speeds, efficiency, peak_to_peak, active) -> None:
     sizes = equally_deep(z1, z2, excess)
-    law, pair = TriangularTransmission(sizes, 0.2), Pair.of(sizes)
+    transmission, pair = TriangularTransmission(sizes, 0.2), Pair.of(sizes)
     true = [pair.speed(x, s.phase) for s in pair.path for x in (s.start, s.end)]
     low, high = pair.error_range
     assert (float(min(true)), float(max(true))) == pytest.approx(speeds, rel=1e-12)
     assert float(pair.mean_efficiency(0.2)[0]) == pytest.approx(efficiency, rel=1e-12)
     assert degrees(high - low) == pytest.approx(peak_to_peak, rel=1e-12)
-    assert law.speed_range() == pytest.approx(speeds, rel=1e-12)
-    assert law.efficiency_mean() == pytest.approx(efficiency, rel=1e-12)
-    assert degrees(law.error_range()[1] - law.error_range()[0]) == pytest.approx(peak_to_peak, rel=2e-12)
-    ends = sorted((degrees(interval.end), degrees(interval.start)) for interval in law.intervals)
+    assert transmission.speed_range() == pytest.approx(speeds, rel=1e-12)
+    assert transmission.efficiency_mean() == pytest.approx(efficiency, rel=1e-12)
+    assert degrees(transmission.error_range()[1] - transmission.error_range()[0]) == pytest.approx(
+        peak_to_peak, rel=2e-12
+    )
+    ends = sorted((degrees(interval.end), degrees(interval.start)) for interval in transmission.intervals)
     joined = [(ends[0][0], ends[-1][1])] if len(active) == 1 else ends
     assert [tuple(round(end, 4) for end in each) for each in joined] == active
 
@@ -97,34 +99,34 @@ CASES = [
 
 
 @pytest.mark.parametrize(("most", "number"), CASES)
-@pytest.mark.parametrize("kind", ["runs", "standstill"])
+@pytest.mark.parametrize("kind", ["runs", "dwell"])
 def test_transmission_error_at_50_digits(kind: str, most: float, number: int) -> None:
     """Within a pitch, and over a turn, where an angle of many pitches has its own rounding; both directions."""
-    for sizes, law, random in laws(31, number, most, kind, 0.0):
+    for sizes, transmission, random in transmissions(31, number, most, kind, 0.0):
         pair, back = Pair.of(sizes), TriangularTransmission(sizes, direction=-1)
         left = min(1.0, 100 * float((pair.R1 + pair.R2 - pair.D) / pair.h))
-        assert back.verdict == law.verdict
-        for direction, one in ((1, law), (-1, back)):
+        assert back.verdict == transmission.verdict
+        for direction, one in ((1, transmission), (-1, back)):
             for S in (random.uniform(0, sizes.p1), random.uniform(-2 * pi, 2 * pi)):
                 error = abs(float(one.error(S)) - pair.error(S, direction)) / pair.p2
                 assert error * left < 1e-12 + 1e-16 * abs(S) / sizes.p1, (sizes, S, direction)
         low, high = pair.error_range
-        assert abs(law.error_range()[0] - low) * left < 1e-12 * pair.p2, sizes
-        assert abs(law.error_range()[1] - high) * left < 1e-12 * pair.p2, sizes
+        assert abs(transmission.error_range()[0] - low) * left < 1e-12 * pair.p2, sizes
+        assert abs(transmission.error_range()[1] - high) * left < 1e-12 * pair.p2, sizes
 
 
 @pytest.mark.parametrize("number", [pytest.param(5), pytest.param(150, marks=pytest.mark.long)])
-@pytest.mark.parametrize("kind", ["runs", "standstill"])
+@pytest.mark.parametrize("kind", ["runs", "dwell"])
 def test_mean_efficiencies_are_their_integrals(kind: str, number: int) -> None:
     """Eq. (34) at constant driver torque, and at constant load torque, over the driver's angle in contact."""
-    for sizes, law, _ in laws(32, number, 1e3, kind):
+    for sizes, transmission, _ in transmissions(32, number, 1e3, kind):
         pair = Pair.of(sizes)
         steepest = max(float(pair.lean(x, s.phase)) for s in pair.path if s.held is None for x in (s.start, s.end))
         if 1 - 0.2 * tan(steepest) < 0.5:
             continue
         at_driver, at_load = pair.mean_efficiency(mp.mpf(0.2))
-        assert law.efficiency_mean() == pytest.approx(float(at_driver), rel=1e-12), sizes
-        assert law.efficiency_at_constant_load() == pytest.approx(float(at_load), rel=1e-11), sizes
+        assert transmission.efficiency_mean() == pytest.approx(float(at_driver), rel=1e-12), sizes
+        assert transmission.efficiency_at_constant_load() == pytest.approx(float(at_load), rel=1e-11), sizes
 
 
 def moments(pair: Pair) -> tuple[float, float]:
@@ -142,10 +144,10 @@ def moments(pair: Pair) -> tuple[float, float]:
 @pytest.mark.parametrize("number", [pytest.param(8), pytest.param(200, marks=pytest.mark.long)])
 def test_moments_of_the_error_are_their_integrals(number: int) -> None:
     """Where no flank in contact leans beyond 75 deg."""
-    for sizes, law, _ in laws(33, number, 1e3, friction=0.0):
+    for sizes, transmission, _ in transmissions(33, number, 1e3, friction=0.0):
         pair = Pair.of(sizes)
         if max(pair.lean(x, s.phase) for s in pair.path for x in (s.start, s.end)) < radians(75):
-            assert law.error_moments() == pytest.approx(moments(pair), abs=1e-12 * sizes.p2), sizes
+            assert transmission.error_moments() == pytest.approx(moments(pair), abs=1e-12 * sizes.p2), sizes
 
 
 @pytest.mark.parametrize(
@@ -156,92 +158,101 @@ def test_moments_of_the_error_are_their_integrals(number: int) -> None:
     ],
 )
 def test_moments_of_the_error_of_steep_flanks_are_their_integrals(sizes: TriangularSizes) -> None:
-    law = TriangularTransmission(sizes)
-    assert law.verdict
-    assert law.error_moments() == pytest.approx(moments(Pair.of(sizes)), abs=1e-12 * sizes.p2)
+    transmission = TriangularTransmission(sizes)
+    assert transmission.verdict
+    assert transmission.error_moments() == pytest.approx(moments(Pair.of(sizes)), abs=1e-12 * sizes.p2)
 
 
-def test_the_least_efficiency_is_the_least_of_a_fine_scan() -> None:
-    for sizes, law, _ in laws(34, 12, 300):
-        S = np.linspace(0, law.period, 20001)
-        least = float(law.efficiency(S).min())
-        assert law.efficiency_least() == pytest.approx(least, abs=1e-4), sizes
-        assert law.efficiency_least() <= least + 1e-12, sizes
-        assert law.efficiency_least() > 0
+def test_the_minimum_efficiency_is_the_minimum_of_a_fine_scan() -> None:
+    for sizes, transmission, _ in transmissions(34, 12, 300):
+        S = np.linspace(0, transmission.period, 20001)
+        minimum = float(transmission.efficiency(S).min())
+        assert transmission.efficiency_minimum() == pytest.approx(minimum, abs=1e-4), sizes
+        assert transmission.efficiency_minimum() <= minimum + 1e-12, sizes
+        assert transmission.efficiency_minimum() > 0
 
 
 # ------------------------------------------------------------------------------------------------------- over pitches
 
 
-def test_the_mean_of_the_law_is_the_ratio_of_teeth() -> None:
+def test_the_mean_of_the_transmission_is_the_ratio_of_teeth() -> None:
     """From any angle, a whole number of pitches turns the driven wheel by as many of its own."""
-    for kind in ("runs", "standstill"):
-        for sizes, law, random in laws(35, 10, 1e4, kind, 0.0):
-            assert law.ratio == Fraction(sizes.z1, sizes.z2)
-            assert law.period == pytest.approx(2 * pi / sizes.z1, rel=1e-15)
-            S, pitches = random.uniform(0, 1) * law.period, 10**6
-            turned = law.angle(S + pitches * law.period) - law.angle(S)
-            assert turned / (pitches * law.period) == pytest.approx(float(law.ratio), rel=1e-14), sizes
+    for kind in ("runs", "dwell"):
+        for sizes, transmission, random in transmissions(35, 10, 1e4, kind, 0.0):
+            assert transmission.ratio == Fraction(sizes.z1, sizes.z2)
+            assert transmission.period == pytest.approx(2 * pi / sizes.z1, rel=1e-15)
+            S, pitches = random.uniform(0, 1) * transmission.period, 10**6
+            turned = transmission.angle(S + pitches * transmission.period) - transmission.angle(S)
+            assert turned / (pitches * transmission.period) == pytest.approx(float(transmission.ratio), rel=1e-14), (
+                sizes
+            )
 
 
-def test_the_law_repeats_at_every_pitch() -> None:
-    for sizes, law, random in laws(36, 20, 1e4):
-        S = np.array([random.uniform(-1, 1) * law.period for _ in range(50)])
+def test_the_transmission_repeats_at_every_pitch() -> None:
+    for sizes, transmission, random in transmissions(36, 20, 1e4):
+        S = np.array([random.uniform(-1, 1) * transmission.period for _ in range(50)])
         for pitches in (1, -7, 1000):
-            again = law.error(S + pitches * law.period)
-            assert np.abs(again - law.error(S)).max() < 1e-12 * sizes.p2, sizes
+            again = transmission.error(S + pitches * transmission.period)
+            assert np.abs(again - transmission.error(S)).max() < 1e-12 * sizes.p2, sizes
 
 
 def test_the_mean_speed_over_a_pitch_is_the_ratio() -> None:
-    for sizes, law, _ in laws(37, 12, 1e3):
+    for sizes, transmission, _ in transmissions(37, 12, 1e3):
         points, weights = np.polynomial.legendre.leggauss(40)
-        edges = sorted({0.0, law.period, *(float(corner) % law.period for corner in corners(law))})
+        edges = sorted({0.0, transmission.period, *(float(kink) % transmission.period for kink in kinks(transmission))})
         mean = sum(
-            (high - low) / 2 * float(weights @ law.speed((low + high) / 2 + (high - low) / 2 * points))
+            (high - low) / 2 * float(weights @ transmission.speed((low + high) / 2 + (high - low) / 2 * points))
             for low, high in pairwise(edges)
-            if high - low > 1e-13 * law.period
+            if high - low > 1e-13 * transmission.period
         )
-        assert mean / law.period == pytest.approx(float(law.ratio), rel=1e-10), sizes
+        assert mean / transmission.period == pytest.approx(float(transmission.ratio), rel=1e-10), sizes
 
 
-def corners(law: TriangularTransmission) -> list[float]:
-    return [end * -1.0 for interval in law.intervals for end in (interval.start, interval.end)]
+def kinks(transmission: TriangularTransmission) -> list[float]:
+    return [end * -1.0 for interval in transmission.intervals for end in (interval.start, interval.end)]
 
 
 def test_speed_is_the_slope_of_the_angle() -> None:
-    for sizes, law, random in laws(38, 30, 1e3):
-        S = random.uniform(0, 1) * law.period
-        step = 1e-5 * law.period
-        if min(abs((S - corner + law.period / 2) % law.period - law.period / 2) for corner in corners(law)) < 2 * step:
+    for sizes, transmission, random in transmissions(38, 30, 1e3):
+        S = random.uniform(0, 1) * transmission.period
+        step = 1e-5 * transmission.period
+        if (
+            min(
+                abs((S - kink + transmission.period / 2) % transmission.period - transmission.period / 2)
+                for kink in kinks(transmission)
+            )
+            < 2 * step
+        ):
             continue
-        slope = (law.error(S + step) - law.error(S - step)) / (2 * step) + float(law.ratio)
-        assert float(law.speed(S)) == pytest.approx(slope, rel=1e-7), sizes
+        slope = (transmission.error(S + step) - transmission.error(S - step)) / (2 * step) + float(transmission.ratio)
+        assert float(transmission.speed(S)) == pytest.approx(slope, rel=1e-7), sizes
 
 
 def test_backwards_the_back_flanks_drive() -> None:
     """angle_back(S) = p2 - angle_forward(-S)."""
-    for kind in ("runs", "standstill"):
-        for sizes, law, random in laws(39, 15, 1e3, kind):
+    for kind in ("runs", "dwell"):
+        for sizes, transmission, random in transmissions(39, 15, 1e3, kind):
             back = TriangularTransmission(sizes, 0.2, -1)
-            S = np.array([random.uniform(-2, 2) * law.period for _ in range(200)])
-            assert np.abs(back.angle(S) - (sizes.p2 - law.angle(-S))).max() < 1e-13 * sizes.p2 + 1e-15
-            assert np.array_equal(back.speed(S), law.speed(-S))
-            assert np.array_equal(back.efficiency(S), law.efficiency(-S), equal_nan=True)
-            play = back.angle(S) - law.angle(S)
-            assert play.min() >= law.verdict.play - 1e-12 * sizes.p2
+            S = np.array([random.uniform(-2, 2) * transmission.period for _ in range(200)])
+            assert np.abs(back.angle(S) - (sizes.p2 - transmission.angle(-S))).max() < 1e-13 * sizes.p2 + 1e-15
+            assert np.array_equal(back.speed(S), transmission.speed(-S))
+            assert np.array_equal(back.efficiency(S), transmission.efficiency(-S), equal_nan=True)
+            backlash = back.angle(S) - transmission.angle(S)
+            assert backlash.min() >= transmission.verdict.backlash - 1e-12 * sizes.p2
             low, high = back.error_range()
             assert (low, high) == pytest.approx(
-                (sizes.p2 - law.error_range()[1], sizes.p2 - law.error_range()[0]), abs=1e-15 + 1e-13 * sizes.p2
+                (sizes.p2 - transmission.error_range()[1], sizes.p2 - transmission.error_range()[0]),
+                abs=1e-15 + 1e-13 * sizes.p2,
             )
 
 
 def test_any_shape_of_angles_gives_that_shape() -> None:
-    law = TriangularTransmission(equally_deep(48, 96, 0.01), 0.2)
+    transmission = TriangularTransmission(equally_deep(48, 96, 0.01), 0.2)
     S = np.linspace(-3, 9, 40000).reshape(8, 50, 100)
-    for what in (law.error, law.speed, law.efficiency, law.alpha1):
+    for what in (transmission.error, transmission.speed, transmission.efficiency, transmission.alpha1):
         assert what(S).shape == S.shape
         assert what(S)[3, 7, 9] == what(S[3, 7, 9])
-    assert law.error(0.5).shape == ()
+    assert transmission.error(0.5).shape == ()
 
 
 # ----------------------------------------------------------------------------------------------------------- collisions
@@ -249,11 +260,11 @@ def test_any_shape_of_angles_gives_that_shape() -> None:
 
 def test_collisions_share_the_work_of_the_driver() -> None:
     """Handed to the driven side, J w^2 (after^2 - before^2)/2; dissipated, J w^2 (after - before)^2/2."""
-    for kind in ("runs", "standstill"):
-        for sizes, law, random in laws(40, 10, 1e3, kind):
+    for kind in ("runs", "dwell"):
+        for sizes, transmission, random in transmissions(40, 10, 1e3, kind):
             inertia, omega = random.uniform(0.01, 3), random.uniform(0.1, 20)
             pairs = Pair.of(sizes).jumps
-            handed, dissipated, work = collision_energies(law.speed_leaps(), inertia, omega)
+            handed, dissipated, work = collision_energies(transmission.speed_leaps(), inertia, omega)
             scale = inertia * omega**2
             assert handed == pytest.approx(float(sum(b**2 - a**2 for a, b in pairs) / 2) * scale, rel=1e-9)
             assert dissipated == pytest.approx(float(sum((b - a) ** 2 for a, b in pairs) / 2) * scale, rel=1e-9)
@@ -263,40 +274,42 @@ def test_collisions_share_the_work_of_the_driver() -> None:
 
 
 def test_in_every_collision_the_driven_wheel_is_the_slower() -> None:
-    for _, law, _ in laws(41, 25, 1e4):
-        assert law.jumps
-        assert all(0 < jump.value < 1 for jump in law.jumps)
+    for _, transmission, _ in transmissions(41, 25, 1e4):
+        assert transmission.jumps
+        assert all(0 < jump.value < 1 for jump in transmission.jumps)
 
 
 def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
-    for sizes, law, _ in laws(42, 15, 300):
-        S = np.linspace(0, law.period, 20001)
-        speed = law.speed(S)
-        smooth = np.abs(np.diff(law.alpha1(S)) + np.diff(S)) < 1e-9 * law.period
+    for sizes, transmission, _ in transmissions(42, 15, 300):
+        S = np.linspace(0, transmission.period, 20001)
+        speed = transmission.speed(S)
+        smooth = np.abs(np.diff(transmission.alpha1(S)) + np.diff(S)) < 1e-9 * transmission.period
         fall = (-np.diff(speed) / np.diff(S))[smooth]
-        fall = fall[fall < 4 * np.median(np.abs(fall)) + 10 * law.steepest_fall()]
-        cut = np.sort(fall)[: -8 * len(law.intervals)]
-        assert law.steepest_fall() >= max(0.0, cut.max()) * (1 - 1e-3), sizes
+        fall = fall[fall < 4 * np.median(np.abs(fall)) + 10 * transmission.steepest_fall()]
+        cut = np.sort(fall)[: -8 * len(transmission.intervals)]
+        assert transmission.steepest_fall() >= max(0.0, cut.max()) * (1 - 1e-3), sizes
 
 
 # --------------------------------------------------------------------------------------------------------- standstills
 
 
 def test_a_driven_wheel_that_stands_never_turns_back_nor_lags() -> None:
-    for sizes, law, _ in laws(43, 15, 300, "standstill", 0.0):
-        S = np.linspace(-1.3 * law.period, 2.1 * law.period, 4001)
-        q = law.angle(S)
+    for sizes, transmission, _ in transmissions(43, 15, 300, "dwell", 0.0):
+        S = np.linspace(-1.3 * transmission.period, 2.1 * transmission.period, 4001)
+        q = transmission.angle(S)
         assert np.diff(q).min() >= -1e-12 * sizes.p2, sizes
         first = first_of_all(Pair.of(sizes, np), -S)
         assert (-q <= first + 1e-10 * sizes.p2).all(), sizes
-        still = law.speed(S) == 0
-        assert still.any() or law.contact.idle < 1e-3 * law.period
-        assert np.isnan(law.efficiency(S)[still]).all()
-        assert not np.isnan(law.efficiency(S)[~still]).any()
-        assert law.speed_range()[0] == 0.0
-        idle = sum(interval.width for interval in law.intervals if interval.held is not None)
-        assert law.contact.idle == pytest.approx(idle, rel=1e-12)
-        assert sum(interval.width for interval in law.intervals) == pytest.approx(law.period, rel=1e-12)
+        still = transmission.speed(S) == 0
+        assert still.any() or transmission.contact.idle < 1e-3 * transmission.period
+        assert np.isnan(transmission.efficiency(S)[still]).all()
+        assert not np.isnan(transmission.efficiency(S)[~still]).any()
+        assert transmission.speed_range()[0] == 0.0
+        idle = sum(interval.width for interval in transmission.intervals if interval.held is not None)
+        assert transmission.contact.idle == pytest.approx(idle, rel=1e-12)
+        assert sum(interval.width for interval in transmission.intervals) == pytest.approx(
+            transmission.period, rel=1e-12
+        )
 
 
 def test_astride_the_efficiency_is_the_highest_of_the_source() -> None:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutToothPairs
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class BacklashCandidate:
     phases: tuple[str, str]
     offset: float
     """Of x there from half of n pitches (rad)."""
-    play: float
+    backlash: float
     """There (rad of the driven wheel)."""
 
 
@@ -48,7 +48,7 @@ def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, 
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
 
-def least_backlash_sum(
+def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
     """Least sum of the two contacts, each in one phase, within the common reach, and where; inf where there is none.
@@ -56,8 +56,8 @@ def least_backlash_sum(
     Newton's method safeguarded by bisection, from half way; the last step is taken in the value, by a parabola.
     """
     low, high = common(front, back, delta)
-    least, most = low, high
-    near = _NEAR * (most - least)
+    minimum, most = low, high
+    near = _NEAR * (most - minimum)
     with np.errstate(all="ignore"):
         # nan and inf of couples that are never in reach together are set aside at the end
         x = np.clip(delta / 2, low, high)
@@ -67,7 +67,7 @@ def least_backlash_sum(
             step = x - slope / bend
             # a step out of the bracket, or none where the bend is 0 or NaN, is a bisection: so every element converges
             step = np.where((step >= low) & (step <= high), step, low + (high - low) / 2)
-            done = not (np.abs(step - x) > np.where(least < most, near, inf)).any()
+            done = not (np.abs(step - x) > np.where(minimum < most, near, inf)).any()
             x = step
             if done:
                 break
@@ -75,7 +75,7 @@ def least_backlash_sum(
         value = front.angle(phases[0], x, np) + back.angle(phases[1], delta - x, np)
         step = np.where(bend > 0, slope / bend, inf)
         value = value - np.where(np.abs(step) < near, slope * step / 2, 0.0)  # at an end of the reach it is no bottom
-        return np.where(least < most, value, inf), x
+        return np.where(minimum < most, value, inf), x
 
 
 def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str], x: Any) -> tuple[Any, Any]:
@@ -83,11 +83,11 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
     return slope, front.slope(phases[0], x, np) + back.slope(phases[1], delta - x, np)
 
 
-def least_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
+def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
     """The least of f(x) + f'(delta - x) over the common reach (rad); inf where there is none."""
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
-        values = [least_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
+        values = [minimum_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
         ends = [np.where(low < high, front.contact(x) + back.contact(delta - x), inf) for x in (low, high)]
         return np.fmin.reduce(np.broadcast_arrays(*values, *ends))
 
@@ -100,18 +100,18 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
     """Every way in which teeth of even wheels come near to jamming, up to `most` couples apart; the nearest first."""
-    couple = even_tooth_pair(sizes)
+    tooth_pair = even_tooth_pair(sizes)
     found = []
     for n, phases in product(range(-most, most + 1), PHASES):
         delta = n * sizes.p1
-        if abs(delta) < 2 * float(couple.reach):
-            value, x = least_backlash_sum(couple, couple, np.array(delta), phases)
+        if abs(delta) < 2 * float(tooth_pair.reach):
+            value, x = minimum_backlash_sum(tooth_pair, tooth_pair, np.array(delta), phases)
             found.append(BacklashCandidate(n, phases, float(x) - delta / 2, float(value) + (1 - n) * sizes.p2))
         elif phases == PHASES[-1 if n > 0 else 0]:
             # only errors bring both into reach: then tips meet tips
-            tips = -2 * float(np.sign(n) * couple.exit_angle)
+            tips = -2 * float(np.sign(n) * tooth_pair.exit_angle)
             found.append(BacklashCandidate(n, phases, 0.0, tips + (1 - n) * sizes.p2))
-    return tuple(sorted(found, key=lambda each: each.play))
+    return tuple(sorted(found, key=lambda each: each.backlash))
 
 
 def farthest(pair: CutGearPair) -> int:
@@ -121,12 +121,12 @@ def farthest(pair: CutGearPair) -> int:
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
 
 
-def steepest(couple: CutToothPairs) -> float:
+def steepest(tooth_pair: CutToothPairs) -> float:
     """The greatest speed ratio of a couple, where its tips meet as it comes in; 0 where it never does."""
-    if not couple.reach > 0:
+    if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):
-        tau = float(couple.approach_speed(couple.reach, np))
+        tau = float(tooth_pair.approach_speed(tooth_pair.reach, np))
     return tau if 0 < tau < inf else inf
 
 
@@ -134,7 +134,7 @@ def nominal_backlash(sizes: TriangularSizes) -> float:
     """The least play of wheels without errors, in pitches of the driven wheel; below 0 they jam."""
     from geartrain.teeth.triangular.clearance_window import TriangularContact
 
-    return TriangularContact(sizes).play / sizes.p2
+    return TriangularContact(sizes).backlash / sizes.p2
 
 
 def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
@@ -148,11 +148,11 @@ def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
         raise RangeError(
             Problem(f"{sigma:g} is no standard deviation", "it is a number of pitches", "give 0 or more, and finite")
         )
-    play = nominal_backlash(sizes)
-    if play < 0:
+    backlash = nominal_backlash(sizes)
+    if backlash < 0:
         return 1.0
     if sigma == 0:
         return 0.0
-    couples = sizes.z1 * sizes.z2 // gcd(sizes.z1, sizes.z2)
+    tooth_pairs = sizes.z1 * sizes.z2 // gcd(sizes.z1, sizes.z2)
     # Q(x) = erfc(x / sqrt 2) / 2 keeps its digits in the tail, where 1 - Phi(x) has none
-    return min(1.0, 2 * couples * erfc(play / (2 * sigma) / sqrt(2)) / 2)
+    return min(1.0, 2 * tooth_pairs * erfc(backlash / (2 * sigma) / sqrt(2)) / 2)

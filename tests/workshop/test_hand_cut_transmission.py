@@ -8,18 +8,18 @@ from typing import Literal
 import numpy as np
 import pytest
 from polygons import Judge, Outline
-from studies.cut_pair_law import CutPairLaw
+from studies.cut_pair_transmission import CutPairLaw
 from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 
 from geartrain import load
 from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop.cutting.cut_wheel import CutWheel
-from geartrain.workshop.cutting.least_backlash import even_tooth_pair, jamming_bound, nominal_backlash
 from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
+from geartrain.workshop.cutting.minimum_backlash import even_tooth_pair, jamming_bound, nominal_backlash
 
 THIRTY = radians(30)
 
@@ -47,33 +47,33 @@ EXACT = [(64, 38, 0.02), (48, 24, 0.02), (45, 225, 0.01), (45, 225, 0.0165), (64
 
 
 @pytest.mark.parametrize(("z1", "z2", "excess"), EXACT)
-def test_without_errors_the_law_is_that_of_even_wheels(z1: int, z2: int, excess: float) -> None:
+def test_without_errors_the_transmission_is_that_of_even_wheels(z1: int, z2: int, excess: float) -> None:
     sizes = equally_deep(z1, z2, excess)
     S = np.random.default_rng(1).uniform(-4 * pi, 4 * pi, 2000)
     for direction in (1, -1):
-        law, cut = (
+        transmission, cut = (
             TriangularTransmission(sizes, 0.0, direction),
             CutPairLaw.of(sizes, *even(sizes), direction=direction),
         )
-        assert np.abs(cut.error(S) - law.error(S)).max() < 1e-14 * sizes.p2
-        assert np.abs(cut.speed(S) - law.speed(S)).max() < 1e-13 * float(law.ratio)
+        assert np.abs(cut.error(S) - transmission.error(S)).max() < 1e-14 * sizes.p2
+        assert np.abs(cut.speed(S) - transmission.speed(S)).max() < 1e-13 * float(transmission.ratio)
 
 
 @pytest.mark.parametrize(("z1", "z2", "excess"), [(16, 12, 0.02), (12, 60, 0.025), (24, 12, 0.09), (20, 15, 0.004)])
 def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: int, excess: float) -> None:
     sizes = equally_deep(z1, z2, excess)
-    law, cut = TriangularTransmission(sizes), CutPairLaw.of(sizes, *even(sizes))
+    transmission, cut = TriangularTransmission(sizes), CutPairLaw.of(sizes, *even(sizes))
     kinds = {event.kind for event in cut.events.all}
-    assert (law.verdict.kind in kinds) if law.verdict.kind != "runs" else not kinds
-    assert cut.events.play == pytest.approx(law.verdict.play, abs=1e-12 * sizes.p2)
-    assert cut.error_range() == pytest.approx(law.error_range(), abs=1e-12 * sizes.p2)
-    assert cut.error_moments() == pytest.approx(law.error_moments(), abs=1e-12 * sizes.p2)
-    assert cut.speed_range() == pytest.approx(law.speed_range(), rel=1e-9)
-    if law.verdict.kind == "standstill":
-        stills = cut.events.of("standstill")
+    assert (transmission.verdict.kind in kinds) if transmission.verdict.kind != "runs" else not kinds
+    assert cut.events.backlash == pytest.approx(transmission.verdict.backlash, abs=1e-12 * sizes.p2)
+    assert cut.error_range() == pytest.approx(transmission.error_range(), abs=1e-12 * sizes.p2)
+    assert cut.error_moments() == pytest.approx(transmission.error_moments(), abs=1e-12 * sizes.p2)
+    assert cut.speed_range() == pytest.approx(transmission.speed_range(), rel=1e-9)
+    if transmission.verdict.kind == "dwell":
+        stills = cut.events.of("dwell")
         assert len(stills) == lcm(z1, z2)
-        assert stills[0].amount == pytest.approx(law.contact.lost, rel=1e-9)
-        assert sum(e.end - e.start for e in stills) / len(stills) == pytest.approx(law.contact.idle, rel=1e-9)
+        assert stills[0].amount == pytest.approx(transmission.contact.lost, rel=1e-9)
+        assert sum(e.end - e.start for e in stills) / len(stills) == pytest.approx(transmission.contact.idle, rel=1e-9)
 
 
 # ------------------------------------------------------------------------------------------------------------ outlines
@@ -108,10 +108,10 @@ def drawn(rng: np.random.Generator, ring: Literal[0, 1, 2] = 0) -> tuple[Triangu
             outlines.append(Outline(theta, r, b + less, b + more, wheel.radius < 0).about(e, towards))
         shift = 0.02 * min(sizes.depths) * rng.standard_normal()
         try:
-            law = CutPairLaw.of(sizes, *wheels, shift)
+            transmission = CutPairLaw.of(sizes, *wheels, shift)
         except (RangeError, TypeError):
             continue
-        return sizes, law, Judge(outlines[0], outlines[1], sizes.D + shift)
+        return sizes, transmission, Judge(outlines[0], outlines[1], sizes.D + shift)
 
 
 @pytest.mark.parametrize("ring", [0, 1, 2])
@@ -123,11 +123,11 @@ def test_cut_wheels_touch_where_their_outlines_do(number: int, ring: Literal[0, 
     """
     rng, far, jammed, across = np.random.default_rng(4), 0.0, 0, 0
     for _ in range(number):
-        sizes, law, judge = drawn(rng, ring)
-        S = rng.uniform(0, law.period, 10)
-        upper = -law.error(S) - sizes.ratio * S
-        lower = upper - law.play(S)
-        still = law.speed(S) == 0
+        sizes, transmission, judge = drawn(rng, ring)
+        S = rng.uniform(0, transmission.period, 10)
+        upper = -transmission.error(S) - sizes.ratio * S
+        lower = upper - transmission.backlash(S)
+        still = transmission.speed(S) == 0
         low, high = judge.free(-S, -sizes.ratio * S - sizes.p2 / 2, 0.75 * sizes.p2, 100)
         both = np.isfinite(upper) & np.isfinite(lower)
         jams = both & (lower > upper)
@@ -159,7 +159,7 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
     sizes = sizes.at(find_window(sizes).at(0.85))
     rng = np.random.default_rng(6)
     places = [0.03 * 2 * pi / z * rng.standard_normal(z) for z in (20, 30)]
-    law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+    transmission = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
     judge = Judge(
         *(
             Outline(np.arange(w.z) * w.pitch + p, np.full(w.z, w.radius), *np.full((2, w.z), THIRTY))
@@ -167,14 +167,14 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
         ),
         sizes.D,
     )
-    stills = law.events.of("standstill")
+    stills = transmission.events.of("dwell")
     assert stills
     still = max(stills, key=lambda event: event.end - event.start)
     S = np.linspace(still.start - 0.2 * sizes.p1, still.end + 0.2 * sizes.p1, 60)
     # tip at tip the couple that leaves is thin: steps across it must be finer still
     S = np.sort(np.append(S, still.start - 0.2 * sizes.p1 * 0.9 ** np.arange(230)))
-    y = np.array([-float(law.angle(S[0]))]) - 1e-9 * sizes.p2
-    for angle, q in zip(S[1:], law.angle(S[1:]), strict=True):
+    y = np.array([-float(transmission.angle(S[0]))]) - 1e-9 * sizes.p2
+    for angle, q in zip(S[1:], transmission.angle(S[1:]), strict=True):
         t = np.array([-angle])
         if judge.overlap(t, y)[0]:
             low, high = y - 0.1 * sizes.p2, y
@@ -198,8 +198,12 @@ def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> N
             sizes = equally_deep(16, 12, 0.0)
             sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
             places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
-            law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
-            if law.events and {event.kind for event in law.events.all} == {"clash"} and law.events.play >= 0:
+            transmission = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+            if (
+                transmission.events
+                and {event.kind for event in transmission.events.all} == {"clash"}
+                and transmission.events.backlash >= 0
+            ):
                 break
         judge = Judge(
             *(
@@ -208,10 +212,10 @@ def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> N
             ),
             sizes.D,
         )
-        clash = law.events.stop
+        clash = transmission.events.stop
         S = np.arange(clash.start - 0.05 * sizes.p1, clash.start + sizes.p1, sizes.p1 / steps)
         # no pair of teeth of these turns the driven wheel on as fast as 4 times the mean
-        y, on = -float(law.angle(S[0])) - 1e-9, np.linspace(0, 4 * sizes.p2 / steps, 21)
+        y, on = -float(transmission.angle(S[0])) - 1e-9, np.linspace(0, 4 * sizes.p2 / steps, 21)
         for angle in S[1:]:
             hit = judge.overlap(np.full(21, -angle), y - on)
             if hit.all():
@@ -222,7 +226,7 @@ def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> N
         else:
             skipped += 1
             assert clash.amount > 0.1 * sizes.p2
-            assert float(law.angle(angle)) + y > 0.6 * sizes.p2  # behind the law of its pushing flanks
+            assert float(transmission.angle(angle)) + y > 0.6 * sizes.p2  # behind the law of its pushing flanks
     assert skipped <= 0.05 * number
 
 
@@ -239,7 +243,7 @@ def test_a_tooth_broken_off_lets_the_wheels_lose_each_other() -> None:
     gaps = events.of("disengaged")
     assert len(gaps) >= lcm(12, 18) // 12
     assert bool(events.of("disengaged"))
-    assert events.of("standstill")
+    assert events.of("dwell")
     assert all(event.amount == inf for event in gaps)
 
 
@@ -301,7 +305,7 @@ PLACES = CuttingErrorModel(ErrorDistribution(0.04))
         pytest.param(PLACES, 2, id="places-2", marks=pytest.mark.slow),
     ],
 )
-def test_a_batch_says_of_each_what_its_own_law_says(
+def test_a_batch_says_of_each_what_its_own_transmission_says(
     cutting: CuttingErrorModel, ring: Literal[0, 1, 2], number: int
 ) -> None:
     """Play, clash, standstill and gap of random pairs, on both sides of their windows."""
@@ -330,11 +334,11 @@ def test_a_batch_says_of_each_what_its_own_law_says(
             events = CutPairLaw.of(sizes, driver.trial(at), driven.trial(at), here).events
             if not (ring and found.disengaged[at]):  # where no tooth is in reach the play is that of no position
                 near = (1e-6 if cutting is PLACES else 1e-8) * sizes.p2
-                assert found.play[at] == pytest.approx(events.play, abs=near)
+                assert found.backlash[at] == pytest.approx(events.backlash, abs=near)
             assert found.disengaged[at] == bool(events.of("disengaged"))
-            assert found.standstill[at] == bool(events.of("standstill"))
+            assert found.dwell[at] == bool(events.of("dwell"))
             assert found.stops[at] == (events.stop is not None)
-            kinds += [found.jams[at], found.clash[at], found.standstill[at], not found.stops[at]]
+            kinds += [found.jams[at], found.clash[at], found.dwell[at], not found.stops[at]]
     assert kinds.min() >= 1, kinds
 
 
@@ -344,12 +348,12 @@ def test_trials_do_not_know_each_other() -> None:
     driver, driven = cut(sizes, rng, 12, EVERY)
     whole = batch_verdicts(sizes, driver, driven)
     for parts in (batch_verdicts(sizes, driver, driven, chunk=1), batch_verdicts(sizes, driver, driven, chunk=300)):
-        assert np.abs(parts.play - whole.play).max() < 1e-10 * sizes.p2
+        assert np.abs(parts.backlash - whole.backlash).max() < 1e-10 * sizes.p2
         assert (parts.stops == whole.stops).all()
     one = driven.trial(3)
     shared = batch_verdicts(sizes, driver, one)
     copied = batch_verdicts(sizes, driver, stacked([one] * 12))
-    assert np.abs(shared.play - copied.play).max() < 1e-10 * sizes.p2
+    assert np.abs(shared.backlash - copied.backlash).max() < 1e-10 * sizes.p2
 
 
 def test_places_alone_are_reckoned_in_another_way_with_the_same_result() -> None:
@@ -360,8 +364,8 @@ def test_places_alone_are_reckoned_in_another_way_with_the_same_result() -> None
         driver, driven = cut(sizes, rng, 12, CuttingErrorModel(ErrorDistribution(sigma)))
         placed = batch_verdicts(sizes, driver, driven)
         general = batch_verdicts(sizes, driver.grown(1e-14 * np.ones(z1)), driven)
-        assert np.abs(placed.play - general.play).max() < 1e-5 * sizes.p2
-        for name in ("jams", "clash", "standstill", "disengaged"):
+        assert np.abs(placed.backlash - general.backlash).max() < 1e-5 * sizes.p2
+        for name in ("jams", "clash", "dwell", "disengaged"):
             assert (getattr(placed, name) == getattr(general, name)).all(), name
 
 
@@ -371,9 +375,9 @@ def test_shifted_axles_are_another_centre_distance() -> None:
     apart = sizes.at(0.03)
     found = batch_verdicts(sizes, driver, driven, apart.D - sizes.D)
     true = batch_verdicts(apart, driver, driven)
-    assert np.abs(found.play - true.play).max() < 1e-10 * sizes.p2
+    assert np.abs(found.backlash - true.backlash).max() < 1e-10 * sizes.p2
     each = batch_verdicts(sizes, driver, driven, np.full(20, apart.D - sizes.D))
-    assert np.abs(each.play - true.play).max() < 1e-5 * sizes.p2
+    assert np.abs(each.backlash - true.backlash).max() < 1e-5 * sizes.p2
 
 
 @pytest.mark.parametrize("ring", [0, 1, 2])
@@ -381,9 +385,9 @@ def test_shifted_axles_are_another_centre_distance() -> None:
 def test_the_derivatives_of_a_contact_are_those_of_its_angle(phase: str, ring: Literal[0, 1, 2]) -> None:
     """Newton's method finds the least play by them."""
     sizes = with_ring(24, 15, ring)
-    couple = even_tooth_pair(sizes.at(find_window(sizes).at(0.5)))
-    x, step = np.linspace(-0.9, 0.9, 7) * couple.reach, 1e-5
-    for function, derivative in ((couple.angle, couple.speed), (couple.speed, couple.slope)):
+    tooth_pair = even_tooth_pair(sizes.at(find_window(sizes).at(0.5)))
+    x, step = np.linspace(-0.9, 0.9, 7) * tooth_pair.reach, 1e-5
+    for function, derivative in ((tooth_pair.angle, tooth_pair.speed), (tooth_pair.speed, tooth_pair.slope)):
         low, high = function(phase, x - step, np), function(phase, x + step, np)
         assert derivative(phase, x, np) == pytest.approx((high - low) / (2 * step), rel=1e-6, abs=1e-8)
 
@@ -391,8 +395,8 @@ def test_the_derivatives_of_a_contact_are_those_of_its_angle(phase: str, ring: L
 # ----------------------------------------------------------------------------------------------- printed figures
 
 
-def test_the_nominal_play_of_the_table() -> None:
-    for z1, z2, excess, play in [
+def test_the_nominal_backlash_of_the_table() -> None:
+    for z1, z2, excess, backlash in [
         (64, 38, 0.01, 0.136),
         (64, 38, 0.02, 0.368),
         (64, 38, 0.03, 0.585),
@@ -400,7 +404,7 @@ def test_the_nominal_play_of_the_table() -> None:
         (127, 32, 0.01, 0.176),
         (45, 225, 0.01, 0.394),
     ]:
-        assert round(nominal_backlash(equally_deep(z1, z2, excess)), 3) == play
+        assert round(nominal_backlash(equally_deep(z1, z2, excess)), 3) == backlash
 
 
 @pytest.mark.parametrize(
@@ -466,6 +470,6 @@ def test_wheels_whose_tips_do_not_meet_touch_nowhere_and_stop_nothing() -> None:
     assert sizes.R1 + sizes.R2 < sizes.D
     driver, driven = cut(sizes, np.random.default_rng(5), 3, PLACES)
     found = batch_verdicts(sizes, driver, driven, 0.0)
-    assert found.play.tolist() == [np.inf] * 3
+    assert found.backlash.tolist() == [np.inf] * 3
     assert found.disengaged.all()
-    assert not (found.stops | found.standstill).any()
+    assert not (found.stops | found.dwell).any()

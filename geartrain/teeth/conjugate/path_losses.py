@@ -52,7 +52,7 @@ _STEP, _STEPS = 1.25, 40  # growth of the bracket, and how often it may grow: by
 
 
 @dataclass(frozen=True, slots=True)
-class PathCosts(Result):
+class PathLosses(Result):
     """Costs of a path under one assumption on the load, friction and load taken out; lengths in modules or radians.
 
     See Also
@@ -76,12 +76,12 @@ class PathCosts(Result):
     flash: float
     """Maximum of what the flash temperature is proportional to."""
 
-    def over(self, other: PathCosts) -> dict[str, float]:
+    def over(self, other: PathLosses) -> dict[str, float]:
         """Each of the quantities as a ratio to another path's.
 
         Parameters
         ----------
-        other : PathCosts
+        other : PathLosses
             Under the same assumption.
         """
         return {name: getattr(self, name) / getattr(other, name) for name in LOADED}
@@ -98,9 +98,9 @@ class PathMeasures(Result):
 
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
 
-    one_pair: PathCosts
+    one_pair: PathLosses
     """Costs where one pair carries the load."""
-    shared: PathCosts
+    shared: PathLosses
     """Costs where the pairs in contact share the load equally."""
     depth: float
     """Working depth |eta_a| + eta_r."""
@@ -155,7 +155,7 @@ def measure(path: PathOfContact) -> PathMeasures:
     0.155
     """
     alone = [(-path.arcs[0], path.arcs[1], 1)]
-    slowest = -greatest(path, lambda c: -np.minimum(c.U1, c.U2))
+    slowest = -maximum(path, lambda c: -np.minimum(c.U1, c.U2))
     if min(path.arcs) >= 0:
         slowest = min(slowest, float(path.at(0.0).sin_psi))
     return PathMeasures(
@@ -188,17 +188,17 @@ def sharing(path: PathOfContact) -> list[Stretch]:
     return found
 
 
-def _costs(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathCosts:
+def _costs(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
     """The costs where as many pairs as the stretches say share the load."""
     pitch = path.pitch
     bound = 0.1 * pitch.p
 
     # H, the square of the pressure, and heat go with the force on a pair; flash with its power of 3/4
     def most(what: Callable[[PathContact], Floats], power: float, beyond: float = 0.0) -> float:
-        return max(float(greatest(path, what, beyond, low, high) / count**power) for low, high, count in stretches)
+        return max(float(maximum(path, what, beyond, low, high) / count**power) for low, high, count in stretches)
 
     rubbed = sum(_rubbed(path, low, high) / count for low, high, count in stretches)
-    return PathCosts(
+    return PathLosses(
         assumption=assumption,
         loss=(pitch.A + pitch.B) * rubbed / sum((high - low) / count for low, high, count in stretches),
         stress=most(lambda c: c.H, 1.0) ** 0.5,
@@ -250,11 +250,11 @@ def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end
 def sliding(path: PathOfContact) -> tuple[float, float]:
     """Greatest sliding over the pitch-line speed, and over the slower of the contact's speeds along the flanks."""
     pitch = path.pitch
-    slide = greatest(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
-    return slide, greatest(path, lambda c: c.Q1.clip(c.Q2) * c.cos_psi)
+    slide = maximum(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
+    return slide, maximum(path, lambda c: c.Q1.clip(c.Q2) * c.cos_psi)
 
 
-def greatest(
+def maximum(
     path: PathOfContact,
     what: Callable[[PathContact], Floats],
     beyond: float = 0.0,
@@ -359,7 +359,7 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
         found: Floats = -power / contact.cos_psi
         return found
 
-    steepest = greatest(path, lean)
+    steepest = maximum(path, lean)
     return 1 / steepest if steepest > 0 else inf
 
 

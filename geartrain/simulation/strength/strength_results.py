@@ -90,7 +90,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     def _summary(self) -> str:
         weakest = self.weakest
-        found = "" if weakest is None else f", least safety {weakest.safety:.4g} ({weakest.what} of {weakest.part})"
+        found = "" if weakest is None else f", minimum safety {weakest.safety:.4g} ({weakest.what} of {weakest.part})"
         return f"{self._named}: {self.verdict.kind}{found}, {len(self.pairs)} gear pairs".strip()
 
     @property

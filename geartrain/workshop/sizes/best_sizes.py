@@ -86,7 +86,7 @@ class BestToothSizes(Tabular, Pictured, Result):
         aim = self.aims[0]
         z1, z2 = self.teeth
         best = f"{aim} {getattr(self.best, aim):.4g}"
-        return f"{z1}/{z2} teeth: least {' and '.join(self.aims)}, {best}, {self.evaluations} designs"
+        return f"{z1}/{z2} teeth: minimum {' and '.join(self.aims)}, {best}, {self.evaluations} designs"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

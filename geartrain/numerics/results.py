@@ -214,8 +214,9 @@ class Tabular(Shown):
 
     def _meaning(self, column: str) -> str:
         """The meaning of one column; "" where none is known."""
-        row = getattr(modules[type(self).__module__], self.ROW or type(self).__name__)
-        known = {**field_docs(type(self)), **field_docs(row), **self.MEANINGS}
+        own: Any = type(self)
+        row = getattr(modules[own.__module__], self.ROW or own.__name__)
+        known = {**field_docs(own), **field_docs(row), **self.MEANINGS}
         exact = known.get(column) or _property_doc(getattr(row, column, None))
         return exact or next((text for name, text in known.items() if fnmatchcase(column, name)), "")
 

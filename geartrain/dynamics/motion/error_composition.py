@@ -116,7 +116,8 @@ class ErrorSamples(NamedTuple):
     """Pairs whose driver turns against its mean at one of these positions: their flanks change there, and the law,
     which is that of the flanks in front, does not follow the play."""
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 @dataclass

@@ -53,7 +53,8 @@ class KinkPositions(NamedTuple):
     pairs: tuple[str, ...]
     """Names of pairs and couplings."""
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def names(self) -> list[str]:
         """The pair at each position, by name."""

@@ -251,7 +251,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         return f"{text} [{'turn' if column == 'turns' else self.unit or 'plain number'}]."
 
     def _summary(self) -> str:
-        figures = [self.verdict.kind]
+        figures: list[str] = [self.verdict.kind]
         if self.mean is not None:
             figures.append(f"mean {self.mean:.6g} {self.unit}".rstrip())
         if self.minimum is not None and self.maximum is not None:

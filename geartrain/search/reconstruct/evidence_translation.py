@@ -9,6 +9,7 @@ from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem, first_problems
 from geartrain.kinematics.judged_outputs import goal_of
+from geartrain.numerics.results import Shown
 from geartrain.search.reconstruct.link_roles import (
     BaseLink,
     Joined,
@@ -176,7 +177,7 @@ _MOST_COUNTS = 10_000
 
 
 @dataclass(frozen=True)
-class EvidenceQuestion:
+class EvidenceQuestion(Shown):
     """Typed question of declared evidence, with its base and the unused declarations.
 
     See Also

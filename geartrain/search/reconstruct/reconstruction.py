@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.candidate_rules import check_same, find_known_train
 from geartrain.search.reconstruct.dropped_facts import (
@@ -28,6 +28,7 @@ from geartrain.search.reconstruct.reconstruction_search import (
     ExplanationCount,
     Reconstructions,
     draw_candidates,
+    explanations_text,
     find_reconstructions,
     rank_of,
 )
@@ -42,7 +43,7 @@ _MINIMUM_COMPARED = 2000
 
 
 @dataclass(frozen=True, slots=True)
-class ReconstructionRequest:
+class ReconstructionRequest(Shown):
     """Input of `reconstruct`: evidence, limits and options.
 
     See Also
@@ -153,6 +154,8 @@ class ReconstructionAnswer(Result):
     reconstruct : gives it.
     """
 
+    PAGE = "search.reconstruct.reconstruction_report:describe_reconstruction"
+
     KEYS = (
         "name",
         "requested",
@@ -197,6 +200,11 @@ class ReconstructionAnswer(Result):
     """Evidence of the question. If arbors of a train are lost, it is the evidence that remains."""
     candidates: tuple[Candidate, ...] = ()
     """Candidates that correspond to the entries of `best`."""
+
+    def _summary(self) -> str:
+        return f"{self.name}: {explanations_text(self.counts)}, {len(self.best)} listed" + (
+            "" if self.complete else ", incomplete"
+        )
 
     @property
     def requested(self) -> RequestedQuestion:

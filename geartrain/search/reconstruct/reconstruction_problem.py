@@ -19,7 +19,7 @@ from typing import Literal
 from geartrain.errors import DeclarationError, Problem
 from geartrain.numerics.exact import plural
 from geartrain.numerics.quantity import Quantity
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Result, Shown
 from geartrain.train import Train
 
 Place = tuple[Fraction, Fraction]
@@ -159,7 +159,7 @@ class SurvivingWheel:
 
 
 @dataclass(frozen=True)
-class SurvivingArbor:
+class SurvivingArbor(Shown):
     """Surviving arbor: wheels that are fixed together.
 
     See Also
@@ -174,7 +174,7 @@ class SurvivingArbor:
 
 
 @dataclass(frozen=True)
-class SearchedDial:
+class SearchedDial(Shown):
     """Pointer with the range of its speed and its place.
 
     See Also
@@ -238,7 +238,7 @@ class PriorFactors:
 
 
 @dataclass(frozen=True)
-class ReconstructionProblem:
+class ReconstructionProblem(Shown):
     """Typed question of a reconstruction: surviving arbors, dials and rules.
 
     See Also
@@ -294,7 +294,7 @@ class PlacedWheel:
 
 
 @dataclass(frozen=True)
-class Arbor:
+class Arbor(Shown):
     """Arbor of a candidate with the subtree that it drives, in a canonical form: equal trains compare equal.
 
     See Also

@@ -229,7 +229,7 @@ def _order(arbor: Arbor) -> tuple[int, str]:
 
 
 def _written_out(value: object) -> str:
-    """A candidate with all its parts as text, which orders candidates that are alike otherwise."""
+    """Return a candidate with all its parts as text, which orders candidates of equal weight and size."""
     if isinstance(value, Arbor | PlacedWheel):
         parts = (f"{each.name}={_written_out(getattr(value, each.name))}" for each in fields(value))
         return f"{type(value).__name__}({', '.join(parts)})"

@@ -372,7 +372,7 @@ def test_speeds_beyond_float64_have_shares_and_a_standard_deviation(step: Fracti
     assert abs(Fraction(shares.spread) / (abs(ends[0] - ends[1]) / 2) - 1) < Fraction(1, 10**15)
     assert list(shares.whole.values()) == [1]
     assert shares.to_dict()["mean"] is shares.to_dict()["spread"] is None
-    assert f"e{'+' if up else '-'}35" in repr(describe_posterior(found))
+    assert f"e{'+' if up else '-'}35" in str(describe_posterior(found))
 
 
 def test_a_target_beyond_float64_is_refused_in_words() -> None:

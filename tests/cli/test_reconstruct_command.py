@@ -156,7 +156,8 @@ def test_what_is_told_beyond_counts() -> None:
 def test_assumptions_are_dropped_where_that_is_requested() -> None:
     found = json.loads(call("reconstruct", "back-train", "--assumptions", "--count", "--json").stdout)
     holds("reconstruct", found)
-    assert {one["change"]: one["mechanisms"] for one in found["assumptions"]}["without the sense of any dial"] == [0, 0, 29]
+    trains = {one["change"]: one["mechanisms"] for one in found["assumptions"]}
+    assert trains["without the sense of any dial"] == [0, 0, 29]
     assert found["marginals"] == []
     assert "\nwithout the sense of any dial " in call("reconstruct", "back-train", "--assumptions").stdout
 

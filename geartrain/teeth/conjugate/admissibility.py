@@ -1,7 +1,7 @@
-"""Whether teeth with a path of contact can be made and can drive: undercut, pointed tips, contact ratio.
+"""Checks that teeth with a path of contact can be made and can drive: undercut, pointed tips, contact ratio.
 
-For involutes also: thick teeth, tips too long for roots or mates, undercut by the rack, and tips of a pinion and its
-ring that collide after their teeth have parted.
+Involutes have further checks: backlash, tips too long for the mate's roots or flanks, undercut by the rack, and tips
+of a pinion and its ring gear that collide after their teeth have left contact.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair
 
 Halves = tuple[float, float]
-"""Half the thickness of a tooth of each gear on its pitch surface, as X; infinite for pins, which have no point."""
+"""Half the tooth thickness of each gear on its pitch surface, as X; infinite for pins, which cannot become pointed."""
 
 _SCAN = 257  # contacts of a side: a speed that is below 0 between two of them only is not seen
 _LEAVES = 12.5  # teeth below which clockmakers cut cycloids
@@ -31,12 +31,15 @@ _ROUNDING = 1e-12  # modules
 
 
 def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:
-    """All reasons why teeth with this path cannot run; empty if they can. `halves` default to a quarter pitch."""
+    """Return all reasons why teeth with this path cannot run; empty if they can.
+
+    `halves` default to a quarter pitch.
+    """
     return (*_undercuts(path), *_pointed(path, halves), *_broken(path))
 
 
 def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the contact would stand still on a profile: U = 0, a cusp, and undercut beyond it."""
+    """Yield a fault where the contact speed U along a profile reaches 0: a cusp, with undercut beyond it."""
     for recess in (False, True):
         if not (span := path.span(recess)):
             continue
@@ -60,7 +63,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """X at the first distance where U of one gear is 0."""
+    """Return X at the first distance where the contact speed U of one gear is 0."""
     at = int(np.argmax(U <= 0))
     if at == 0:
         return 0.0
@@ -75,7 +78,7 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
 
 
 def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]:
-    """Where the two flanks of a tooth would meet before its tip."""
+    """Yield a fault where the two flanks of a tooth would intersect before its tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
         if X and (room := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.teeth_of(gear)
@@ -96,7 +99,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
 
 
 def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
-    """X of the contact at which the flanks of a tooth cross; 0 where they do from the first."""
+    """Return X of the contact at which the flanks of a tooth intersect; 0 if they do so from the first contact."""
 
     def room(x: float) -> float:
         return _thickness(path, gear, x, halves)
@@ -108,12 +111,13 @@ def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> f
 
 
 def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
-    """Angle (rad) of the top land of a gear's tooth; negative where its flanks cross. `halves` as in `faults`."""
+    """Return the angle (rad) of the top land of a gear's tooth; negative if its flanks cross. `halves` as in `faults`.
+    """
     return _thickness(path, gear, path.ends(gear)[1], halves)
 
 
 def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
-    """Angle (rad) between the flanks of a tooth where they touch at X."""
+    """Return the angular thickness (rad) of a tooth at the contact X."""
     reach = path.pitch.reach_of(gear)
     half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
     points = path.flank(gear, np.array([X]))[0]
@@ -121,7 +125,8 @@ def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) 
 
 
 def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
-    """How far (rad) a body point is from the direction of the pitch point, towards the middle of its flank's tooth."""
+    """Return the azimuth (rad) of a body point from the pitch point, positive towards the middle of its flank's tooth.
+    """
     _, forwards = path.pitch.polar(gear, point)
     return float(-forwards if gear == 1 else forwards)  # a driver's tooth is behind its flank
 
@@ -144,11 +149,12 @@ def _broken(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def tip_gap(path: PathOfContact) -> float:
-    """Angle (rad of the ring) between the tip of a pinion's tooth and that of the ring's it has driven.
+    """Return the angle (rad of the ring gear) between the tip of a pinion's tooth and the tip of the driven ring tooth.
 
-    Taken where the pinion's tip, the faster, leaves the ring's tip circle; negative where it would have run into the
-    ring's tooth; where it never leaves, on the far side, where the teeth have slipped by half their difference.
-    Infinite for any pair but a spur pinion in a ring with parted tip circles.
+    It is taken where the pinion's tip, which is faster, leaves the ring's tip circle, and is negative if the tip would
+    have run into the ring's tooth. If the pinion's tip never leaves, it is taken on the far side, where the teeth have
+    slipped by half the difference of the tooth numbers. It is infinite unless the pair is a spur pinion in a ring gear
+    with intersecting tip circles.
     """
     pitch = path.pitch
     if pitch.bevel or pitch.R2 > 0:
@@ -167,13 +173,13 @@ def tip_gap(path: PathOfContact) -> float:
 
 
 def _polar(point: Floats, height: float) -> tuple[float, float]:
-    """Distance from a centre at `height` over the pitch point, and azimuth from straight up, forwards."""
+    """Return distance from a centre at `height` above the pitch point, and azimuth (rad) from straight up, forwards."""
     x, y = float(point[0]), float(point[1]) - height
     return (x * x + y * y) ** 0.5, atan2(x, y)
 
 
 def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault, ...]:
-    """All reasons why these wheels cannot run; empty if they can."""
+    """Return all reasons why these involute wheels cannot run; empty if they can."""
     others = (fault for fault in faults(path, pair.halves) if fault.kind != "undercut")
     return (*_jam(pair), *_interference(pair, path), *_undercut(pair, path), *others, *_bottom(pair), *ring_tips(path))
 
@@ -196,7 +202,7 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the tip of the mate goes past the point at which the line of action touches the base circle."""
+    """Yield a fault where the mate's tip passes the point at which the line of action touches the base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
         limit = hypot(mate.base, across)
@@ -218,14 +224,14 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
 
 
 def _tangent(pair: InvolutePair, path: PathOfContact, gear: int) -> float:
-    """Arc from the pitch point to where the line of action touches a gear's base circle: R tan psi."""
+    """Return the arc from the pitch point to the tangent point of line of action and base circle: R tan psi."""
     R = path.pitch.R1 if gear == 1 else path.pitch.R2
     sine = sin(pair.psi)
     return float(R * sine / (1 - sine * sine) ** 0.5)
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the rack's corner has cut away what the mate's tip should work on."""
+    """Yield a fault where the rack's corner has cut away part of the flank that the mate's tip needs."""
     for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
         gone = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
@@ -247,7 +253,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
-    """Where tips touch the bottom of the mate's spaces."""
+    """Yield a fault where tips touch the bottom of the mate's tooth spaces."""
     first, second = pair.first, pair.second
     if second.ring:
         room = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
@@ -266,7 +272,7 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
 
 
 def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the tips of a pinion run into those of its ring after they have parted."""
+    """Yield a fault where the tips of a pinion collide with the tips of its ring gear after the teeth left contact."""
     gap = tip_gap(path)
     if gap < 0:
         pitch = path.pitch

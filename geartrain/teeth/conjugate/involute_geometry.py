@@ -1,7 +1,7 @@
-"""Involute wheels as a rack cuts them: sizes, thickness, the angle at which a pair works, its arcs. Lengths in modules.
+"""Involute wheels cut by a rack: sizes, tooth thickness, working pressure angle of a pair, arcs. Lengths in modules.
 
-The rack is shifted out by `shift` modules. A ring is the space of an outer wheel of its tooth number; its shift counts
-outwards too, so that it widens the ring's spaces.
+The rack is shifted outwards by `shift` modules. A ring gear has the tooth spaces of an external wheel's teeth. Its
+shift also counts outwards, so that it widens the spaces of the ring.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ _ROUNDING = 1e-12  # modules
 
 
 def inv(angle: float) -> float:
-    """The involute function tan x - x, x in rad."""
+    """Return the involute function tan x - x of an angle in rad."""
     return tan(angle) - angle
 
 
 def inv_angle(value: float) -> float:
-    """The angle (rad) whose involute function is `value`, 0 or more."""
+    """Return the angle (rad) whose involute function is `value`, 0 or more."""
     # the tangent is infinite at a right angle
     high = pi / 2 - 1e-9
     return root(lambda x: inv(x) - value, 0.0, high, -value, inv(high) - value) if value else 0.0
@@ -30,7 +30,7 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """One wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad)."""
+    """Involute wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad)."""
 
     z: float
     psi: float
@@ -38,7 +38,7 @@ class InvoluteWheel:
     addendum: float
     dedendum: float
     cut: float
-    """Depth to which the rack's flank is straight: undercut begins where that is too deep."""
+    """Depth to which the rack's flank is straight; undercut begins where this depth is too large."""
     ring: bool = False
 
     @property
@@ -62,12 +62,14 @@ class InvoluteWheel:
         return self.r + self.shift + (self.dedendum if self.ring else -self.dedendum)
 
     def half(self, psi: float) -> float:
-        """Half the thickness of a tooth (rad) on the circle where the pressure angle is `psi`."""
+        """Return half the tooth thickness (rad) on the circle where the pressure angle is `psi` (rad)."""
         sign = -1 if self.ring else 1
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Radius up to which the rack's corner cuts the involute away; 0 where it does not, and for a ring."""
+        """Return the radius up to which the rack's corner cuts the involute away; 0 without undercut and for a ring
+        gear.
+        """
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
             return 0.0
@@ -77,7 +79,8 @@ class InvoluteWheel:
         return root(self._left, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
 
     def _left(self, radius: float) -> float:
-        """Azimuth of the corner's trochoid over that of the involute at a radius: below 0 the corner cuts it."""
+        """Return the azimuth of the corner's trochoid over that of the involute at a radius; below 0 the corner cuts.
+        """
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
         X = -u * tan(psi) - sqrt(radius**2 - below**2)
@@ -89,45 +92,45 @@ class InvoluteWheel:
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Two wheels at a centre distance, the first driving; the second may be a ring."""
+    """Involute wheels at a centre distance, the first driving; the second may be a ring gear."""
 
     first: InvoluteWheel
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """How much thinner than a rack without play cuts them the teeth of both wheels are, summed, as X."""
+    """Reduction of tooth thickness from a rack cut without backlash, summed over both wheels, as X."""
 
     @property
     def psi(self) -> float:
-        """Operating pressure angle (rad): cos psi_w = (base radii summed, or their difference) / distance."""
+        """Operating pressure angle (rad): cos psi_w = (sum or difference of the base radii) / distance."""
         bases = self.second.base - self.first.base if self.second.ring else self.second.base + self.first.base
         return acos(bases / self.distance)
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """The operating pitch circles."""
+        """Operating pitch circles of both wheels."""
         z1, z2 = self.first.z, self.second.z
         scale = self.distance / (z2 - z1 if self.second.ring else z1 + z2)
         return PitchSurfaces(z1, z2, z1 * scale, (-z2 if self.second.ring else z2) * scale)
 
     @property
     def halves(self) -> tuple[float, float]:
-        """Half the thickness of a tooth of each wheel on the operating pitch circles, as X."""
+        """Half the tooth thickness of each wheel on the operating pitch circles, as X."""
         pitch, psi = self.pitch, self.psi
         first, second = self.first.half(psi) * pitch.R1, self.second.half(psi) * abs(pitch.R2)
         return first - self.thinned / 4, second - self.thinned / 4
 
     @property
     def backlash(self) -> float:
-        """Play of the teeth, as X; negative where they jam."""
+        """Circumferential backlash on the operating pitch circle, as X; negative if the teeth jam."""
         return self.pitch.p - 2 * sum(self.halves)
 
     @property
     def arcs(self) -> tuple[float, float]:
         """Arcs of approach and recess (X), from the tip circles.
 
-        One is negative where the tips of a wheel keep off the operating pitch circle: contact is on one side of the
-        pitch point only. Raises `RangeError` where the tips do not reach each other at all.
+        One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one side of
+        the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
         """
         pitch, psi = self.pitch, self.psi
         found = []
@@ -141,10 +144,10 @@ class InvolutePair:
 
 
 def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
-    """The centre distance without play: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
+    """Return the centre distance without backlash: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
 
-    In a ring the pinion's z1 and x1 count negative.
-    Raises `GearTrainError` where the shifts are too far inwards for any.
+    With a ring gear the pinion's z1 and x1 count as negative. Raises `GearTrainError` if the negative shifts are too
+    large for any such distance.
     """
     psi, sign = first.psi, -1 if second.ring else 1
     teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift
@@ -173,14 +176,18 @@ def _apart(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> Rang
 
 
 def base_cone(R: float, psi: float) -> float:
-    """Half-angle (rad) of the base cone of a spherical involute of pitch cone R: sin base = sin R cos psi."""
+    """Return the half-angle (rad) of the base cone of a spherical involute: sin base = sin R cos psi.
+
+    R is the half-angle of the pitch cone.
+    """
     return asin(sin(R) * cos(psi))
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:
-    """Arc (X) over which a spherical involute of pitch cone R reaches its `tip` cone (rad); negative inside the pitch.
+    """Return the arc (X) over which a spherical involute of pitch cone R reaches its `tip` cone (rad).
 
-    cos tip = cos d cos R - sin d sin psi sin R, with cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
+    It is negative if the tip cone is inside the pitch cone. cos tip = cos d cos R - sin d sin psi sin R, where
+    cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
     """
     base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
     # a tip cone inside the base cone is taken for the base cone: the involute begins there
@@ -188,5 +195,5 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
 
 
 def cone_height(R: float, z: float, height: float) -> float:
-    """Angle (rad) by which a height in modules of the large end stands over a pitch cone R."""
+    """Return the angle (rad) above a pitch cone R of a height given in modules of the large end."""
     return atan(height * 2 * sin(R) / z)

@@ -1,12 +1,12 @@
-"""Sides of the optimal shapes: uniform stress, uniform temperature and least friction; and the involute.
+"""Sides of the optimal tooth forms: uniform stress, uniform temperature and minimum friction; and the involute.
 
-A side is described with the coefficient `a` of the gear whose addendum works and `b` of the one whose dedendum does:
-a = A, b = B in recess, exchanged in approach.
+A side is described by the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the one
+whose dedendum works: a = A, b = B in recess, exchanged in approach.
 
-Uniform stress and temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. Chebyshev
-collocation finds the only solution that is bounded there (for pressure angles below 45 deg): a polynomial cannot be
-anything else. Least friction is a ray and one slow piece; docs/shapes.md, section 15, gives the conditions under which
-they are optimal.
+Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. For
+pressure angles below 45 deg exactly one solution is bounded there. Chebyshev collocation finds that solution, because
+polynomials are bounded. Minimum friction is a ray followed by one piece of minimum contact speed. Docs/shapes.md,
+section 15, gives the conditions under which these two pieces are optimal.
 """
 
 from __future__ import annotations
@@ -57,17 +57,23 @@ _GIVEN_UP = 1e-4  # of the end: what cannot be reached nearer than this cannot b
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """A constant pressure angle."""
+    """Return the side of an involute: constant pressure angle `psi` (rad) over an arc X."""
     return PathSide((RayPiece(psi, ray_end(psi, X)),))
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
-    """kr / cos psi constant: w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0."""
+    """Return the side of constant Hertzian pressure, kr / cos psi constant.
+
+    w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0.
+    """
     return PathSide((_reached(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
-    """Uniform stress, docs/shapes.md (8), for v = sin psi: S v' + f(d, v) = 0, `psi` that angle at the pitch point."""
+    """Return f(d, v) and df/dv of uniform stress, docs/shapes.md (8): S v' + f(d, v) = 0 with v = sin psi.
+
+    `psi` is the pressure angle (rad) at the pitch point.
+    """
     k = sin(psi) * cos(psi)
 
     def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
@@ -90,10 +96,10 @@ def _reached(
     start: float = 0.0,
     made: Made | None = None,
 ) -> PathPiece:
-    """The piece that has travelled X at its end, where S v' + f = 0.
+    """Solve S v' + f = 0 for the piece whose displacement at its end is X.
 
-    The solution is one function whatever its end. So it is solved up to a guessed end, and again only where the true
-    end lies beyond; a guess that it cannot reach is drawn in.
+    The solution does not depend on the end. It is therefore solved up to a guessed end, and again only if the true end
+    lies beyond. If the guess cannot be reached, the end is bisected towards the last one that could.
     """
     made = made or _plain
     v: ChebyshevSeries | None = None
@@ -113,7 +119,10 @@ def _reached(
 
 
 def _cut(made: Callable[[float], PathPiece], X: float, v: ChebyshevSeries) -> tuple[float, PathPiece | None]:
-    """Where X is reached, and the piece up to there; None where the series must first be solved up to there."""
+    """Return the distance at which X is reached, and the piece that ends there.
+
+    The piece is None if the series must first be solved up to that distance.
+    """
     end = v.end
     for _ in range(_CUTS):
         piece = made(end)
@@ -127,7 +136,10 @@ def _cut(made: Callable[[float], PathPiece], X: float, v: ChebyshevSeries) -> tu
 
 
 def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
-    """Where the piece has travelled X: Newton on its own series, or one step where that would lead out of it."""
+    """Find the end at which the piece has the displacement X, by Newton's method on its own series.
+
+    Returns one Newton step if further steps would leave the range of the series.
+    """
     most = piece.end + min(_FARTHER, (_REACH / len(v.coefficients)) ** 2) * (piece.end - v.start)
     end, last, first = piece.end, inf, 0.0
     for _ in range(30):
@@ -147,12 +159,12 @@ def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
 
 
 def _plain(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
-    """sin psi is the solution itself."""
+    """Return the piece whose sin psi is the solution itself."""
     return SampledPiece(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callable[[Floats], Floats]:
-    """v' from the equation itself, but for the neighbourhood of the pitch point, where that would be 0/0."""
+    """Return v' from the equation; close to the pitch point, where that would be 0/0, from the series."""
     steep = v.derivative()
 
     def slope(d: Floats) -> Floats:
@@ -164,7 +176,7 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
 
 
 def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
-    """The piece whose end has travelled X: Newton on the end, its slope being 1 / cos psi there."""
+    """Return the piece whose displacement at its end is X, by Newton's method with slope 1 / cos psi at the end."""
     end, last = guess, inf
     piece = made(end)
     for _ in range(30):
@@ -179,13 +191,16 @@ def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathP
 
 
 def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
-    """w = beta S + gamma S / cos psi with psi = 0 at the pitch point; beta = b of the hotter surface (reading b)."""
+    """Return the side of uniform heat over an arc X: w = beta S + gamma S / cos psi, psi = 0 at the pitch point.
+
+    beta is b of the hotter surface (reading b in docs/shapes.md).
+    """
     f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
     return PathSide((_reached(pitch, f, first, _short(beta, gamma, X), X, made=_raised),))
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
-    """Uniform heat, docs/shapes.md (9), for g = sin psi / S: S g' + f(d, g) = 0."""
+    """Return f(d, g) and df/dg of uniform heat, docs/shapes.md (9): S g' + f(d, g) = 0 with g = sin psi / S."""
 
     def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
@@ -198,13 +213,13 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 
 def _short(beta: float, gamma: float, X: float) -> float:
-    """A first guess of the end: the cycloid that touches the path at the pitch point."""
+    """Return a first guess of the end, from the cycloid tangent to the path at the pitch point."""
     rho = 1 / (beta + gamma)
     return circle_end(rho, min(X, 2 * rho))
 
 
 def _raised(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
-    """The solution is g = sin psi / S, of 2 S' g + S g' = beta + gamma / cos psi."""
+    """Return the piece whose solution is g = sin psi / S, with 2 S' g + S g' = beta + gamma / cos psi."""
     steep = _slope(pitch, f, g)
     return SampledPiece(
         lambda d: pitch.S(d) * g(d),
@@ -216,9 +231,10 @@ def _raised(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: flo
 
 
 def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: float) -> PathSide:
-    """A ray of pressure angle `psi` until the dedendum is as hot as allowed, then uniform heat; finite stress.
+    """Return a ray of pressure angle `psi` up to the maximum allowed heat of the dedendum, followed by uniform heat.
 
-    The ray ends where S / S' = sin psi / (b + gamma / cos psi). A ray that never gets so hot is the whole side.
+    Its stress is finite. The ray ends where S / S' = sin psi / (b + gamma / cos psi). If the ray never reaches that heat,
+    it is the whole side.
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
@@ -238,11 +254,11 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 def least_friction(
     pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
 ) -> PathSide:
-    """A ray of the greatest pressure angle, then the least speed `u` along the dedendum, so that the loss is least.
+    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum speed `u` along the dedendum.
 
-    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) where friction
-    depends on speed and `weight` gives mu S at distances d. Raises `RangeError` where the arc is longer than teeth
-    within both bounds reach, and where another shape than these two pieces would lose less.
+    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) if friction
+    depends on speed and `weight` gives mu S at distances d. Raises `RangeError` if the arc is longer than teeth within
+    both bounds can reach, or if a shape other than these two pieces would have less loss.
     """
     loss = pitch.S if weight is None else weight
     longest = ray_end(psi, X)
@@ -289,7 +305,8 @@ def _too_long(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeErro
 
 
 def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
-    """sin psi of the second piece by itself, the same as `SteadySpeedPiece`'s without its series of travel."""
+    """Return sin psi of the second piece as a function of d, like `SteadySpeedPiece` but without its series of travel.
+    """
     eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
 
     def sine(d: Floats) -> Floats:
@@ -300,7 +317,10 @@ def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) 
 
 
 def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
-    """Where the second piece has travelled `rest`: Newton's method, travel by Gauss's rule."""
+    """Find the end at which the second piece has the displacement `rest`.
+
+    The method is Newton's, with the displacement by Gauss-Legendre quadrature.
+    """
     x, weights = _GAUSS
     end, last = first + rest * cos(psi), inf
     for _ in range(30):
@@ -319,7 +339,10 @@ def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
 def _variation(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float, loss: Weight
 ) -> float:
-    """Docs/shapes.md (13): the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi); or (19)."""
+    """Compute the first variation, docs/shapes.md (13) or (19).
+
+    It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi).
+    """
     x, weights = _GAUSS
     d = first + (end - first) * (x + 1) / 2
     return float(weights @ pull(pitch, sine_of, d, end, loss))
@@ -336,12 +359,14 @@ def solved(
     start: float = 0.0,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """v on [start, end] with S v' + f = 0 and v = `first` at `start`.
+    """Solve S v' + f = 0 on [start, end] with v = `first` at `start`, by Chebyshev collocation.
 
-    f      d, v -> f and its derivative by v; at the pitch point f(0, first) = 0 is what makes the solution bounded
-    near   the solution up to another end, to begin with
-    Nodes are doubled until the last coefficients have fallen to 1e-14 of the greatest. Raises `RangeError` where the
-    solution leaves what f is defined for, or comes so near that the coefficients do not fall.
+    f      function of d, v that returns f and its derivative by v; f(0, first) = 0 makes the solution bounded at the
+           pitch point
+    near   the solution up to another end, as the initial guess
+
+    The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError` if
+    the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
     """
     series = near or ChebyshevSeries.through(np.full(_NODES[0], first), start, end)
     for nodes in _NODES:
@@ -364,7 +389,7 @@ def fitted(
     nodes: int,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """As `solved`, with so many nodes and no more."""
+    """Solve the same problem as `solved` with a fixed number of nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # held at its last value beyond its end, where a series soon grows without bound
@@ -373,7 +398,7 @@ def fitted(
 
 
 class _Collocated:
-    """The equation at the nodes d; the first of them holds what v starts with."""
+    """Collocation equations at the nodes d, with the initial condition at the first node."""
 
     def __init__(self, pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats) -> None:
         self.f, self.first, self.d = f, first, d
@@ -382,13 +407,13 @@ class _Collocated:
         self.matrix[0] = 0.0
 
     def residual(self, v: Floats) -> tuple[Floats, Floats]:
-        """What is left over at each node, and the diagonal that f adds to the Jacobian."""
+        """Return the residual at each node, and the diagonal that f adds to the Jacobian."""
         off, slope = self.f(self.d, v)
         off[0], slope[0] = v[0] - self.first, 1.0
         return self.matrix @ v + off, slope
 
     def newton(self, v: Floats) -> Floats:
-        """Damped steps until rounding stops them."""
+        """Solve the equations by damped Newton steps until rounding limits them."""
         left, slope = self.residual(v)
         for _ in range(_STEPS):
             step = np.linalg.solve(self.matrix + np.diag(slope), left)
@@ -411,7 +436,7 @@ class _Collocated:
 
 
 def lost(end: float) -> RangeError:
-    """What to say of an end that cannot be reached."""
+    """Return the error for an end of the path that cannot be reached."""
     return RangeError(
         Problem(
             f"the path of contact does not reach {end:.6g} from the pitch point",
@@ -425,7 +450,7 @@ def lost(end: float) -> RangeError:
 
 
 def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight) -> Floats:
-    """The integrand: what a higher path would lose at d less what it would win there in arc."""
+    """Compute the integrand of the first variation: loss of a higher path at d less its gain in arc there."""
     S, sine = pitch.S(d), sine_of(d)
     cosine = np.sqrt(1 - sine**2)
     last = np.array(end)
@@ -437,7 +462,8 @@ def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, e
 def check_pieces(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], end: float, first: float, weight: Weight
 ) -> None:
-    """Raise `RangeError` where a ray and one slow piece are not the best, by the conditions of docs/shapes.md, 15."""
+    """Raise `RangeError` if a ray and one slow piece are not optimal, by the conditions of docs/shapes.md, section 15.
+    """
     d = np.linspace(0.0, end, _CHECKED)
     if (np.diff(weight(d)) < 0).any():
         raise other_shape("there its contacts lose less the faster they slide")
@@ -449,7 +475,7 @@ def check_pieces(
 
 
 def other_shape(why: str) -> RangeError:
-    """What is said of a law under which two pieces are not the side of least loss."""
+    """Return the error for a friction law whose side of minimum loss does not consist of two pieces."""
     return RangeError(
         Problem(
             "under this law of friction teeth of least loss have other pieces than a constant pressure angle and a "

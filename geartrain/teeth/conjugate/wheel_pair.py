@@ -1,4 +1,4 @@
-"""The two wheels of a pair with conjugate teeth, and whether there can be such a pair."""
+"""Wheels of a conjugate gear pair, and checks that such a pair exists."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _MINIMUM_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel,
 
 @dataclass(frozen=True, slots=True)
 class WheelPair:
-    """The two wheels of a pair with conjugate teeth.
+    """Wheels of a pair with conjugate teeth.
 
     See Also
     --------
-    geartrain.teeth.Involute : its method `pair` takes them.
+    geartrain.teeth.Involute : Its method `pair` takes a `WheelPair`.
 
     Examples
     --------
@@ -33,15 +33,15 @@ class WheelPair:
     """
 
     z1: float
-    """Tooth count of the first wheel; not whole for a virtual wheel that represents a bevel."""
+    """Tooth number of the first wheel; not an integer for the virtual spur wheel of a bevel."""
     z2: float
-    """Tooth count of the second wheel; not whole for a virtual wheel that represents a bevel."""
+    """Tooth number of the second wheel; not an integer for the virtual spur wheel of a bevel."""
     internal: bool = False
-    """The second is a ring."""
+    """True if the second wheel is a ring gear."""
     shaft_angle: float | None = None
-    """Angle of the axes [rad], for bevels; None for parallel axes."""
+    """Shaft angle of bevels [rad]; None for parallel axes."""
     module: float | None = None
-    """Transverse module [m], as all lengths of the pair are transverse; None where no length gives it."""
+    """Transverse module [m]; all lengths of the pair are transverse. None if no length gives it."""
     helix: float = 0.0
     """Helix angle of helical wheels [rad], 0 or more."""
 
@@ -55,18 +55,18 @@ class WheelPair:
         pitch_distance: float | None,
         helix: float = 0.0,
     ) -> WheelPair:
-        """Wheels whose module follows from their pitch distance.
+        """Build the pair with the module that follows from its pitch distance.
 
         Parameters
         ----------
         z1, z2 : int
-            Tooth counts.
+            Tooth numbers.
         internal : bool
-            The second is a ring.
+            True if the second wheel is a ring gear.
         shaft_angle : float or None
-            Angle of the axes [rad]; None for parallel axes.
+            Shaft angle [rad]; None for parallel axes.
         pitch_distance : float or None
-            Half the module of each wheel times its teeth, summed, for a ring too [m]; None where nothing gives it.
+            Half the sum of module times teeth of both wheels, also for a ring gear [m]; None if unknown.
         helix : float
             Helix angle [rad].
         """
@@ -80,7 +80,7 @@ class WheelPair:
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """The pitch surfaces at the design distance. Raises `GearTrainError` where there are none."""
+        """Pitch surfaces at the design distance. Raises `GearTrainError` if the wheels cannot be a pair."""
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
         self.check()
@@ -94,7 +94,7 @@ class WheelPair:
         return (self.z2 - self.z1 if self.internal else self.z1 + self.z2) / 2
 
     def check(self) -> None:
-        """Raises `GearTrainError` for wheels that cannot be a pair."""
+        """Raise `GearTrainError` if the wheels cannot be a pair."""
         for z in (self.z1, self.z2):
             if z < FEWEST:
                 raise refused(
@@ -124,19 +124,19 @@ class WheelPair:
             )
 
     def modules(self, length: Quantity, name: str) -> float:
-        """A declared length in transverse modules, a plain number being in normal ones.
+        """Convert a declared length to transverse modules; a plain number is in normal modules.
 
         Parameters
         ----------
         length : Quantity
-            As declared.
+            Length as declared.
         name : str
-            Of the field, for the error.
+            Name of the field, for the error message.
 
         Raises
         ------
         GearTrainError
-            Where no module is known.
+            If no module is known.
         """
         if length.unit is None:
             return float(length.value) * cos(self.helix)

@@ -1,4 +1,4 @@
-"""Whether a pair of triangular wheels turns: verdict, backlash of the coast flanks, window of clearance."""
+"""Motion of a pair of triangular wheels: verdict, backlash of the coast flanks, clearance window."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _NEARLY_0 = 1e-9  # of the reach
 
 
 class TriangularContact:
-    """A pair in contact: sizes, real path with its standstills, play, verdict."""
+    """Contact of a pair: sizes, real path with its dwells, backlash, verdict."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
         self.sizes = sizes
@@ -30,27 +30,27 @@ class TriangularContact:
         self._means: dict[tuple[str, float], float] = {}
 
     def mean(self, of: tuple[str, float], make: Callable[[], float]) -> float:
-        """A mean over the contact at some friction, integrated once for all laws that share it."""
+        """Return a cached mean over the contact at some friction, shared by all transmissions of the pair."""
         if of not in self._means:
             self._means[of] = make()
         return self._means[of]
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """The real path, the driven wheel standing where nothing pushes it."""
+        """Real path in which the driven wheel dwells while no tooth pushes it."""
         return drag(self.path)
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """What drives, in order of time."""
+        """Drive intervals in order of time."""
         return self.dragged.intervals
 
     def lag(self, t: float) -> float:
-        """y(t) - (z1/z2) t: how far the dragged wheel lags, in its own angle, at the driver's position t."""
+        """Return the lag y(t) - (z1/z2) t of the dragged driven wheel (rad) at the driver's position t."""
         return self._height(*self.locate(t))
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """The interval that holds position t, and alpha_1 there."""
+        """Return the interval that contains position t, and alpha_1 there."""
         return _locate(self.intervals, t, self.sizes.p1)
 
     def _height(self, interval: DriveInterval, x: float) -> float:
@@ -59,21 +59,23 @@ class TriangularContact:
         return interval.held - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: float) -> float:
-        """tau, 0 in a standstill."""
+        """Return the speed ratio tau, which is 0 in a dwell."""
         return 0.0 if interval.held is not None else float(self.path.tooth_pair.speed(interval.phase, x))
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """What bounds the driven wheel, pushing or not; a gap where nothing does."""
+        """Intervals that limit the driven wheel, including contacts that cannot push, with gaps where nothing limits
+        it.
+        """
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
     @cached_property
     def backlash(self) -> float:
-        """The least play of the back flanks over a pitch (rad of the driven wheel); below 0 they jam.
+        """Minimum backlash at the coast flanks over a pitch (rad of the driven wheel); below 0 they jam.
 
-        The sum of the law and the mirror image of the bounds is smooth between their corners, where tau differs or
-        turns; within, it is least where both have the same tau.
+        The sum of the transmission function and the mirror image of the bounds is smooth between their kinks. Within a smooth
+        cell it has its minimum where both have the same tau.
         """
         pitch = self.sizes.p1
         kinks = {kink % pitch for interval in self.intervals for kink in self._kinks(interval)}
@@ -87,7 +89,7 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """The least play between two corners: at one of them, or where both sides have one tau."""
+        """Return the minimum backlash between two kinks: at one of them, or where both sides have the same tau."""
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
         theirs, back = _locate(self._bounds, -middle, pitch)
@@ -110,7 +112,7 @@ class TriangularContact:
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """The first of the checks that fails: valley, reach, overhang, back flanks, entry, exit."""
+        """Verdict from the first check that fails: valley, range of contact, overhang, coast flanks, entry, exit."""
         sizes = self.sizes
         if not sizes.has_valleys:
             return self._failed("no valley", _no_valley(sizes))
@@ -149,17 +151,19 @@ class TriangularContact:
 
     @property
     def idle(self) -> float:
-        """The driver's angle (rad) in the standstills of one pitch."""
+        """Driver angle (rad) of all dwells of one pitch."""
         return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
-        """The step of the driven wheel's law (rad) at the standstills of one pitch."""
+        """Driven angle (rad) lost in the dwells of one pitch."""
         return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
-        """The path must not reach a flank that leans beyond the perpendicular, nor turn the driven wheel back."""
+        """Text on an overhanging flank that the path reaches or that turns the driven wheel back; empty if there is
+        none.
+        """
         # ends of intervals are roots, found to less than this
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
@@ -179,7 +183,10 @@ class TriangularContact:
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """The interval that holds position t, and alpha_1 there; in a gap the nearest one, and alpha_1 outside it."""
+    """Return the interval that contains position t, and alpha_1 there.
+
+    In a gap it is the nearest interval, and alpha_1 is outside it.
+    """
     for interval in intervals:
         gone = (interval.start - t) % pitch
         if gone <= interval.width:
@@ -206,36 +213,36 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ClearanceWindow:
-    """Clearances between which a pair of triangular teeth turns: above `jam`, up to `run`; each as excess.
+    """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, each as excess.
 
-    False where `run` is below `jam`: no clearance works. Where a pair runs in several stretches of clearance this is
+    It is false if `run` is below `jam`, so that no clearance works. If a pair runs in several ranges of clearance, this is
     the first.
 
     See Also
     --------
-    find_window : gives it.
+    find_window : Computes it.
     """
 
     jam: float
-    """Clearance up to which the pair does not turn."""
+    """Excess up to which the pair does not turn."""
     run: float
-    """Clearance up to which the pair runs."""
+    """Excess up to which the pair runs."""
     run_kind: Literal["clash", "dwell"]
-    """What happens beyond `run`."""
+    """Verdict beyond `run`."""
     reach: float
     """Excess beyond which no tip touches."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """What happens up to `jam`."""
+    """Verdict below `jam`."""
     side: int = 1
-    """1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
+    """Sign: 1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
-        """The clearance factor of an excess.
+        """Return the clearance factor of an excess.
 
         Parameters
         ----------
         excess : float
-            As of `TriangularSizes`.
+            Fraction as in `TriangularSizes.excess`.
         """
         return 1 + self.side * excess
 
@@ -259,24 +266,24 @@ class ClearanceWindow:
 
     @property
     def works(self) -> bool:
-        """True if some clearance lets the pair turn."""
+        """True if the pair turns at some clearance."""
         return bool(self.jam < self.run)
 
     def at(self, fraction: float) -> float:
-        """The excess at a fraction of the window.
+        """Return the excess at a fraction of the window.
 
         Parameters
         ----------
         fraction : float
-            0 at the jam, 1 where contact is lost.
+            0 at `jam`, 1 at `run`.
         """
         return self.jam + fraction * (self.run - self.jam)
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """The window of clearance of a pair, whatever its own clearance.
+    """Find the clearance window of a pair, regardless of its own clearance.
 
-    Bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
+    The method is bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
 
     Parameters
     ----------
@@ -286,7 +293,7 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
     Returns
     -------
     ClearanceWindow
-        The first stretch of clearance in which it turns; false if there is none.
+        First range of clearance in which the pair turns; false if no such range exists.
 
     Examples
     --------
@@ -316,7 +323,10 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _minimum_excess(sizes: TriangularSizes) -> float:
-    """The excess from which back flanks have play: 0 where they always have, the reach where they never do."""
+    """Return the excess above which the coast flanks have backlash.
+
+    It is 0 if they always have, and the maximum excess if they never have.
+    """
     reach = sizes.maximum_excess
 
     def backlash(excess: float) -> float:
@@ -328,7 +338,9 @@ def _minimum_excess(sizes: TriangularSizes) -> float:
 
 
 def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
-    """The excess up to which the path reaches a leaning flank; 0 if it does not where the pair ceases to jam."""
+    """Return the excess up to which the path reaches an overhanging flank; 0 if it does not where the pair ceases to
+    jam.
+    """
     reach = sizes.maximum_excess
     # at the jam itself the play is 0 but for rounding
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
@@ -342,7 +354,10 @@ def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
 
 
 def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Where a margin first holds: from 0 or `low` if it does there, else from where it begins to; 0, 0 if never."""
+    """Return the first range of excess in which `margin` is positive.
+
+    The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.
+    """
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
         if start < reach and margin(start) > 0:
             return 0.0, _first_sign_change(margin, start, reach)
@@ -356,19 +371,19 @@ def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tupl
 
 
 def _entry(path: RealPath) -> float:
-    """Below 0 where a couple comes in below the others."""
+    """Return the margin at entry: below 0 if a tooth pair enters below the others."""
     last = path.pieces[-1]
     return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
 
 
 def _exit(path: RealPath) -> float:
-    """Below 0 where a couple leaves before another one can drive."""
+    """Return the margin at exit: below 0 if a tooth pair leaves before another one can drive."""
     first = path.pieces[0]
     return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """The least excess from `low` at which `value` changes its sign; `reach` if it never does."""
+    """Return the smallest excess above `low` at which `value` changes its sign; `reach` if it never does."""
     # looked at in 16 steps before `root`: a stretch shorter than one of them may be passed over
     steps, start = 16, low
     at_low = value(low)
@@ -383,7 +398,10 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 
 
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
-    """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
+    """Return the excess whose minimum backlash on the second wheel's pitch circle is `backlash`.
+
+    The root is unique because the backlash increases with the excess.
+    """
 
     def backlash_at(excess: float) -> float:
         D = sizes.factor(excess) * sizes.deepest_distance

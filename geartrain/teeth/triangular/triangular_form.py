@@ -1,4 +1,4 @@
-"""Triangular teeth as a pair declares them, and the sizes that follow from the declaration."""
+"""Declaration of triangular teeth, and the sizes that follow from it."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ TRIANGULAR_SCOPE = (
 
 
 class Triangular(ToothForm):
-    """Triangular teeth, as in ancient gearing: straight flanks that meet in a point.
+    """Triangular teeth, as in ancient gearing: straight flanks that meet in an apex.
 
-    The ratio changes within each pitch, and teeth collide as they take over (docs/teeth.md; F. Sorge, "A note on the
-    mechanics of ancient gear systems"). How far the axes stand apart is given in one of five ways: `clearance_factor`,
-    `excess`, `backlash`, `centre_distance` or `window`.
+    The speed ratio varies within each pitch, and teeth collide at the changeover between tooth pairs (docs/teeth.md;
+    F. Sorge, "A note on the mechanics of ancient gear systems"). The centre distance is given by exactly one of five
+    parameters: `clearance_factor`, `excess`, `backlash`, `centre_distance` or `window`.
 
     See Also
     --------
-    geartrain.teeth.Involute : teeth that keep their ratio.
+    geartrain.teeth.Involute : Teeth with a constant speed ratio.
 
     Examples
     --------
@@ -153,27 +153,27 @@ class Triangular(ToothForm):
 
     @property
     def has_lengths(self) -> bool:
-        """True for teeth declared in units of length."""
+        """True if the teeth are declared in units of length."""
         lengths = (self.centre_distance, self.backlash, *self._given_radii)
         return any(length is not None and length.unit for length in lengths)
 
     @property
     def _given_radii(self) -> tuple[Length, ...]:
-        """The two radii, where they are given as lengths."""
+        """Tip radii if they are given as lengths; empty otherwise."""
         return self.radii if isinstance(self.radii, tuple) else ()
 
     def in_metres(self, module: float | None) -> bool:
-        """Whether the lengths of `sizes` are in m.
+        """Return whether the lengths of `sizes` are in m.
 
         Parameters
         ----------
         module : float or None
-            Of both wheels [m].
+            Module of both wheels [m].
 
         Returns
         -------
         bool
-            True where lengths with a unit are declared, or radii follow from a module.
+            True if lengths with a unit are declared, or radii follow from a module.
         """
         return self.has_lengths or (module is not None and not isinstance(self.radii, Figure | tuple))
 
@@ -181,13 +181,16 @@ class Triangular(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """With those of clearance, path and collisions."""
+        """Return the class of figures that includes clearance, path of contact and collisions."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
 
         return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving: a contrate is as a spur wheel, bevels are refused."""
+        """Build the mesh of a pair, its first wheel driving.
+
+        A contrate wheel is treated as a spur wheel. Bevels are refused.
+        """
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         del shaft_angle
@@ -199,12 +202,12 @@ class Triangular(ToothForm):
         return TriangularMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem:
-        """Why the play of triangular teeth is not for a maker to say.
+        """Explain why a maker's backlash does not apply to triangular teeth.
 
         Returns
         -------
         Problem
-            Their play follows from their clearance.
+            Their backlash follows from their clearance factor.
         """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
@@ -215,27 +218,27 @@ class Triangular(ToothForm):
     def sizes(
         self, z1: int, z2: int, pitch_distance: float | None = None, ring: Literal[0, 1, 2] = 0
     ) -> TriangularSizes:
-        """Radii, half angles and clearance of a pair.
+        """Compute radii, half aperture angles and clearance of a pair.
 
         Parameters
         ----------
         z1, z2 : int
             Teeth of the driver and of the driven wheel, 3 or more.
         pitch_distance : float, optional
-            Half the module of each wheel times its teeth, summed, of a ring subtracted [m]; the centre distance at
-            which a tip touches the bottom of a space.
+            Half the sum of module times teeth of both wheels, or half the difference for a ring gear [m]. It becomes the
+            centre distance at which a tip touches the bottom of a space.
         ring : {0, 1, 2}
-            Which wheel has its teeth inside; 0 for an external pair.
+            Number of the wheel that is a ring gear; 0 for an external pair.
 
         Returns
         -------
         TriangularSizes
-            Lengths in m, or in the unit of plain radii, or with a tip radius of 1 where nothing gives a length.
+            Lengths in m; otherwise in the unit of plain radii, or with a tip radius of 1 if no length is given.
 
         Raises
         ------
         GearTrainError
-            Where the declaration gives no pair that can be built.
+            If the declaration gives no pair that can be built.
         """
         for z in (z1, z2):
             if z < FEWEST:
@@ -254,7 +257,7 @@ class Triangular(ToothForm):
         return sizes
 
     def _unplaced(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
-        """The two wheels, at the distance at which a tip touches the bottom of a space."""
+        """Return the sizes of the two wheels at the distance at which a tip touches the bottom of a space."""
         from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 
         beta1, beta2 = (angle.si for angle in self.half_angle)
@@ -270,7 +273,7 @@ class Triangular(ToothForm):
         return TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0, ring)
 
     def _placed(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
-        """The same wheels at the declared clearance, and in m where a pitch distance is given."""
+        """Return the sizes at the declared clearance, in m if a pitch distance is given."""
         from geartrain.teeth.triangular.clearance_window import excess_of_backlash
 
         if not sizes.has_valleys:
@@ -296,7 +299,8 @@ class Triangular(ToothForm):
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _factor(self, sizes: TriangularSizes) -> float:
-        """The declared excess, taken exactly before it is rounded. Raises `GearTrainError` where it is not above 0."""
+        """Return the declared excess, subtracted exactly before rounding. Raises `GearTrainError` if it is not above 0.
+        """
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
         excess = sizes.side * (self.clearance_factor.value - 1)
@@ -319,7 +323,7 @@ class Triangular(ToothForm):
         pitch_distance: float | None = None,
         ring: Literal[0, 1, 2] = 0,
     ) -> TriangularTransmission:
-        """The transmission function of a pair.
+        """Return the transmission function of a pair.
 
         Parameters
         ----------
@@ -328,23 +332,23 @@ class Triangular(ToothForm):
         friction : float
             Coefficient of friction, 0 or more.
         driver : {1, 2}
-            Which wheel drives.
+            The wheel that drives.
         direction : {1, -1}
-            -1 turns back, on the other flanks.
+            Direction of rotation; with -1 the opposite flanks drive.
         pitch_distance : float, optional
             As in `sizes` [m].
         ring : {0, 1, 2}
-            Which wheel has its teeth inside; 0 for an external pair.
+            Number of the wheel that is a ring gear; 0 for an external pair.
 
         Returns
         -------
         TriangularTransmission
-            Its `verdict` says whether the pair can turn.
+            Its `verdict` reports whether the pair can turn.
 
         Raises
         ------
         GearTrainError
-            Where the declaration gives no pair that can be built.
+            If the declaration gives no pair that can be built.
         """
         from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -353,7 +357,7 @@ class Triangular(ToothForm):
 
 
 def refusal(kinds: tuple[str, str], internal: bool) -> str:
-    """Why a pair cannot have triangular teeth; empty if it can."""
+    """Return the reason why a pair cannot have triangular teeth; empty if it can."""
     known = ("spur",) if internal else ("spur", "contrate")
     odd = [kind for kind in kinds if kind not in known]
     if odd and internal:
@@ -362,7 +366,7 @@ def refusal(kinds: tuple[str, str], internal: bool) -> str:
 
 
 def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """The window of a pair. Raises `GearTrainError` where no clearance works."""
+    """Return the clearance window of a pair. Raises `GearTrainError` if no clearance works."""
     from geartrain.teeth.triangular.clearance_window import find_window
     from geartrain.teeth.triangular.triangular_mesh import OTHER_SHAPES
 

@@ -1,9 +1,9 @@
-"""Displaced flanks of any two outlines: how far they turn the driven wheel, for teeth without a path of contact.
+"""Effect of displaced flanks on the driven wheel, for any two outlines without a path of contact.
 
-One couple of teeth alone is turned through its contact, and where it touches the common normal is found: it passes the
-point that parts the line of centres as the speeds do at that instant. A flank that stands out by n along it turns the
-driven wheel ahead by n over the moment arm of the normal about the driven axle, docs/cut-by-hand.md (1), as of
-conjugate teeth; but the lag of even wheels is not constant here.
+A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes
+the point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n along
+the normal turns the driven wheel ahead by n over the moment arm of the normal about the driven axle, docs/cut-by-hand.md
+(1), as for conjugate teeth. Unlike there, the lag of error-free wheels is not constant.
 """
 
 from __future__ import annotations
@@ -36,24 +36,27 @@ _BLUNT = radians(10)  # half the aperture, at least
 
 
 class ToothPairContact(NamedTuple):
-    """One couple alone at driver's angles x (rad past its place), the driver's axle at 0, the driven one on the x
-    axis."""
+    """Contact of a single tooth pair at driver's angles x (rad past its nominal position).
+
+    The driver's axle is at 0, the driven one on the x axis.
+    """
 
     x: Floats
     lag: Floats
-    """Of the driven wheel behind its even motion (rad)."""
+    """Lag of the driven wheel behind uniform motion (rad)."""
     point: Floats
-    """Where it touches (2, n), in modules."""
+    """Contact points (2, n), in modules."""
     normal: Floats
-    """The direction in which the driver pushes (2, n)."""
+    """Unit vectors in the direction in which the driver pushes (2, n)."""
     angle: Floats
-    """Of the driven tooth past the line of centres (rad)."""
+    """Angle of the driven tooth past the line of centres (rad)."""
     corner: Indices
-    """1 where the driver's tip touches, 2 the driven one's, 3 both, 0 neither; -1 where nothing touches."""
+    """Corners in contact: 1 for the driver's tip, 2 for the driven one, 3 for both, 0 for neither; -1 without contact.
+    """
 
 
 class ToothPairSearch:
-    """The contact of single couples of two outlines, front flanks driving."""
+    """Search for the contact of single tooth pairs of two outlines, front flanks driving."""
 
     def __init__(self, gears: OutlineGears, driver: int) -> None:
         self.first, self.second = gears.of(driver)
@@ -62,7 +65,7 @@ class ToothPairSearch:
         self.offset = 2 * gears.lead / self.second.z
 
     def at(self, x: Floats) -> ToothPairContact:
-        """The contact at driver's angles."""
+        """Return the contact at given driver's angles."""
         count, none = len(x), np.zeros(len(x), int)
         judge = self.pair.judge
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
@@ -91,7 +94,10 @@ class ToothPairSearch:
         return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Through the point that parts the line of centres as the speeds do; at that point, across the flank."""
+        """Return the unit normals, which pass the point that divides the line of centres in the ratio of speeds.
+
+        At that point itself the result is normal to the flank.
+        """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
             flank = np.stack([-along[1], along[0]])
@@ -103,9 +109,9 @@ class ToothPairSearch:
 
 @lru_cache(maxsize=256)
 def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
-    """The contact of two outlines at their distance, one of the wheels driving, and what displaced flanks change.
+    """Return the contact of two outlines at their distance, and the effects of displaced flanks.
 
-    Raises `RangeError` where the teeth do not touch for a whole pitch.
+    Raises `RangeError` if the teeth do not touch for a whole pitch.
     """
     search = ToothPairSearch(gears, driver)
     first, second = search.first, search.second
@@ -147,7 +153,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """From where to where flanks touch, and before and after it tips (rad of the driver)."""
+    """Return the range in which flanks touch, and the larger range that includes tips (rad of the driver)."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -162,7 +168,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """The run of true entries about a place."""
+    """Return the run of true entries that includes index `at`."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -171,7 +177,7 @@ def _around(held: Bools, at: int) -> Bools:
 
 
 def _corner(search: ToothPairSearch, end: float, last: float) -> KinkLag:
-    """How much more the driven wheel lags while a tip touches beyond an end of the contact."""
+    """Return the additional lag of the driven wheel while a tip touches beyond an end of the contact."""
     if abs(last - end) < _NO_CORNER:
         return KinkLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
@@ -179,13 +185,13 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> KinkLag:
 
 
 def _foremost(found: ToothPairContact, pitch: float) -> Indices:
-    """Where this couple holds the driven wheel, not one a pitch before or behind."""
+    """Return the indices at which this tooth pair drives the wheel, not a pair one pitch before or behind."""
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))
 
 
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Half the thickness of the tooth (modules) where it touches."""
+    """Return half the tooth thickness (modules) at the contact."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -193,14 +199,15 @@ def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) ->
 
 
 def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> DisplacedWheelSizes:
-    """Of a wheel that works at these radii, where it is so thick."""
+    """Return the reference sizes of a wheel from radii of contact and half thicknesses there."""
     foot, top = int(np.argmin(radius)), int(np.argmax(radius))
     lean = float(np.arctan2(half[foot] - half[top], radius[top] - radius[foot]))
     return DisplacedWheelSizes(wheel.z, float(tip - radius[foot]), max(lean, _BLUNT))
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Where the flank that touches crosses the pitch circle, about which it is turned."""
+    """Return the points at which the flank in contact crosses the pitch circle; these are the centres of its rotation.
+    """
     wheel, table = ((search.first, search.pair.judge.first), (search.second, search.pair.judge.second))[gear]
     radius = wheel.z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]

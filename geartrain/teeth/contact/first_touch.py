@@ -1,10 +1,10 @@
-"""First touch of the teeth of two wheels: the driven angle that the furthest point of the driver's side requires.
+"""First touch of the teeth of two wheels: the maximum driven angle that any point of the driver's side requires.
 
-A point P of the driver's side, seen from the second axle at radius r and azimuth a (`DrivenFrame`, on parallel axes and
-on the sphere), holds a driven tooth whose own azimuth at that radius is A(r) at least at the angle G(P) = a - A(r); the
-tooth stands at the greatest of them. The side is cut where a piece of either outline begins and where its distance from
-the second axle turns, so that on each segment G is smooth; its ends are taken as they are, and within, the slope of G
-changes its sign.
+A point P of the driver's side has radius r and azimuth a about the second axle (`DrivenFrame`, on parallel axes and on
+the sphere). A driven tooth whose own azimuth at that radius is A(r) must be at the angle G(P) = a - A(r) or beyond, so
+its angle is the maximum of G. The side is divided where a piece of either outline begins and where its distance from
+the second axle is stationary, so that G is smooth on each segment. Its maximum is at an end of a segment, or at a sign
+change of its slope.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ _LEFT = 1e-8  # of u: what an inversion leaves where a curve stands still, the s
 
 @dataclass(frozen=True, slots=True)
 class AxlePlacement:
-    """The place of two axles.
+    """Relative position of two axles.
 
-    distance   from axle to axle; bevel: the shaft angle (rad)
-    ring       which of the two wheels has its teeth inside; 0 if none has
-    Azimuths are 0 on the line of centres, on the side where the wheels meet, and grow as both turn forward.
+    distance   centre distance; bevel: the shaft angle (rad)
+    ring       number of the wheel that is a ring gear; 0 if neither is
+    Azimuths are 0 on the line of centres, on the side where the wheels meet, and increase as both turn forward.
     """
 
     distance: float
@@ -43,13 +43,14 @@ class AxlePlacement:
     ring: Literal[0, 1, 2] = 0
 
     def look(self, r: Floats, b: Floats) -> DrivenFrame:
-        """The view of points at radii r (bevel: polar angles) and azimuths b about the first axle."""
+        """Transform points at radii r (bevel: polar angles) and azimuths b about the first axle to the second axle."""
         return DrivenFrame(self, r, b)
 
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
-        """The greatest |azimuth| at which a radius from `lowest` to `highest` is seen from `minimum` to `most`.
+        """Return the maximum |azimuth| at which a radius from `lowest` to `highest` about the first axle can be in range.
 
-        Taken from samples, and widened: never too small but for rounding.
+        The range of radii about the second axle is from `minimum` to `most`. The result is taken from samples and widened, so
+        that it is never too small except for rounding. It is -1 if no point is in range.
         """
         r = np.linspace(lowest, highest, 129)[:, None]
         b = np.linspace(0, np.pi, 721)[None, :]
@@ -63,7 +64,7 @@ class AxlePlacement:
 
 
 class DrivenFrame:
-    """Points seen from the second axle: `radius` and `azimuth`, and how both change with the points."""
+    """Polar coordinates of points about the second axle: `radius` and `azimuth`, and their derivatives."""
 
     __slots__ = ("across", "along", "bevel", "cos_b", "height", "radius", "side", "sight", "sin_b", "tilt", "up")
 
@@ -84,7 +85,7 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Which way the second axle lies from the first, and which way the first one's radius points along it."""
+        """Return the sign of the direction to the second axle, and the sign of the first radius along it."""
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.sight.ring]
 
     @property
@@ -94,7 +95,7 @@ class DrivenFrame:
         return found
 
     def moved(self, dr: Floats | float, db: Floats | float) -> tuple[Floats, Floats]:
-        """Changes of radius and azimuth as the points change by dr and db."""
+        """Return the changes of radius and azimuth as the points change by dr and db."""
         e, s = self._signs()
         stretch = self.height * dr
         side, across = stretch * self.sin_b + self.across * db, stretch * self.cos_b - self.side * db
@@ -113,7 +114,7 @@ class DrivenFrame:
         ) / (h * h)
 
     def _sine(self) -> Floats:
-        """sin r on the sphere."""
+        """Return sin r for points on the sphere."""
         found: Floats = np.hypot(self.side, self.across)
         return found
 
@@ -122,7 +123,9 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Pairs of teeth to look at: driver's angle, its tooth's shape, driven tooth's shape, its place, position."""
+    """Candidate tooth pairs: driver's angle, shape of its tooth, shape of the driven tooth, its angle, index of the
+    position.
+    """
 
     x: Floats
     tooth1: Indices
@@ -132,32 +135,32 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Parts of the driver's side on which G is smooth; n of them."""
+    """Segments of the driver's side on which G is smooth; n of them."""
 
     tooth_pair: Indices
-    """Where."""
+    """Index of the tooth pair, (n,)."""
     piece1: Indices
-    """Where."""
+    """Index of the driver's piece, (n,)."""
     piece2: Indices
-    """Where."""
+    """Index of the driven piece, (n,)."""
     u: Floats
-    """(2, n): from, to, on piece1."""
+    """Parameters of piece1 at both ends, (2, n)."""
     seen: Floats
-    """(4, 2, n): radius and azimuth about the second axle at both ends, and their slopes by u."""
+    """Radius and azimuth about the second axle at both ends, and their slopes by u, (4, 2, n)."""
     v: Floats
-    """(2, n): the end of piece2 that is met at either end, -1 or 1; NaN where it is not an end."""
+    """End of piece2 that is met at either end, -1 or 1, (2, n); NaN if it is not an end."""
 
 
 @dataclass(frozen=True)
 class FlankSegmentation:
-    """Two wheels, one side each, and the place of their axles."""
+    """Division into segments of one side each of two wheels at given axles."""
 
     first: FlankTable
     second: FlankTable
     sight: AxlePlacement
 
     def segments(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """All segments at which the couples can touch."""
+        """Return all segments at which the tooth pairs can touch."""
         cells = self._unturned(tooth_pairs, self._cells(tooth_pairs))
         low, high = cells.seen[0].min(axis=0), cells.seen[0].max(axis=0)
         tooth = tooth_pairs.tooth2[cells.tooth_pair]
@@ -172,7 +175,8 @@ class FlankSegmentation:
         return self._clipped(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Stretches between nodes that may be seen at radii of the driven side, which piece of it being open."""
+        """Return the cells between nodes that may be at radii of the driven side; the driven piece is not yet chosen.
+        """
         nodes = self.first.nodes
         pieces, us, begins = (
             nodes[0][tooth_pairs.tooth1],
@@ -195,7 +199,7 @@ class FlankSegmentation:
         return FlankSegments(tooth_pair, piece, np.zeros_like(piece), us[ends], seen, np.full(seen.shape[1:], np.nan))
 
     def _unturned(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Cells, those in which the distance from the second axle turns cut in two."""
+        """Divide cells in which the distance from the second axle has an extreme."""
         which = np.flatnonzero(np.sign(cells.seen[2, 0]) * np.sign(cells.seen[2, 1]) < 0)
         if not len(which):
             return cells
@@ -213,7 +217,7 @@ class FlankSegmentation:
         return joined([cells, turning])
 
     def _clipped(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Cells cut to the radii of their driven piece: all at once, each root being found for itself."""
+        """Clip cells to the radii of their driven piece, by vectorised false position."""
         low, high = self.second.ends[:, cells.piece2]
         u, seen = cells.u.copy(), cells.seen.copy()
         for side in (0, 1):
@@ -232,12 +236,14 @@ class FlankSegmentation:
         return cells._replace(u=u, seen=seen)
 
     def _seen(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Points of the driver's pieces seen from the second axle: radius, azimuth, their slopes by u; (4, n)."""
+        """Return radius, azimuth and their slopes by u of the driver's points about the second axle, (4, n)."""
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """The same points as a view; slopes of their radius and azimuth about the first axle by u."""
+        """Return the driver's points in the frame of the second axle, and the slopes of their own radius and azimuth
+        by u.
+        """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
         return self.sight.look(r, a + x), dr, da
@@ -247,7 +253,7 @@ class FlankSegmentation:
 
 
 class FirstTouches(NamedTuple):
-    """Touches, one for each of some segments: driven angle, speed ratio, where, radii about their own axles."""
+    """Touches, one for each segment: driven angle, speed ratio, location, radii about both axles."""
 
     angle: Floats
     speed: Floats
@@ -261,12 +267,12 @@ class FirstTouches(NamedTuple):
 
 
 class FirstTouchSearch(FlankSegmentation):
-    """Which points of the cut sides are the furthest."""
+    """Search for the points of the segments that determine the driven angle."""
 
     # -------------------------------------------------------------------------------------------------- which matter
 
     def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
-        """The segments that can hold, within `margin` (rad), the furthest point of their position."""
+        """Select the segments that can contain, within `margin` (rad), the maximum of G of their position."""
         ends, slopes = self._rough(segments)
         with np.errstate(invalid="ignore", divide="ignore"):
             width = segments.u[1] - segments.u[0]
@@ -283,14 +289,16 @@ class FirstTouchSearch(FlankSegmentation):
         return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
 
     def _stalled(self, segments: FlankSegments) -> Bools:
-        """(2, n): ends of segments at which one of the two curves stands still, so that slopes there tell nothing."""
+        """Return flags, (2, n), of segment ends at which one of the two curves is stationary and slopes are
+        meaningless.
+        """
         first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
         found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         return found
 
     def _rough(self, segments: FlankSegments) -> tuple[Floats, Floats]:
-        """G and its slope at both ends, (2, n) each, without the refining steps of the inversion."""
+        """Estimate G and its slope at both ends, (2, n) each, with an inversion that is not refined."""
         piece = np.broadcast_to(segments.piece2, segments.u.shape)
         low, high = self.second.ends[:, segments.piece2]
         r = np.clip(segments.seen[0], low, high)
@@ -310,7 +318,7 @@ class FirstTouchSearch(FlankSegmentation):
     # ------------------------------------------------------------------------------------------------------ exactly
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """The furthest point of each segment, to rounding."""
+        """Compute the touches of each segment to rounding: both ends, and the interior maximum of G if it exists."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
@@ -342,7 +350,7 @@ class FirstTouchSearch(FlankSegmentation):
         return joined([*ends, within])
 
     def _found(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """The touch at u; v where an end of the driven piece is met there."""
+        """Return the touch at parameter u; v is not NaN if an end of the driven piece is met there."""
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
         kink = ~np.isnan(v)

@@ -1,4 +1,4 @@
-"""The sides of the teeth of one wheel as polynomial pieces with rising radius: search nodes, and azimuth by radius."""
+"""Flanks of one wheel as polynomial pieces of increasing radius: search nodes, and azimuth as a function of radius."""
 
 from __future__ import annotations
 
@@ -23,26 +23,26 @@ _NEAR = 1e-10  # a Newton step as short as this ends on the root: the next would
 
 @dataclass(frozen=True)
 class FlankTable:
-    """Pieces of the sides of all teeth, each with u from -1 to 1 and radius rising."""
+    """Polynomial pieces of one side of all teeth, with parameter u from -1 to 1 and increasing radius."""
 
     radius: Floats
-    """Coefficients (COUNT, pieces)."""
+    """Coefficients of the radius by powers of u, (COUNT, pieces)."""
     azimuth: Floats
-    """Coefficients (COUNT, pieces)."""
+    """Coefficients of the azimuth by powers of u, (COUNT, pieces)."""
     kinks: Bools
-    """(2, pieces): whether a piece begins, ends, in a corner of the outline."""
+    """Flags, (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
     flat: Bools
-    """(pieces,): arcs about the axle."""
+    """Flags, (pieces,): True for circular arcs about the axle."""
     first: Indices
-    """(teeth + 1,): where the pieces of a tooth begin."""
+    """Index of the first piece of each tooth, (teeth + 1,)."""
     curve: Indices
-    """(pieces,): number of the curve a piece is of, counted through all teeth."""
+    """Number of the curve that each piece belongs to, (pieces,), counted through all teeth."""
     error: tuple[float, float]
-    """Greatest difference found between pieces and curves: radius, azimuth (rad)."""
+    """Maximum differences between pieces and curves: radius, azimuth (rad)."""
 
     @cached_property
     def mirrored(self) -> FlankTable:
-        """The same with azimuths reversed."""
+        """Mirror image of the table: azimuths change their sign."""
         return replace(self, azimuth=-self.azimuth)
 
     @cached_property
@@ -52,7 +52,8 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """(2, pieces): whether a piece begins, ends, with hardly any radius gained by u."""
+        """Flags, (2, pieces): True if the radius of a piece is stationary in u at its beginning (row 0) or end (row 1).
+        """
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -60,7 +61,7 @@ class FlankTable:
 
     @cached_property
     def reach(self) -> tuple[float, float, float, float]:
-        """Least and greatest radius, least and greatest azimuth of all teeth."""
+        """Minimum and maximum radius, minimum and maximum azimuth of all teeth."""
         u = np.linspace(-1, 1, 33)
         azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
         # what an azimuth may exceed its samples by, where it turns between two of them
@@ -74,7 +75,7 @@ class FlankTable:
 
     @cached_property
     def span(self) -> tuple[Floats, Floats]:
-        """Least and greatest radius of each tooth."""
+        """Minimum and maximum radius of each tooth."""
         low, high = (
             np.minimum.reduceat(self.ends[0], self.first[:-1]),
             np.maximum.reduceat(self.ends[1], self.first[:-1]),
@@ -85,7 +86,7 @@ class FlankTable:
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Of each tooth, (teeth, nodes): piece and u of its nodes, and whether a cell begins at a node."""
+        """Search nodes of each tooth, (teeth, nodes): piece, u, and a flag that a cell begins at the node."""
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._marks(piece, int(number)) for piece, number in enumerate(cells)]
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)
@@ -97,7 +98,9 @@ class FlankTable:
         return piece[at], u[at], begins[at]
 
     def _marks(self, piece: int, cells: int) -> Floats:
-        """u at which to look at a piece: evenly, and ever closer to an end where it stands still."""
+        """Return the values of u at which a piece is sampled: uniform, with geometric refinement towards stationary
+        ends.
+        """
         marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
         for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
             if stalls:
@@ -106,7 +109,7 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Radius, its slope, azimuth, its slope at the nodes."""
+        """Radius, its slope, azimuth and its slope at the nodes."""
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
         a, da = value(self.azimuth, piece, u)
@@ -116,7 +119,8 @@ class FlankTable:
 
     @cached_property
     def _bins(self) -> tuple[Floats, Floats]:
-        """Radii at even u, (pieces, bins + 1), and the same as one rising row to look up in."""
+        """Radii at uniform u, (pieces, bins + 1), and the same values scaled to one increasing row for a single search.
+        """
         pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
         radii = value_alone(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
         low, high = self.ends[:, :, None]
@@ -126,7 +130,7 @@ class FlankTable:
         return radii, (share + 2.0 * pieces).ravel().astype(np.float64)
 
     def guess(self, piece: Indices, r: Floats) -> tuple[Floats, Floats, Floats]:
-        """u at which pieces have about radius r, and a bracket of it; r within their ends."""
+        """Return an estimate of u at which pieces have radius r, and a bracket of it; r must be within the pieces."""
         radii, row = self._bins
         low, high = self.ends[0].take(piece), self.ends[1].take(piece)
         key = 2.0 * piece + np.clip((r - low) / (high - low), 0, 1)
@@ -138,13 +142,13 @@ class FlankTable:
         return left + share * (2 / _BINS), left, left + 2 / _BINS
 
     def near_stall(self, piece: Indices, u: Floats) -> Bools:
-        """Whether u is in the last bin before an end at which a piece stands still."""
+        """Return whether u is in the last bin before a stationary end of its piece."""
         edge = 1 - 2 / _BINS
         found: Bools = self.stalls[0][piece] & (u < -edge) | self.stalls[1][piece] & (u > edge)
         return found
 
     def inverse(self, piece: Indices, r: Floats) -> Floats:
-        """u at which pieces have radius r, by Newton's method kept inside a bracket; r within their ends."""
+        """Return u at which pieces have radius r, by bracketed Newton iteration; r must be within the pieces."""
         u, low, high = self.guess(piece, r)
         return self._newton(piece, r, u, low, high)
 

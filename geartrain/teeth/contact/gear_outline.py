@@ -1,4 +1,5 @@
-"""A wheel as its outline: smooth curves, teeth made of them, teeth about the axle; and flanks cut into pieces."""
+"""Outline of a wheel: smooth curves, teeth made of them, teeth about the axle; and flanks cut into polynomial pieces.
+"""
 
 from __future__ import annotations
 
@@ -29,23 +30,25 @@ _STILL = 1e-3  # of its second derivative: a slope that says nothing of the dire
 
 @dataclass(frozen=True)
 class OutlineCurve:
-    """A smooth curve of a tooth, from parameter `start` to `end`.
+    """Smooth curve of a tooth, from parameter `start` to `end`.
 
     See Also
     --------
-    polyline : straight curves.
+    polyline : Straight curves.
     """
 
     points: Callable[[Floats], Floats]
-    """Parameters of shape (n,) -> (n, 2): x forward, y outward along the middle of the tooth, the axle at 0; or (n,
-    3), bevel, on the unit sphere, the axis along z."""
+    """Function from parameters (n,) to points: (n, 2) for spur wheels, (n, 3) on the unit sphere for bevels.
+
+    x is forward, y is outward along the middle of the tooth, and the axle is at 0. For bevels the axis is along z.
+    """
     start: float = 0.0
-    """Parameter of its beginning."""
+    """Parameter at the beginning of the curve."""
     end: float = 1.0
-    """Parameter of its end."""
+    """Parameter at the end of the curve."""
 
     def at(self, t: ArrayLike) -> Floats:
-        """Points of the curve.
+        """Return points of the curve.
 
         Parameters
         ----------
@@ -60,7 +63,7 @@ class OutlineCurve:
         return np.asarray(self.points(np.asarray(t, dtype=float)), dtype=float)
 
     def polar(self, t: ArrayLike) -> Floats:
-        """Radius and azimuth of points of the curve.
+        """Return radius and azimuth of points of the curve.
 
         Parameters
         ----------
@@ -78,23 +81,23 @@ class OutlineCurve:
         return np.stack([np.arctan2(radius, points[:, 2]) if points.shape[1] == 3 else radius, np.arctan2(x, y)])
 
     def mapped(self, change: Callable[[Floats], Floats]) -> OutlineCurve:
-        """The curve whose points are those of this one, changed.
+        """Return the curve with a transformation applied to its points.
 
         Parameters
         ----------
         change : callable
-            Points (n, 2) or (n, 3) to points of the same shape.
+            Function from points (n, 2) or (n, 3) to points of the same shape.
 
         Returns
         -------
         OutlineCurve
-            With the same parameters.
+            Transformed curve with the same parameters.
         """
         return OutlineCurve(lambda t: change(self.points(t)), self.start, self.end)
 
 
 def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
-    """Straight curves through points; on the sphere arcs of great circles.
+    """Return straight curves through points; on the sphere arcs of great circles.
 
     Parameters
     ----------
@@ -104,7 +107,7 @@ def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
     Returns
     -------
     tuple of OutlineCurve
-        n - 1 of them.
+        n - 1 curves.
 
     Examples
     --------
@@ -137,93 +140,95 @@ def _turn(angle: float) -> Callable[[Floats], Floats]:
 
 @dataclass(frozen=True)
 class ToothFlanks:
-    """The two sides of a tooth, each a chain of curves from root to tip or from tip to root.
+    """Sides of a tooth, each a chain of curves from root to tip or from tip to root.
 
-    Tip lands and bottoms need not be given: no arc about the axle touches before its ends do.
+    Tip lands and bottoms need not be given, because an arc about the axle never touches before its ends do.
 
     See Also
     --------
-    solve : an example with such teeth.
+    solve : An example with such teeth.
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """The side that leads when the wheel turns forward: larger azimuths."""
+    """Side that leads when the wheel turns forward, with larger azimuths."""
     behind: tuple[OutlineCurve, ...]
-    """The other side."""
+    """Side that trails when the wheel turns forward."""
 
     @classmethod
     def symmetric(cls, ahead: Sequence[OutlineCurve], middle: float = 0.0) -> ToothFlanks:
-        """A tooth whose `behind` is the mirror image of `ahead`.
+        """Build a tooth whose side `behind` is the mirror image of `ahead`.
 
         Parameters
         ----------
         ahead : sequence of OutlineCurve
-            One side.
+            Leading side.
         middle : float
-            Azimuth of the mirror [rad].
+            Azimuth of the mirror axis [rad].
 
         Returns
         -------
         ToothFlanks
-            With both sides.
+            Tooth with both sides.
         """
         turned = _turn(2 * middle)
         behind = tuple(curve.mapped(lambda p: turned(p * np.array([-1.0, 1.0, 1.0])[: p.shape[1]])) for curve in ahead)
         return cls(tuple(ahead), behind)
 
     def mapped(self, change: Callable[[Floats], Floats]) -> ToothFlanks:
-        """The tooth with every point changed.
+        """Return the tooth with a transformation applied to every point.
 
         Parameters
         ----------
         change : callable
-            Points (n, 2) or (n, 3) to points of the same shape.
+            Function from points (n, 2) or (n, 3) to points of the same shape.
 
         Returns
         -------
         ToothFlanks
-            Of these points.
+            Transformed tooth.
         """
         return ToothFlanks(*(tuple(curve.mapped(change) for curve in side) for side in (self.ahead, self.behind)))
 
     def turned(self, angle: float) -> ToothFlanks:
-        """The tooth turned forward.
+        """Return the tooth rotated forward about the axle.
 
         Parameters
         ----------
         angle : float
-            [rad].
+            Angle of rotation [rad].
 
         Returns
         -------
         ToothFlanks
-            Turned.
+            Rotated tooth.
         """
         return self.mapped(_turn(angle))
 
 
 @dataclass(frozen=True)
 class GearOutline:
-    """A wheel: z teeth about its axle, tooth k turned forward by k pitches.
+    """Wheel of z teeth about its axle, tooth k rotated forward by k pitches.
 
     Raises
     ------
     QuestionError
-        Where counts do not fit or curves do not meet.
+        If counts do not fit or curves do not meet.
 
     See Also
     --------
-    solve : an example with such wheels.
+    solve : An example with such wheels.
     """
 
     teeth: tuple[ToothFlanks, ...]
-    """One tooth for all, or one for each of z."""
+    """Shapes of the teeth: one for all, or one for each of z teeth."""
     z: int
     """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
-    """What tooth k is ahead of its place [rad], z numbers; none where pitches are equal."""
+    """Pitch deviations: angle by which tooth k is ahead of its nominal position [rad], z numbers; empty for equal
+    pitches.
+    """
     ring: bool = False
-    """The teeth point inwards."""
+    """True if the teeth point inwards."""
 
     def __post_init__(self) -> None:
         for name, number, few in (("teeth", len(self.teeth), (1, self.z)), ("turns", len(self.turns), (0, self.z))):
@@ -241,47 +246,47 @@ class GearOutline:
 
     @property
     def pitch(self) -> float:
-        """Angle from tooth to tooth (rad)."""
+        """Angular pitch (rad)."""
         return 2 * pi / self.z
 
     @property
     def equal(self) -> bool:
-        """True if every tooth is as any other."""
+        """True if all teeth have the same shape and equal pitches."""
         return len(self.teeth) == 1 and not any(self.turns)
 
     @cached_property
     def bevel(self) -> bool:
-        """True for points on the sphere."""
+        """True if the points are on the sphere."""
         curve = self.teeth[0].ahead[0]
         return bool(curve.at([curve.start]).shape[1] == 3)
 
     @cached_property
     def ahead(self) -> FlankTable:
-        """The sides ahead as polynomials."""
+        """Leading sides as polynomial pieces."""
         return _table([tooth.ahead for tooth in self.teeth])
 
     @cached_property
     def behind(self) -> FlankTable:
-        """The sides behind as polynomials."""
+        """Trailing sides as polynomial pieces."""
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:
-        """The same wheel on an axle that misses its middle; no tooth is as another.
+        """Return the same wheel on an eccentric axle; each tooth then has its own shape.
 
         Parameters
         ----------
         x, y : float
-            By how much its points are moved, in the outline's unit.
+            Displacement of its points, in the outline's unit.
 
         Returns
         -------
         GearOutline
-            With a tooth of its own for each of z.
+            Wheel with a separate shape for each of z teeth.
 
         Raises
         ------
         QuestionError
-            For bevel wheels.
+            If the wheel is a bevel.
         """
         if self.bevel:
             raise QuestionError(
@@ -302,7 +307,7 @@ class GearOutline:
 
 
 def _check(side: tuple[OutlineCurve, ...]) -> None:
-    """A side is a chain of curves that meet, with finite points off the axle."""
+    """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
     if not side:
         raise QuestionError(Problem("a tooth has a side without curves", "nothing can touch it", "give a curve"))
     last = None
@@ -331,7 +336,7 @@ def _check(side: tuple[OutlineCurve, ...]) -> None:
 
 
 def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
-    """The sides of the teeth of a wheel, each a chain of curves. Raises `RangeError` where a curve is not smooth."""
+    """Convert one side of all teeth of a wheel to a table. Raises `RangeError` if a curve is not smooth."""
     pieces: list[tuple[PolynomialPiece, bool, bool]] = []
     first, curves = [0], list[int]()
     for side in sides:
@@ -356,7 +361,7 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
 
 
 def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bool, bool]]]:
-    """The pieces of each curve of a chain, and whether each piece begins, ends, in a corner."""
+    """Return the pieces of each curve of a chain, with flags that a piece begins and ends at a corner."""
     found = [
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _rising(curve, piece)]
         for curve in side
@@ -369,13 +374,13 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
 
 
 def _kink(last: PolynomialPiece, new: PolynomialPiece) -> bool:
-    """Whether two curves that meet change their direction there."""
+    """Return whether two consecutive curves have different directions at their common point."""
     before, after = _direction(last, 1), _direction(new, -1)
     return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Unit vector along a curve at u = end, -1 or 1; that of its second derivative where the first one is 0."""
+    """Return the unit tangent of a curve at u = end, -1 or 1; from the second derivative if the first one is 0."""
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
@@ -389,7 +394,7 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
 
 
 def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
-    """A piece cut where its radius turns."""
+    """Divide a piece at the extremes of its radius."""
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)
@@ -404,7 +409,7 @@ def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece
 
 
 def _turning(slope: Floats, low: float, high: float) -> float:
-    """Where a polynomial changes its sign between low and high."""
+    """Find the sign change of a polynomial between low and high by bisection."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
     # bisection to neighbouring floats: the slope is that of a fit, and noise where the radius hardly turns
     while low < (middle := low + (high - low) / 2) < high:

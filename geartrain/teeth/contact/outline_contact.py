@@ -1,6 +1,6 @@
 """Contact of two wheels given by outlines: driven angle, backlash and teeth in contact at given angles of the driver.
 
-`OutlinePair` finds which pairs of teeth are in reach at one centre distance, and which of them holds the driven wheel.
+`OutlinePair` finds the tooth pairs within range at one centre distance, and the pair that holds the driven wheel.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """One side of two wheels at one distance. The back is the front seen in a mirror."""
+    """Contact of one side of two wheels at one distance. The back side is the mirror image of the front side."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -53,7 +53,7 @@ class OutlinePair:
 
     @property
     def cycle(self) -> int:
-        """Driver's pitches after which all repeats."""
+        """Number of driver pitches after which the contact repeats."""
         z1, z2 = self.first.z, self.second.z
         if self.first.equal and self.second.equal:
             return 1
@@ -62,7 +62,7 @@ class OutlinePair:
         return z2 if self.first.equal else lcm(z1, z2)
 
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
-        """The fields of `FlankContact` at angles of shape (n,)."""
+        """Return the fields of `FlankContact` at driver angles of shape (n,)."""
         period = self.cycle * self.first.pitch
         # worked out within one period, and whole periods added after: their rounding stays out of the contact
         turns = np.floor(self.sign * phi1 / period)
@@ -80,7 +80,10 @@ class OutlinePair:
         return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
 
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
-        """All couples in reach, and the number of each one's driving tooth (in a mirror, counted backward)."""
+        """Return all tooth pairs within range, and the number of the driving tooth of each.
+
+        In the mirror image teeth are numbered backwards.
+        """
         pitch = self.first.pitch
         slack = 2 * max(map(abs, self.first.turns), default=0.0)
         lowest = np.ceil((self.window[0] - slack - rest) / pitch).astype(int)
@@ -122,7 +125,8 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def _kind(self, found: FirstTouches) -> Indices:
-        """Which of the two is at a corner: 1, 2, both 3."""
+        """Return the kind of each touch: 1 for a corner of the first wheel, 2 of the second, 3 of both, 0 for neither.
+        """
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.judge.first, found.piece1, found.u), (self.judge.second, found.piece2, found.v))
@@ -131,7 +135,7 @@ class OutlinePair:
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """How many couples have a touch at `minimum` or beyond."""
+        """Return the number of tooth pairs with a touch at `minimum` or beyond."""
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
 
@@ -141,7 +145,7 @@ def _taken(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
 
 
 def _nothing(count: int) -> tuple[Any, ...]:
-    """The fields of `FlankContact` where no tooth is in reach."""
+    """Return the fields of `FlankContact` for positions without a tooth within range."""
     nan = np.full(count, np.nan)
     none = np.full(count, -1)
     return (
@@ -157,7 +161,9 @@ def _nothing(count: int) -> tuple[Any, ...]:
 
 
 def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Whether two wheels can be looked at together."""
+    """Raise an error if two wheels cannot be in contact: mixed spur and bevel, two ring gears, or a distance out of
+    range.
+    """
     if first.bevel != second.bevel or (first.ring and second.ring):
         raise QuestionError(
             Problem(
@@ -182,32 +188,32 @@ def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
 
 @dataclass(frozen=True, slots=True)
 class FlankContact:
-    """Where the driven wheel stands against one side of the driver's teeth; arrays of the shape of the driver's angles.
+    """Position of the driven wheel against one side of the driver's teeth; arrays of the shape of the driver's angles.
 
     See Also
     --------
-    contact, solve : what gives it.
+    contact, solve : Compute it.
     """
 
     angle: Floats
-    """Driven angle [rad], NaN where no tooth is in reach."""
+    """Driven angle [rad], NaN where no tooth is within range."""
     speed: Floats
-    """D angle / d driver's angle."""
+    """Speed ratio: d angle / d driver's angle."""
     pair: Indices
-    """Number of the driver's tooth that touches, counted forward from tooth 0 without end."""
+    """Number of the driver's tooth in contact, counted forward from tooth 0 without wrapping."""
     kind: Indices
-    """What touches, an index into `KINDS`: smooth sides or a corner."""
+    """Kind of contact, an index into `KINDS`: smooth sides or a corner."""
     radius1: Floats
     """Radius of the contact about the driver's axle, in the outlines' unit; bevel: polar angle [rad]."""
     radius2: Floats
     """Radius of the contact about the driven axle, in the outlines' unit; bevel: polar angle [rad]."""
     sharing: Indices
-    """How many pairs of teeth are within reach of the contact."""
+    """Number of tooth pairs within the tolerance of contact."""
     curves: Indices
-    """(2, ...): which curve of either outline touches, counted through the sides of all its teeth; -1 where none."""
+    """Numbers of the curves in contact on both outlines, (2, ...), counted through all teeth; -1 without contact."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         names = ("angle", "speed", "pair", "radius1", "radius2", "sharing")
         kinds = np.array([*KINDS, "none"])[self.kind].tolist()
         return {**{name: getattr(self, name).tolist() for name in names}, "kind": kinds}
@@ -215,11 +221,11 @@ class FlankContact:
 
 @dataclass(frozen=True, slots=True)
 class TwoFlankContact:
-    """Both sides: `front` pushes the driven wheel forward, `back` holds it from running ahead.
+    """Contact of both sides: `front` pushes the driven wheel forward, `back` prevents it from running ahead.
 
     See Also
     --------
-    solve : what gives it.
+    solve : Computes it.
     """
 
     front: FlankContact
@@ -229,51 +235,51 @@ class TwoFlankContact:
 
     @property
     def backlash(self) -> Floats:
-        """What the driven wheel can turn freely (rad); below 0 the teeth interfere by as much."""
+        """Backlash of the driven wheel (rad); below 0 the teeth interfere by this angle."""
         found: Floats = self.back.angle - self.front.angle
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         return {"front": self.front.to_dict(), "back": self.back.to_dict(), "play": self.backlash.tolist()}
 
 
 def solve(
     first: GearOutline, second: GearOutline, distance: float, phi1: ArrayLike, within: float = 1e-9
 ) -> TwoFlankContact:
-    """Where the second wheel stands when the first, driving, is at given angles.
+    """Compute the position of the second wheel for given angles of the first, which drives.
 
-    The driven wheel stands where the last point of the driver's outline lets it: no normal and no path of contact is
-    used. Angles are within some 1e-15 rad of the outlines given, which are taken as polynomials as good as their own
-    rounding (`GearOutline.ahead.error`); far from 0 the rounding of phi1 itself is more. Both angles are 0 where tooth
-    0 is on the line of centres, and grow forward; tooth 0 pushes tooth 0.
+    The driven angle is the maximum that any point of the driver's outline requires; neither normals nor a path of contact
+    are used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by polynomials to
+    rounding (`GearOutline.ahead.error`). Far from 0 the rounding of phi1 itself dominates. Both angles are 0 where tooth 0
+    is on the line of centres, and increase forward; tooth 0 pushes tooth 0.
 
     Parameters
     ----------
     first, second : GearOutline
         Driver and driven wheel.
     distance : float
-        From axle to axle, in the outlines' unit; bevel: the shaft angle [rad].
+        Centre distance, in the outlines' unit; bevel: the shaft angle [rad].
     phi1 : array_like
         Driver's angles [rad], any shape.
     within : float
-        Couples that would touch if the driven wheel were turned back by less [rad] count as sharing.
+        Tolerance [rad]: a tooth pair counts as sharing if its gap is less than this rotation of the driven wheel.
 
     Returns
     -------
     TwoFlankContact
-        Driven angles on both sides, and the play between them.
+        Driven angles on both sides, and the backlash between them.
 
     Raises
     ------
     QuestionError
-        Where the wheels do not go together.
+        If the wheels cannot be in contact.
     RangeError
-        For a distance out of range, or an angle that is not finite.
+        If the distance is out of range, or an angle is not finite.
 
     Examples
     --------
-    Pointed teeth with straight sides, 10 and 20 of them, tips 0.5 over pitch circles of radius 5 and 10:
+    Pointed teeth with straight sides, 10 and 20 of them, tips 0.5 above pitch circles of radius 5 and 10:
 
     >>> from math import pi
     >>> from geartrain.teeth.contact import GearOutline, ToothFlanks, polyline
@@ -300,14 +306,14 @@ def contact(
     side: Literal["front", "back"] = "front",
     within: float = 1e-9,
 ) -> FlankContact:
-    """One side of `solve`, for half the time.
+    """Compute one side of `solve`, in half the time.
 
     Parameters
     ----------
     first, second, distance, phi1, within
         As in `solve`.
     side : {"front", "back"}
-        The side that pushes, or the one that holds.
+        The side that pushes the driven wheel, or the one that prevents it from running ahead.
 
     Returns
     -------
@@ -317,11 +323,11 @@ def contact(
     Raises
     ------
     QuestionError, RangeError
-        As `solve`.
+        As in `solve`.
 
     See Also
     --------
-    solve : both sides.
+    solve : Both sides.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The periodic transmission function of two outlines: polynomials between the driver's angles at which it has a kink.
+"""Periodic transmission function of two outlines: polynomials between the driver's angles at which it has a kink.
 
 `PiecewiseTransmission` holds the polynomials; `tabulate` fits them.
 """
@@ -45,43 +45,43 @@ _MOST = 100_000  # stretches
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """The driven angle as a function of the driver's, angle = ratio phi1 + error, repeating itself after a period."""
+    """Driven angle as a periodic piecewise polynomial: angle = ratio phi1 + error."""
 
     ratio: Fraction
-    """Driven over driver, without sign."""
+    """Mean speed ratio, driven over driver, without sign."""
     period: float
-    """Driver's angle (rad)."""
+    """Period in driver's angle (rad)."""
     breaks: Floats
-    """(n + 1,): ends of the stretches, from `breaks[0]` one period on."""
+    """Ends of the stretches, (n + 1,), from `breaks[0]` over one period."""
     middles: Floats
-    """(n,): u = (phi1 - middle) / half on each stretch, from -1 to 1 but for rounding."""
+    """Middles of the stretches, (n,): u = (phi1 - middle) / half is from -1 to 1 except for rounding."""
     halves: Floats
-    """(n,): u = (phi1 - middle) / half on each stretch, from -1 to 1 but for rounding."""
+    """Half widths of the stretches, (n,)."""
     errors: Floats
-    """(COUNT, n): coefficients of error (rad) and of d angle / d phi1 by powers of u."""
+    """Coefficients of the transmission error (rad) by powers of u, (COUNT, n)."""
     speeds: Floats
-    """(COUNT, n): coefficients of error (rad) and of d angle / d phi1 by powers of u."""
+    """Coefficients of d angle / d phi1 by powers of u, (COUNT, n)."""
     pair: Indices
-    """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
+    """Number of the driver's tooth in contact on each stretch, (n,)."""
     kind: Indices
-    """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
+    """Kind of contact on each stretch, (n,): an index into `KINDS`, or -1 if no tooth is within range."""
     kinks: Floats
-    """Driver's angles where something else begins to touch."""
+    """Driver's angles at which the contact changes to another tooth or curve."""
     uncertainty: float
-    """Twice the greatest differences found between nodes (rad; none)."""
+    """Twice the maximum difference of the angle found between nodes (rad)."""
     speed_uncertainty: float
-    """Twice the greatest differences found between nodes (rad; none)."""
+    """Twice the maximum difference of the speed found between nodes (dimensionless)."""
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Transmission error (rad of the driven wheel) at driver's angles (rad), any shape; NaN where none touches."""
+        """Return the transmission error (rad of the driven wheel) at driver's angles (rad); NaN without contact."""
         return self._of(self.errors, phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
-        """d angle / d phi1 at driver's angles (rad)."""
+        """Return d angle / d phi1 at driver's angles (rad)."""
         return self._of(self.speeds, phi1)
 
     def angle(self, phi1: ArrayLike) -> Floats:
-        """Driven angle (rad) at driver's angles (rad)."""
+        """Return the driven angle (rad) at driver's angles (rad)."""
         return self.error(phi1) + float(self.ratio) * np.asarray(phi1, dtype=float)
 
     def _of(self, coefficients: Floats, phi1: ArrayLike) -> Floats:
@@ -96,32 +96,36 @@ class PiecewiseTransmission:
         return value(coefficients, which, u)[0].reshape(phi1.shape)
 
     def extremes(self) -> tuple[float, float]:
-        """Least and greatest transmission error (rad): at corners, or where its slope is 0."""
+        """Return the minimum and maximum transmission error (rad), which are at kinks or where its slope is 0."""
         return extremes(self.errors)
 
     def speed_range(self) -> tuple[float, float]:
-        """Least and greatest speed ratio."""
+        """Return the minimum and maximum speed ratio."""
         return extremes(self.speeds)
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Where the speed ratio leaps up as one stretch follows another, but for rounding, in order of angle."""
+        """Return the upward steps of the speed ratio between stretches, in order of angle; steps by rounding are
+        omitted.
+        """
         start, before = ends(self.speeds)
         after = np.roll(start, -1)
         leaps = after - before > _JUMP * float(self.ratio)
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Greatest -d speed / d phi1 within the stretches (1/rad), 0 if the speed never falls."""
+        """Return the maximum of -d speed / d phi1 within the stretches (1/rad), 0 if the speed never falls."""
         slopes = np.zeros_like(self.speeds)  # one degree less, in as many coefficients
         slopes[:-1] = self.speeds[1:] * np.arange(1, len(slopes))[:, None] / self.halves
         return max(0.0, -extremes(slopes)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Mean of the transmission error over a period, and its rms about that mean (rad); NaN with gaps in contact."""
+        """Return the mean of the transmission error over a period and its rms about that mean (rad); NaN with gaps in
+        contact.
+        """
         return moments(self.errors, self.halves)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         low, high = self.extremes()
         return {
             "ratio": fraction_text(self.ratio),
@@ -141,7 +145,7 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Fitted stretches: ends (2, n), coefficients (COUNT, n), what touches, greatest differences."""
+    """Fitted stretches: ends (2, n), coefficients (COUNT, n), tooth and kind of contact, maximum differences."""
 
     ends: Floats
     errors: Floats
@@ -159,34 +163,33 @@ def tabulate(
     tolerance: float = 1e-12,
     side: Literal["front", "back"] = "front",
 ) -> PiecewiseTransmission:
-    """The transmission function of one side of two wheels over its period, as polynomials between its corners.
+    """Fit the transmission function of one side of two wheels by polynomials between its kinks.
 
     Parameters
     ----------
     first, second : GearOutline
         Driver and driven wheel.
     distance : float
-        From axle to axle, in the outlines' unit; bevel: the shaft angle [rad].
+        Centre distance, in the outlines' unit; bevel: the shaft angle [rad].
     tolerance : float
-        Greatest error [rad of the driven wheel]; where rounding keeps the law from it, the stated uncertainty is
-        greater.
+        Maximum error of the fit [rad of the driven wheel]. If rounding prevents it, the reported uncertainty is larger.
     side : {"front", "back"}
-        The side that pushes, or the one that holds.
+        The side that pushes the driven wheel, or the one that prevents it from running ahead.
 
     Returns
     -------
     PiecewiseTransmission
-        Its period is a pitch of the driver where all teeth are equal, else all its pitches until the same teeth meet
+        Its period is a pitch of the driver if all teeth are equal; otherwise all its pitches until the same teeth meet
         again.
 
     Raises
     ------
     QuestionError, RangeError
-        As `solve`; the second also where no tooth is ever in reach.
+        As in `solve`; `RangeError` also if no tooth is ever within range.
 
     See Also
     --------
-    geartrain.teeth.contact.solve : angles one by one.
+    geartrain.teeth.contact.solve : Contact at given angles.
 
     Examples
     --------
@@ -234,7 +237,7 @@ class _Maker:
         self.period = meeting.cycle * self.pitch
 
     def made(self) -> tuple[_Stretches, Floats, Floats]:
-        """All stretches in order, their ends, and which of these are corners."""
+        """Return all stretches in order, their ends, and the ends that are kinks."""
         count = _PARTS * self.meeting.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
@@ -251,7 +254,7 @@ class _Maker:
         return self._ordered(done, np.concatenate(kinks))
 
     def _good(self, stretches: _Stretches, before: Floats) -> Bools:
-        """Within tolerance, thin, or as good as rounding lets it be."""
+        """Return flags of stretches within tolerance, too thin to divide, or limited by rounding."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
         # halving a stretch of a smooth law gains far more than 4: what gains less at this size is rounding
         stuck = (stretches.off > before / 4) & (before < 1e-10)
@@ -259,7 +262,7 @@ class _Maker:
         return good
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Polynomials on stretches, and what touches at their nodes: (5, n, nodes)."""
+        """Fit polynomials on stretches, and return labels of the contact at their nodes, (4, n, nodes)."""
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
         angle, speed, labels = self._requested(phi1)
@@ -276,13 +279,13 @@ class _Maker:
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _requested(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
-        """Driven angle, speed, and labels that tell what touches."""
+        """Return driven angle, speed, and labels that identify the contact."""
         angle, speed, pair, kind, _, _, _, curves = self.meeting.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """For each stretch the driver's angles at which something else begins to touch, to rounding."""
+        """Locate, in each stretch, the driver's angles at which the contact changes, to rounding."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -292,7 +295,7 @@ class _Maker:
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
     def _narrowed(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Where the labels cease to be `left`, from low to high; the gaps shrink to rounding."""
+        """Locate the first change of labels from `left` between low and high, by repeated subdivision to rounding."""
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 is far beyond 2^53: it ends where a gap shrinks no more
             inner = low[:, None] + (high - low)[:, None] * share
@@ -309,7 +312,7 @@ class _Maker:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Stretches by driver's angle, each corner moved to where the stretches on its sides cross."""
+        """Sort the stretches by driver's angle, and move each kink to the intersection of its adjacent stretches."""
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
         breaks = np.append(everything.ends[0], everything.ends[1, -1])
@@ -328,7 +331,7 @@ class _Maker:
 
 
 def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Stretches cut at their corners, or halved where they have none; and how far each was off before."""
+    """Divide stretches at their kinks, or bisect those without; also return the previous error of each."""
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
         within = inner[(inner > low) & (inner < high)]

@@ -1,4 +1,6 @@
-"""One tooth from root to tip: working flank, root fillet, and tip land; with the flank from its path of contact."""
+"""Outline of one tooth from root to tip: working flank, root fillet, tip land; the flank follows from its path of
+contact.
+"""
 
 from __future__ import annotations
 
@@ -30,30 +32,30 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class RootFillet:
-    """In the frame of the tooth: x along its axis, y towards the space; modules."""
+    """Root fillet in the frame of the tooth: x along its axis, y towards the space; modules."""
 
     start: Point
-    """Where the straight line ends and the round begins."""
+    """Point where the straight line ends and the fillet begins."""
     end: Point
-    """Where the round touches the root circle."""
+    """Point where the fillet touches the root circle."""
     centre: Point
-    """Of the round."""
+    """Centre of the fillet."""
     radius: float
-    """Of the round."""
+    """Radius of the fillet."""
 
     @property
     def half(self) -> float:
-        """Angle (rad) between the axis of the tooth and where its root circle begins."""
+        """Angle (rad) between the axis of the tooth and the beginning of its root circle."""
         return atan2(self.end[1], self.end[0])
 
 
 def fillet(
     flank: FlankCurve, widening: float, root: float, radius: float, z: float, relief: float = 0.0
 ) -> RootFillet | None:
-    """The round of `radius` between the flank and the circle of radius `root`; None where there is no room.
+    """Return the fillet of `radius` between the flank and the circle of radius `root`; None if it does not fit.
 
     widening   half angle of the tooth at the pitch circle (rad)
-    relief     how far (rad) the straight line is turned into the tooth, off the flank's tangent
+    relief     angle (rad) by which the straight line is turned from the flank's tangent into the tooth
     """
     r, half = float(flank.r[0]), widening + float(flank.angle[0])
     E = (r * cos(half), r * sin(half))
@@ -83,12 +85,12 @@ def fillet(
 
 
 Vertex = tuple[float, float, float]
-"""A point, and the bulge of the edge to the next one."""
+"""Vertex x, y, and the bulge of the edge to the next one."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothOutline:
-    """A tooth of z alike; lengths in modules."""
+    """Outline of one of z equal teeth; lengths in modules."""
 
     z: float
     flank: FlankCurve
@@ -109,7 +111,8 @@ class ToothOutline:
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Half angle (rad) of the tooth as it is cut, straight edges and round, at radii from root to tip."""
+        """Return the half angle (rad) of the tooth as cut, with straight edges and fillet, at radii from root to tip.
+        """
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
@@ -129,7 +132,7 @@ class ToothOutline:
         return np.asarray(np.where(radius * s < r[0] * s, round_, edge))
 
     def _half(self) -> list[tuple[float, float, float]]:
-        """From root to tip on the far side of the axis of the tooth, with the bulge to the next point."""
+        """Return vertices with bulges from root to tip, on the side of positive y."""
         fillet = self.fillet
         half = self.widening + self.flank.angle
         flank = zip((self.flank.r * np.cos(half)).tolist(), (self.flank.r * np.sin(half)).tolist(), strict=True)
@@ -140,11 +143,11 @@ class ToothOutline:
         return [(*end, round_), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
 
     def whole(self) -> Contour:
-        """All teeth round the axle, counter-clockwise, the first of them about the x axis."""
+        """Return the contour of all teeth round the axle, counter-clockwise, the first tooth about the x axis."""
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """One tooth about the x axis, from one root to the other, the last edge along the root circle."""
+        """Return the vertices of one tooth about the x axis, from root to root, the last edge along the root circle."""
         half = self._half()
         origin = (0.0, 0.0)
         x, y, _ = half[-1]
@@ -159,7 +162,7 @@ class ToothOutline:
 
 
 def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
-    """z teeth round the axle, from the vertices of one.
+    """Yield the vertices of z teeth round the axle, from the vertices of one.
 
     Parameters
     ----------
@@ -185,7 +188,7 @@ def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
 
 
 def pin_span(R: float, radius: float) -> Floats:
-    """A pin of `radius` on the circle of radius R, radius and signed angle (2, n)."""
+    """Return radius and signed angle (2, n) of points of a pin of `radius` on the circle of radius R."""
     turn = np.linspace(0, 2 * pi, 181)
     x, y = R + radius * np.cos(turn), radius * np.sin(turn)
     return np.stack([np.hypot(x, y), np.arctan2(y, x)])
@@ -196,30 +199,30 @@ def pin_span(R: float, radius: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class FlankCurve:
-    """A flank from its root end to its tip end, lengths in modules.
+    """Flank from its root end to its tip end, lengths in modules.
 
-    No chord stands out of the true tooth: a flank that bulges is cut along chords, a hollow one along tangents, so that
-    teeth which touch without play do not overlap.
+    Chords never protrude from the true tooth. A convex flank is approximated by chords and a concave one by tangents, so
+    that teeth in contact without backlash do not overlap.
     """
 
     r: Floats
-    """Radius, and how much wider (rad) the half tooth is than at the pitch circle."""
+    """Radii of the points."""
     angle: Floats
-    """Radius, and how much wider (rad) the half tooth is than at the pitch circle."""
+    """Half angle of the tooth at each point less that at the pitch circle (rad)."""
     curve: Floats
     """Radius and angle of many points of the true flank (2, n)."""
     tangent: tuple[float, float]
     """Unit vector at the root end towards the root: along the radius, and across it towards the space."""
     R: float
-    """Pitch radius."""
+    """Pitch radius of the wheel."""
     outward: int
-    """1, or -1 for a ring, whose tips are inside."""
+    """Sign of the tip direction: 1, or -1 for a ring gear, whose tips are inside."""
 
 
 def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: float) -> FlankCurve:
-    """The flank of gear 1 or 2 over arcs of approach and recess (X), its chords within `tolerance` (modules).
+    """Return the flank of gear 1 or 2 over arcs of approach and recess (X), with chords within `tolerance` (modules).
 
-    A negative arc lets the flank begin beyond the pitch point.
+    With a negative arc the flank begins beyond the pitch point.
     """
     approach, recess = arcs
     pitch = path.pitch
@@ -241,13 +244,13 @@ def _R(path: PathOfContact, gear: int) -> float:
 
 
 def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
-    """Radius about the axle, and azimuth from the pitch crossing towards the space."""
+    """Return radius about the axle, and azimuth from the pitch point of the flank towards the space."""
     radius, azimuth = path.pitch.polar(gear, path.flank(gear, X))
     return radius, azimuth if gear == 1 else -azimuth
 
 
 def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Displacements at which a chord leaves the flank by as much everywhere: ds sqrt(curvature) constant."""
+    """Return displacements with equal chord deviation everywhere: ds sqrt(curvature) constant."""
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
     length = np.hypot(steps[:, 0], steps[:, 1])
@@ -263,7 +266,7 @@ def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floa
 
 
 def _bends(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Which points are the last before a flank turns from hollow to bulging, or back."""
+    """Return the indices of the last points before the curvature of the flank changes its sign."""
     points = path.flank(gear, X)
     steps = np.diff(points @ np.array([1, 1j]))
     bent = np.angle(steps[1:] * np.conj(steps[:-1]))
@@ -274,7 +277,7 @@ def _bends(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 def _with(found: Floats, bends: Floats) -> Floats:
-    """Displacements with some more among them, those near them left out."""
+    """Insert displacements `bends`, and drop other interior ones near them."""
     if not bends.size:
         return np.asarray(found)
     near = _NEAR * abs(found[-1] - found[0])
@@ -285,7 +288,10 @@ def _with(found: Floats, bends: Floats) -> Floats:
 
 
 def _within(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Radius and angle of a line that nowhere leaves the tooth: the flank's points, and where tangents meet."""
+    """Return radius and angle of a polyline that nowhere leaves the tooth.
+
+    Its vertices are points of the flank where it is convex, and intersections of tangents where it is concave.
+    """
     r, angle = _polar(path, gear, X)
     points = r * np.exp(1j * angle)
     along, across = _tangents(path, gear, X, outward)
@@ -310,12 +316,12 @@ def _within(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Fl
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    """Cross product of plane vectors written as complex numbers."""
+    """Return the cross product of plane vectors written as complex numbers."""
     return np.asarray((np.conj(a) * b).imag)
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """At right angles to the contact normal, which in the fixed frame leans by psi from the pitch line."""
+    """Return the unit tangent towards the root: normal to the contact normal, which makes psi with the pitch line."""
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi
     x, y = path.pitch.point(contact.d, contact.sin_psi, contact.cos_psi).T

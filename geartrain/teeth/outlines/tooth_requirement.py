@@ -1,6 +1,6 @@
 """Requirements of conjugate pairs on the teeth of a wheel: flanks, and spaces through which all mates pass.
 
-The mate's tooth is set against the outline in many positions of a pitch.
+The mate's tooth is compared with the outline at many positions within a pitch.
 """
 
 from __future__ import annotations
@@ -29,30 +29,30 @@ _MARGIN = 1e-3  # modules: least room at the round, which is more than a tip mov
 
 @dataclass(frozen=True, slots=True)
 class MateTooth:
-    """One tooth or pin of another wheel."""
+    """Tooth or pin of a mating wheel."""
 
     span: Floats
-    """Radius and signed angle of its points (2, n), where one of its flanks touches: half the play turned on."""
+    """Radius and signed angle of its points (2, n), rotated by half the backlash so that one of its flanks touches."""
     z: float
-    """Its tooth number."""
+    """Tooth number of the mate."""
     distance: float
-    """Of the two axles, negative for a wheel in a ring."""
+    """Centre distance, negative for a wheel in a ring gear."""
     internal: bool
-    """One of the two wheels is a ring; `ring`: this one."""
+    """True if one of the two wheels is a ring gear; `ring` is True if the mate is."""
     ring: bool
 
 
 @dataclass(frozen=True, slots=True)
 class MatePassage:
-    """Where a mate's tooth comes within the tip circle of a wheel, as that wheel sees it."""
+    """Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel."""
 
     radius: Floats
-    """About the wheel's axle; aside, angle (rad) from the axis of its nearest tooth."""
+    """Radius about the wheel's axle; `aside` is the angle (rad) from the axis of the nearest tooth."""
     aside: Floats
 
 
 def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
-    """The way of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
+    """Compute the passage of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
     turn = _positions(tip, outward, mate)[:, None]
     r, angle = mate.span
     place = mate.distance + r * np.exp(1j * (angle + turn + (0 if mate.internal else pi)))
@@ -65,10 +65,10 @@ def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
 
 
 def bite(tooth: ToothOutline, mate: MatePassage) -> float:
-    """How deep (modules) the mate's tooth cuts into the wheel's while it passes through the space; negative: play.
+    """Return the depth (modules) to which the mate's tooth cuts into the wheel's in its passage; negative for a gap.
 
-    Along the circle where it cuts flank or round, along the radius where it cuts the root circle. A round has to keep
-    some room more.
+    It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a margin
+    is added.
     """
     if not mate.radius.size:
         return -inf
@@ -80,7 +80,7 @@ def bite(tooth: ToothOutline, mate: MatePassage) -> float:
 
 
 def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
-    """Angles of the mate at which its tooth may be within the wheel's tip circle."""
+    """Return the angles of the mate at which its tooth may be within the wheel's tip circle."""
     distance = mate.distance
     far = float(mate.span[0].min() if mate.ring else mate.span[0].max())
     if not distance:
@@ -106,35 +106,35 @@ _ALIKE = 1e-5  # modules: flanks that differ by less are one
 
 @dataclass(frozen=True)
 class ToothRequirement(WheelRequirement):
-    """The teeth of gear 1 or 2 of a pair, lengths in modules."""
+    """Required teeth of gear 1 or 2 of a pair, lengths in modules."""
 
     pair: ConjugatePair
     gear: int
     tolerance: float
-    """How far a chord may leave a flank."""
+    """Maximum deviation of a chord from the flank."""
     clearance: float = CLEARANCE
-    """Between the mate's tips and the root."""
+    """Bottom clearance between the mate's tips and the root."""
     pins: LanternPins | None = None
-    """Where one of the two is a lantern."""
+    """Pins if one of the two gears is a lantern; None otherwise."""
 
     @property
     def internal(self) -> bool:
-        """True if one of the two wheels is a ring."""
+        """True if one of the two wheels is a ring gear."""
         return self.pair.path.pitch.R2 < 0
 
     @property
     def z(self) -> float:
-        """Tooth number."""
+        """Tooth number of the gear."""
         return self.pair.path.pitch.teeth_of(self.gear)
 
     @property
     def distance(self) -> float:
-        """Of the two axles."""
+        """Centre distance of the pair."""
         return abs(self.pair.path.pitch.R1 + self.pair.path.pitch.R2)
 
     @property
     def flank(self) -> FlankCurve:
-        """The working flank."""
+        """Working flank of the gear."""
         return _flank(self.pair, self.gear, self.tolerance)
 
     @property
@@ -144,29 +144,29 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def other(self) -> ToothRequirement:
-        """What the pair asks of the mate."""
+        """Requirement of the pair on the mate."""
         return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
 
     @property
     def has_pins(self) -> bool:
-        """True for the lantern of a pair: round pins, no teeth."""
+        """True for the lantern of a pair, which has round pins instead of teeth."""
         return self.pins is not None and self.pins.gear == self.gear
 
     @property
     def tip(self) -> float:
-        """Radius of the tips; of pins, of what of them is outermost."""
+        """Radius of the tip circle; for pins, of their outermost points."""
         if self.pins is not None and self.has_pins:
             return self.pins.circle + self.pins.radius
         return self.pair.path.radii(self.gear)[1]
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """True if one wheel does for both."""
+        """Return True if one wheel meets both requirements."""
         if not isinstance(other, ToothRequirement):
             return False
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Pins, or the one tooth whose root lets the mates of all pass."""
+        """Return the pins, or the one tooth whose root lets the mates of all requirements pass."""
         demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
         for demand in demands:
             check_flat(demand.pair)
@@ -176,9 +176,9 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def root(self) -> float:
-        """Radius of the root circle: as deep under the pitch circle as the mate's tip stands over its own, and more.
+        """Radius of the root circle: its depth below the pitch circle is the mate's addendum plus the clearance.
 
-        A tip that keeps off its pitch circle stands over it by less than nothing.
+        The addendum is negative if the mate's tip does not reach its own pitch circle.
         """
         own, mate = self.flank, self.other.flank
         tip = float(mate.r[-1]) if self.pins is None else self.pins.circle + self.pins.radius
@@ -186,7 +186,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def passage(self) -> MatePassage:
-        """The way of the mate's tooth or pin through the spaces."""
+        """Passage of the mate's tooth or pin through the spaces."""
         own, other = self.flank, self.other
         found = other.flank
         if self.pins is not None and other.gear == self.pins.gear:
@@ -218,7 +218,7 @@ def _cut(demands: tuple[ToothRequirement, ...]) -> CutTooth:
 
 
 def check_flat(pair: ConjugatePair) -> None:
-    """Raise `QuestionError` for a pair that no flat wheels can be cut for."""
+    """Raise `QuestionError` if flat wheels cannot be cut for a pair."""
     path = pair.path
     if path.pitch.bevel:
         # a crown wheel develops into a rack, of infinitely many teeth
@@ -240,7 +240,7 @@ def check_flat(pair: ConjugatePair) -> None:
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """True if one tooth does for both: their flanks are one curve, as far as both work, up to the same tips."""
+    """Return True if one tooth meets both requirements: equal flanks where both work, and equal tips."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False
@@ -256,11 +256,11 @@ def _rising(curve: Floats) -> Floats:
 
 
 def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) -> tuple[ToothOutline, float]:
-    """The tooth for all pairs of a wheel, and by how much (rad) its root is turned off the flank's tangent.
+    """Return the tooth for all pairs of a wheel, and the angle (rad) of its root off the flank's tangent.
 
-    Its flank reaches as deep as any mate's tips work, its root circle clears them all, and its fillet, `wanted` or the
-    largest up to 0.38 modules, lets each of them pass. All lengths in modules; all flanks
-    must be alike. Raises `QuestionError` where there is no such tooth.
+    Its flank is as deep as the tips of all mates need, and its root circle clears them. Its fillet, `wanted` or the
+    largest up to 0.38 modules, lets each of them pass. All lengths are in modules, and all flanks must be alike. Raises
+    `QuestionError` if no such tooth exists.
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
@@ -298,7 +298,7 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
 def _maker(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float
 ) -> Callable[[float], ToothOutline | None]:
-    """From a fillet's radius to a tooth that the mates pass without a bite of more than `most`, or None."""
+    """Return a function from a fillet radius to a tooth that interferes with no mate by more than `most`, or None."""
     flank, widening, z = own.flank, own.widening, own.z
 
     def made(radius: float) -> ToothOutline | None:
@@ -312,7 +312,7 @@ def _maker(
 
 
 def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
-    """By bisection, the tooth with the largest fillet below `wanted`; None where not even a small one fits."""
+    """Find the tooth with the largest fillet below `wanted` by bisection; None if not even a small one fits."""
     found = made(_MINIMUM_FILLET)
     low, high = _MINIMUM_FILLET, wanted
     if found is None or wanted <= low:

@@ -20,9 +20,11 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 APPROACH, RECESS = "approach", "recess"
 SLIP, RETURN = "slip", "return"
-"""Contact that cannot push: the driver's apex on a driven flank that leans, an apex on the far side of a leaning flank.
+"""Contact phases that cannot push, with overhanging flanks only.
 
-They occur with leaning flanks only, and bound the play; the driven wheel would turn back, so it stands instead."""
+In slip the driver's apex touches an overhanging driven flank; in return the driven apex touches the far side of an
+overhanging driver flank. Both limit the backlash. The driven wheel would turn back, so it dwells instead.
+"""
 
 FlankLine: TypeAlias = tuple[Any, Any, Any, Any, Any, Any]
 """Values u, sin psi, cos psi, c, s, q of a contact in approach.

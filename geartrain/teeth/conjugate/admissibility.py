@@ -56,8 +56,8 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
                     gear,
                     X,
                     f"gear {gear} is undercut",
-                    f"in {where} the contact stands still on its dedendum {abs(angle):.6g} deg from the pitch point",
-                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or take more teeth or a larger "
+                    f"in {where} the contact speed along its dedendum is 0 at {abs(angle):.6g} deg from the pitch point",
+                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or use more teeth or a larger "
                     "pressure angle",
                 )
 
@@ -86,7 +86,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
             point = _point(path, gear, X, halves)
             end = "end" if (X > 0) == (gear == 1) else "begin"
             shorter = (
-                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or take a smaller pressure angle"
+                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
             )
             yield ToothFault(
                 "pointed",
@@ -94,7 +94,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
                 X,
                 f"the teeth of gear {gear} come to a point before their tips",
                 f"their flanks would cross by {-degrees(room):.4g} deg of its {360 / z:.4g} deg pitch",
-                shorter if point else "leave its teeth some thickness: give less backlash, or shift it outwards",
+                shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
             )
 
 
@@ -140,8 +140,8 @@ def _broken(path: PathOfContact) -> Iterator[ToothFault]:
             0,
             float("nan"),
             f"the contact ratio is {ratio:.6g}",
-            "one pair of teeth parts before the next one meets",
-            "lengthen approach or recess until they are a pitch together",
+            "one tooth pair leaves contact before the next one enters it",
+            "lengthen approach or recess until their sum is at least one pitch",
         )
 
 
@@ -197,7 +197,7 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
             "the teeth jam",
             f"at the centre distance {pair.distance:.6g} modules they are thicker than the spaces by "
             f"{-pair.backlash:.4g}",
-            f"{apart}thin them with `backlash`, or shift the wheels less",
+            f"{apart}thin the teeth with `backlash`, or reduce the profile shifts",
         )
 
 
@@ -216,9 +216,9 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
             gear,
             X,
             f"the tips of gear {3 - gear} run into the roots of gear {gear}",
-            f"their contact would go on past {degrees(_tangent(pair, path, gear) / reach):.6g} deg from the pitch "
+            f"their contact would continue past {degrees(_tangent(pair, path, gear) / reach):.6g} deg from the pitch "
             f"point, where the involute of gear {gear} begins at its base circle",
-            f"give gear {3 - gear} an addendum of at most {most:.4g} modules, shift gear {gear} outwards, or take more "
+            f"give gear {3 - gear} an addendum of at most {most:.4g} modules, shift gear {gear} outwards, or use more "
             "teeth or a larger pressure angle",
         )
 
@@ -240,14 +240,14 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
             minimum = wheel.cut - wheel.r * sin(wheel.psi) ** 2
             # a whole number that rounding has raised a little is that number
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
-            other = ", or take `form: cycloidal`, which suits few leaves" if 2 * wheel.r <= _LEAVES else ""
+            other = ", or use `form: cycloidal`, which suits pinions of few leaves" if 2 * wheel.r <= _LEAVES else ""
             yield ToothFault(
                 "undercut",
                 gear,
                 (-1 if gear == 1 else 1) * arc,
                 f"gear {gear} is undercut",
-                f"the rack's corner cuts its involute away up to a radius of {gone:.6g} modules, and contact goes down "
-                f"to {lowest:.6g}",
+                f"the rack's corner cuts its involute away up to a radius of {gone:.6g} modules, but contact extends "
+                f"down to {lowest:.6g}",
                 f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}",
             )
 
@@ -281,6 +281,6 @@ def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
             0,
             path.arcs[1],
             "the tips of the pinion run into the tips of the ring",
-            f"they cross {degrees(-gap):.4g} deg of the ring too far, of its pitch of {360 / pitch.z2:.4g} deg",
-            "give the ring more teeth, or both shorter addenda",
+            f"they overlap by {degrees(-gap):.4g} deg of the ring, whose pitch is {360 / pitch.z2:.4g} deg",
+            "give the ring more teeth, or both wheels shorter addenda",
         )

@@ -71,7 +71,7 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
             Problem(
                 f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
                 f"half of it is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
-                "ask for a shorter arc or a larger rolling circle",
+                "use a shorter arc or a larger rolling circle",
             )
         )
     return PathSide((ConeCirclePiece(rho, cone_end(rho, X)) if pitch.bevel else CirclePiece(rho, circle_end(rho, X)),))
@@ -156,12 +156,12 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     most = first if inside else 3.14 - first
     # a little short of half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
-        side, fix = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
+        side, limit = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
         raise RangeError(
             Problem(
                 f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long",
-                f"it ends at {fix}, before {degrees(most):.6g} deg",
-                "ask for a shorter arc",
+                f"it must end before {limit}, at {degrees(most):.6g} deg",
+                "use a shorter arc",
             )
         )
     L = sqrt((A - R) ** 2 + 4 * A * R * sin(beta / 2) ** 2)
@@ -186,8 +186,8 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     if (at_pitch > 0) == (at_most > 0):
         raise RangeError(
             Problem(
-                f"no contact of these pins reaches the tip radius {tip:.6g}",
-                "the pins are past the far side of the lantern before",
+                f"the contact of these pins does not reach the tip radius {tip:.6g}",
+                "the pins pass the far side of the lantern first",
                 "give the mate a shorter addendum",
             )
         )

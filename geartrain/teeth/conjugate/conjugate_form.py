@@ -47,10 +47,10 @@ class ConjugateToothForm(ToothForm):
     backlash: Length = Field(
         "0",
         validate_default=True,
-        description="Play on the pitch circle, in modules or with a unit; both teeth thinned",
+        description="Backlash on the pitch circle, in modules or with a unit; the teeth of both wheels are thinned",
     )
     centre_distance: Length | None = Field(
-        None, description="Distance of the two axes, in modules or with a unit; default that of the design"
+        None, description="Centre distance, in modules or with a unit; default the design distance"
     )
 
     @model_validator(mode="after")
@@ -105,9 +105,9 @@ class ConjugateToothForm(ToothForm):
         """
         if "backlash" not in self.model_fields_set:
             return None
-        why = f"it declares {self.backlash.text}, and what is declared wins"
-        fix = "leave --backlash out, or take the `backlash` out of the file"
-        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+        why = f"its declared backlash {self.backlash.text} takes precedence over --backlash"
+        fix = "omit --backlash, or remove `backlash` from the file"
+        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
 
     def thinned(self, backlash: Quantity) -> Self:
         """Return a copy of the form with the given backlash.
@@ -335,7 +335,7 @@ class ConjugateToothForm(ToothForm):
         if self.centre_distance is None:
             return None
         if wheels.bevel:
-            raise refused("bevel wheels have no centre distance", "their axes meet", "leave out centre_distance")
+            raise refused("bevel wheels have no centre distance", "their axes meet", "omit centre_distance")
         given, design = wheels.modules(self.centre_distance, "centre_distance"), wheels.distance
         return given if abs(given - design) > _DESIGN * design else None
 
@@ -369,7 +369,7 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
     """Raise pydantic's error if an arc is below 0 or both are 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
-        raise bad("arcs", f"arcs [{text}] are none", "give those of approach and recess in pitches, a pitch in all")
+        raise bad("arcs", f"arcs [{text}] are out of range", "give arcs of approach and recess in pitches, with a sum of at least 1")
 
 
 def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
@@ -377,7 +377,7 @@ def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
     if backlash.value < 0:
         raise bad("backlash", f"backlash {backlash.text} would jam the teeth", "write 0 or more")
     if centre_distance is not None and centre_distance.value <= 0:
-        raise bad("length", f"centre_distance {centre_distance.text} is no length", "write it above 0")
+        raise bad("length", f"centre_distance {centre_distance.text} is not above 0", "give a distance above 0")
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
@@ -387,7 +387,7 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
         raise bad(
             "pressure_angle",
             f"{name} {angle.text} is outside 0 to {360 * below:g} deg",
-            f"a pressure angle of these teeth lies between 0 and {360 * below:g} deg; 20 deg is usual",
+            f"give a pressure angle between 0 and {360 * below:g} deg; 20 deg is usual",
         )
 
 
@@ -396,9 +396,9 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
     why, fix = _refusal(wheels.kinds), IDEAL
     if "helical" in wheels.kinds:
         if _are_skew(shaft_angle):
-            why = "helical teeth on skew axes touch at a point, and slide along each other"
+            why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
-            why = "its wheels are helical, and only involutes are known to work there"
+            why = "its wheels are helical, and only involute teeth are supported on helical wheels"
             fix = "give it `tooth_form: involute`"
     if why:
         raise refused(f"it cannot have {form.words} teeth", why, fix)
@@ -406,7 +406,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 def _refusal(kinds: tuple[str, str]) -> str:
     if "worm" in kinds:
-        return "a worm's thread slides along the wheel, and rolls on no pitch surface"
+        return "a worm's thread slides along the wheel and has no rolling pitch surface"
     if set(kinds) >= {"bevel", "contrate"}:
         return "a bevel and a contrate wheel have no pair of pitch cones"
     return ""
@@ -424,7 +424,7 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
     if uneven := wheel_specific_parameters(form):
         ring, pinion = pair
         raise refused(
-            f"it is not plain whose {' and '.join(uneven)} is whose",
+            f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",
             f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
             f"name the pinion first: `pair: [{pinion}, {ring}]`",
         )
@@ -446,7 +446,7 @@ def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAng
     if angle is None and "bevel" in wheels.kinds:
         raise refused(
             f"it cannot have {form.words} teeth",
-            "nothing says how the axes of its bevels meet",
+            "the shaft angle of its bevel wheels is not declared",
             f"declare `axes` with the `direction` of both, or {IDEAL}",
         )
     return angle

@@ -34,15 +34,15 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
 
 _WORDS = (
-    "Conjugate teeth keep the ratio of tooth counts at every instant where their axes are as far apart as they are "
-    "made for, involutes at any distance; others have an error there. Arcs of the driver's approach and recess, "
-    "and contact ratio, in pitches, as designed; error and play in degrees of the driven wheel; mean efficiency "
-    "at constant driver torque, exact in friction, as the pair is driven and driven back, teeth in contact sharing "
-    "the load equally."
+    "Conjugate teeth have a constant speed ratio at their design centre distance, involutes at any distance; other "
+    "forms have a transmission error elsewhere. Arcs of the driver's approach and recess, and contact ratio, in "
+    "pitches, as designed; transmission error and backlash in degrees of the driven wheel; mean efficiency at constant "
+    "driver torque, exact in friction, as the pair is driven and driven back, teeth in contact sharing the load "
+    "equally."
 )
 _HEADER = (
     *("pair", "drives", "teeth", "arcs", "contact ratio"),
-    *("error p-p (deg)", "play (deg)", "efficiency", "driven back", "verdict"),
+    *("error p-p (deg)", "backlash (deg)", "efficiency", "driven back", "verdict"),
 )
 
 
@@ -172,9 +172,9 @@ class ConjugateMesh(GearMesh):
 def _shallow(gear: int, overlap: float) -> Problem:
     """Return the problem of a root that the mate's tip would run into; `overlap` in modules."""
     return Problem(
-        f"the root of gear {gear} stands in the way of its mate's tip",
+        f"the root of gear {gear} interferes with its mate's tip",
         f"they overlap by {overlap:.4g} modules at this centre distance",
-        "give a greater --dedendum or a smaller --addendum",
+        "give a larger --dedendum or a smaller --addendum",
         "--dedendum",
     )
 

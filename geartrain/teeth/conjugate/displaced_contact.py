@@ -209,7 +209,7 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
         raise RangeError(
-            Problem("these teeth do not reach each other", "no flank can be displaced", "give them longer arcs")
+            Problem("these teeth do not reach each other", "displaced flanks need an arc of contact", "use longer arcs")
         )
     # gear 2 drives the same contacts the other way round
     sense = 1.0 if driver == 1 else -1.0

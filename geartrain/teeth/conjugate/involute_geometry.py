@@ -155,10 +155,10 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
     if value < 0:
         raise GearTrainError(
             Problem(
-                f"no centre distance lets wheels of {first.z} and {second.z} teeth mesh without play",
+                f"no centre distance lets wheels of {first.z} and {second.z} teeth mesh without backlash",
                 f"with their shifts {first.shift:g} and {second.shift:g} the involute function of the operating angle "
-                f"would be {value:.4g}, and it is 0 or more",
-                "shift the wheels less, or give a centre_distance",
+                f"would be {value:.4g}, but it must be 0 or more",
+                "reduce the inward profile shifts, or give a centre_distance",
             )
         )
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))
@@ -168,9 +168,9 @@ def _apart(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> Rang
     return RangeError(
         Problem(
             "the teeth do not reach each other",
-            f"at a centre distance of {distance:.6g} modules the tips, at {first.tip:.6g} and {second.tip:.6g}, part "
-            "before they meet on the line of action",
-            "give greater addenda, move the axles together, or shift the wheels less far apart",
+            f"at a centre distance of {distance:.6g} modules the tip circles, of radii {first.tip:.6g} and "
+            f"{second.tip:.6g}, leave no contact on the line of action",
+            "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer",
         )
     )
 

@@ -281,7 +281,7 @@ def least_friction(
     # the bracket keeps off a ray, and a second piece, of no length
     minimum, most = 1e-3 * longest, longest * (1 - 1e-6)
     if weight is not None and variation(minimum) * variation(most) > 0:
-        raise other_shape("no length of it would let the other piece be the best")
+        raise other_shape("no length of the first piece makes the second one optimal")
     first = root(variation, minimum, most, variation(minimum), variation(most))
     if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
         if above(minimum) > 0:
@@ -298,8 +298,8 @@ def _too_long(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeErro
     return RangeError(
         Problem(
             f"an arc of {X / pitch.p:.6g} pitches is too long for a margin of {u:g} at {degrees(psi):.6g} deg",
-            "before its end, even contact as slow as that rises above the greatest pressure angle",
-            "ask for a shorter arc, more teeth, a smaller margin or a larger pressure angle",
+            "before its end, even the minimum contact speed needs more than the maximum pressure angle",
+            "use a shorter arc, more teeth, a smaller margin or a larger pressure angle",
         )
     )
 
@@ -440,8 +440,8 @@ def lost(end: float) -> RangeError:
     return RangeError(
         Problem(
             f"the path of contact does not reach {end:.6g} from the pitch point",
-            "its pressure angle would come to a right angle before",
-            "ask for shorter arcs, more teeth, or a smaller pressure angle",
+            "its pressure angle would reach a right angle before that distance",
+            "use shorter arcs, more teeth, or a smaller pressure angle",
         )
     )
 
@@ -466,21 +466,21 @@ def check_pieces(
     """
     d = np.linspace(0.0, end, _CHECKED)
     if (np.diff(weight(d)) < 0).any():
-        raise other_shape("there its contacts lose less the faster they slide")
+        raise other_shape("the friction loss of a contact decreases there with increasing sliding velocity")
     d = np.linspace(first, end, _CHECKED)
     each = pull(pitch, sine_of, d, end, weight)
     below = np.cumsum((each[1:] + each[:-1]) / 2)
     if below.max() > _SLACK * np.abs(each).sum():
-        raise other_shape("a path that rises again before its end would lose less")
+        raise other_shape("a path whose pressure angle rises again before its end would have less loss")
 
 
 def other_shape(why: str) -> RangeError:
     """Return the error for a friction law whose side of minimum loss does not consist of two pieces."""
     return RangeError(
         Problem(
-            "under this law of friction teeth of least loss have other pieces than a constant pressure angle and a "
-            "slowest contact",
+            "with this friction law, teeth of minimum loss do not consist of a constant pressure angle and a minimum "
+            "contact speed",
             why,
-            "ask for another pitch_line_speed, a law that falls less steeply, or a smaller pressure angle",
+            "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle",
         )
     )

@@ -408,13 +408,13 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
         what = f"no heat gives these teeth a working depth of {wanted:.6g}"
         if at_low > 0:
             raise GearTrainError(
-                Problem(what, "even the hottest are deeper", "ask for more depth or shorter arcs, or give the heat")
+                Problem(what, "even the hottest teeth are deeper", "use more depth or shorter arcs, or give `heat`")
             )
         raise GearTrainError(
             Problem(
                 what,
-                "their pressure angle would reach a right angle, or their contact stand still, before",
-                "ask for another depth, shorter arcs or more teeth, or give the heat",
+                "their pressure angle would reach a right angle, or their contact speed 0, before that depth",
+                "use another depth, shorter arcs or more teeth, or give `heat`",
             )
         )
     return root(off, low, high, at_low, at_high)

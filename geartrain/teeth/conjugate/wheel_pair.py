@@ -99,28 +99,28 @@ class WheelPair:
             if z < FEWEST:
                 raise refused(
                     f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no conjugate teeth",
-                    "so few leave no arc on which one pair takes over from the last",
+                    "so small a number leaves no arc on which the next tooth pair can take over",
                     f"give at least {FEWEST} teeth, or another tooth_form",
                 )
         if self.internal and self.z2 <= self.z1:
             raise refused(
-                f"a ring of {self.z2} teeth does not hold a wheel of {self.z1}",
+                f"a ring of {self.z2} teeth cannot contain a wheel of {self.z1} teeth",
                 "its pitch circle is not the larger one",
                 "give the ring more teeth",
             )
         if self.internal and self.bevel:
-            raise refused("a ring's axis is parallel to its pinion's", "", "give the pair no shaft angle")
+            raise refused("a ring cannot have a shaft angle", "its axis is parallel to its pinion's", "omit the shaft angle")
         if max(self.z1, self.z2) > MOST_TEETH:
             raise refused(
-                f"a wheel of {max(self.z1, self.z2)} teeth",
-                "its teeth are lost in the rounding of its radius",
+                f"a wheel of {max(self.z1, self.z2)} teeth has too many teeth",
+                "a tooth would be smaller than the rounding error of the radius",
                 f"give at most {MOST_TEETH:g} teeth",
             )
         if self.shaft_angle is not None and not _MINIMUM_ANGLE <= self.shaft_angle <= pi - _MINIMUM_ANGLE:
             raise refused(
-                f"a shaft angle of {self.shaft_angle:.6g} rad is none",
-                f"bevel axes meet between 0 and 180 deg, and {_MINIMUM_ANGLE:g} rad from either at least",
-                "give parallel axes to a spur pair",
+                f"a shaft angle of {self.shaft_angle:.6g} rad is out of range",
+                f"bevel axes meet at an angle between 0 and 180 deg, at least {_MINIMUM_ANGLE:g} rad from either",
+                "use parallel axes for a spur pair",
             )
 
     def modules(self, length: Quantity, name: str) -> float:
@@ -142,7 +142,7 @@ class WheelPair:
             return float(length.value) * cos(self.helix)
         if self.module is None:
             raise refused(
-                f"the {name} {length.text} has nothing to be compared with",
+                f"the {name} {length.text} cannot be converted to modules",
                 "the wheels declare no module with a unit",
                 f"give the `module` of both wheels, --module to `export`, or the {name} as a plain number of modules",
             )

@@ -161,7 +161,8 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
     reach = np.flatnonzero(whole)
     if len(flanks) < 2 or found.x[reach[-1]] - found.x[reach[0]] < search.first.pitch:
         what = "these teeth do not touch for a whole pitch"
-        raise RangeError(Problem(what, "no flank can be displaced", "give them longer tips, or axles nearer together"))
+        why = "the effect of a displaced flank is defined for a contact of at least one pitch"
+        raise RangeError(Problem(what, why, "use larger addenda or a smaller centre distance"))
     # the places of the search are fine beside the tables; an end lies within
     start, end, minimum, most = (float(found.x[at]) for at in (flanks[0], flanks[-1], reach[0], reach[-1]))
     return start, end, minimum, most

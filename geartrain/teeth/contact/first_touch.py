@@ -323,7 +323,9 @@ class FirstTouchSearch(FlankSegmentation):
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
-            """The slope of G times d radius / dv of the driven piece: it is positive, and may be 0 at a piece's end."""
+            """Return the slope of G times d radius / dv of the driven piece, which is positive but may be 0 at a
+            piece's end.
+            """
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
             # clipped: rounding may put a radius beyond the ends of the piece

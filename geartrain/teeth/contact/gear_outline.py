@@ -235,7 +235,7 @@ class GearOutline:
             if self.z < 1 or number not in few:
                 raise QuestionError(
                     Problem(
-                        f"{number} {name} for a wheel of {self.z}",
+                        f"a wheel of {self.z} teeth cannot have {number} {name}",
                         f"a wheel of z teeth takes {few[0]} or z of them, z at least 1",
                         f"give {few[0]} or {self.z} {name}",
                     )
@@ -292,7 +292,7 @@ class GearOutline:
             raise QuestionError(
                 Problem(
                     "a bevel wheel cannot be displaced in its plane",
-                    "its teeth lie on a sphere about the apex",
+                    "its teeth are on a sphere about the apex",
                     "give every tooth its own curves instead",
                 )
             )
@@ -309,15 +309,15 @@ class GearOutline:
 def _check(side: tuple[OutlineCurve, ...]) -> None:
     """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
     if not side:
-        raise QuestionError(Problem("a tooth has a side without curves", "nothing can touch it", "give a curve"))
+        raise QuestionError(Problem("a tooth has a side without curves", "each side needs a curve", "give at least one curve"))
     last = None
     for curve in side:
         ends = curve.at(np.array([curve.start, curve.end]))
         if not np.isfinite(ends).all() or curve.start == curve.end or not np.hypot(ends[:, 0], ends[:, 1]).all():
             raise QuestionError(
                 Problem(
-                    f"a curve from {curve.start:.6g} to {curve.end:.6g} has no use as part of a tooth",
-                    "its ends are not finite, are on the axle, or are the same parameter",
+                    f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth",
+                    "its ends are not finite, are on the axle, or have the same parameter",
                     "give two parameters at which the curve has points off the axle",
                 )
             )

@@ -167,8 +167,8 @@ def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
     if first.bevel != second.bevel or (first.ring and second.ring):
         raise QuestionError(
             Problem(
-                "two wheels do not go together",
-                "one is flat and the other on a sphere, or both are rings",
+                "these two wheels cannot mesh",
+                "one is a spur wheel and the other a bevel wheel, or both are rings",
                 "give two spur wheels, two bevel wheels, or a wheel and a ring",
             )
         )
@@ -176,7 +176,7 @@ def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
     if not 0 < distance < limit:
         raise RangeError(
             Problem(
-                f"a distance of {distance:.6g} between axles",
+                f"the distance {distance:.6g} between the axles is out of range",
                 "it must be above 0" + (", and a shaft angle below 180 deg" if first.bevel else ""),
                 "give the distance from axle to axle (bevel: the shaft angle in rad)",
             )
@@ -340,7 +340,7 @@ def contact(
     """
     phi1 = np.asarray(phi1, dtype=float)
     if not np.isfinite(phi1).all():
-        raise RangeError(Problem("an angle of the driver is not finite", "it has no place on a turn", "leave it out"))
+        raise RangeError(Problem("an angle of the driver is not finite", "positions must be finite", "remove infinite and NaN angles"))
     meeting = OutlinePair(first, second, distance, side)
     flat = meeting.at(phi1.ravel(), within)
     shapes = (each.reshape((*each.shape[:-1], *phi1.shape)) for each in flat)

@@ -18,12 +18,13 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairAccount, PairVerdict
 
 _WORDS = (
-    "Teeth whose motion is found by the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
-    "its mean; error peak to peak and least play in degrees of the driven wheel; mean efficiency at constant driver "
-    "torque, exact in friction, one pair of teeth carrying the load, as the pair is driven and driven back."
+    "Teeth whose motion follows from the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
+    "its mean; transmission error peak to peak and minimum backlash in degrees of the driven wheel; mean efficiency at "
+    "constant driver torque, exact in friction, one pair of teeth carrying the load, as the pair is driven and driven "
+    "back."
 )
 _HEADER = (
-    *("pair", "drives", "teeth", "speed/mean", "error p-p (deg)", "play (deg)"),
+    *("pair", "drives", "teeth", "speed/mean", "error p-p (deg)", "backlash (deg)"),
     *("efficiency", "driven back", "verdict"),
 )
 

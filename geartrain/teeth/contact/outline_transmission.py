@@ -292,8 +292,8 @@ def _apart(distance: float, share: float) -> ToothFault:
         0,
         nan,
         "the teeth do not reach each other",
-        f"at a centre distance of {distance:.6g} modules nothing touches during {share:.1%} of a pitch",
-        "move the axles together, or take longer arcs",
+        f"at a centre distance of {distance:.6g} modules no teeth touch during {share:.1%} of a pitch",
+        "reduce the centre distance, or use longer arcs",
     )
 
 
@@ -303,6 +303,6 @@ def _jam(distance: float, backlash: float) -> ToothFault:
         0,
         nan,
         "the teeth jam",
-        f"at a centre distance of {distance:.6g} modules they lack {-backlash:.4g} rad of the driven wheel's angle",
-        "move the axles apart, or thin the teeth with `backlash`",
+        f"at a centre distance of {distance:.6g} modules they overlap by {-backlash:.4g} rad of the driven wheel",
+        "increase the centre distance, or thin the teeth with `backlash`",
     )

@@ -209,8 +209,8 @@ def tabulate(
         raise RangeError(
             Problem(
                 "the two wheels never touch",
-                f"at a distance of {distance:.9g} no tooth of one is in reach of the other",
-                "bring the axles nearer, or check that both outlines have one unit",
+                f"at a distance of {distance:.9g} the teeth of one are out of range of the other",
+                "reduce the distance, or check that both outlines have the same unit",
             )
         )
     return PiecewiseTransmission(
@@ -285,7 +285,7 @@ class _Maker:
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Locate, in each stretch, the driver's angles at which the contact changes, to rounding."""
+        """Locate the driver's angles at which the contact changes in each stretch, to rounding."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -345,8 +345,8 @@ def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]
 def _endless(tolerance: float) -> RangeError:
     return RangeError(
         Problem(
-            f"no table comes within {tolerance:.3g} rad of the law of these outlines",
-            "it has too many corners",
-            "ask for a greater tolerance, or give measured teeth by fewer points",
+            f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
+            "it has too many kinks",
+            "pass a larger tolerance, or give measured teeth by fewer points",
         )
     )

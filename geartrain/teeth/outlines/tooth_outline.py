@@ -231,8 +231,8 @@ def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: 
     X = _spaced(path, gear, dense, max(tolerance, _FINE))
     outward = -1 if gear == 2 and pitch.R2 < 0 else 1
     if (np.diff(_polar(path, gear, X)[0]) * outward <= 0).any():
-        why = "its radius does not grow from the root to the tip"
-        raise RangeError(Problem(f"the flank of gear {gear} turns back", why, "shorten the arcs, or take more teeth"))
+        why = "its radius does not increase steadily from the root to the tip"
+        raise RangeError(Problem(f"the flank of gear {gear} turns back", why, "shorten the arcs, or use more teeth"))
     r, angle = _within(path, gear, X, outward)
     along, across = _tangents(path, gear, X[:1], outward)
     tangent = float(along[0]), float(across[0])

@@ -226,8 +226,8 @@ def check_flat(pair: ConjugatePair) -> None:
         raise QuestionError(
             Problem(
                 "a bevel wheel has no flat outline",
-                "its teeth lie on a sphere and taper to the point where the axes meet",
-                "leave --profile out, or as a likeness draw the spur pair its back cones develop into, of "
+                "its teeth are on a sphere and taper towards the apex, where the axes meet",
+                "omit --profile, or draw the equivalent spur pair of its back cones, of "
                 f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
                 "--profile",
             )
@@ -235,8 +235,8 @@ def check_flat(pair: ConjugatePair) -> None:
     if pair.faults:
         raise QuestionError(Problem(fault.what, fault.why, fault.fix, "--profile") for fault in pair.faults)
     if path.approach.start or path.recess.start:
-        why = "where the flanks end there is nothing to say how thick the teeth are"
-        raise QuestionError(Problem("this path of contact keeps off the pitch point", why, "take another form"))
+        why = "the tooth thickness at the ends of its flanks is undefined"
+        raise QuestionError(Problem("this path of contact does not reach the pitch point", why, "use another tooth form"))
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
@@ -277,8 +277,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     raise QuestionError(
         Problem(
             f"no root of gear {deepest.gear} lets the mate's tips pass",
-            "they would cut the flanks below where these work, or teeth outside the path of contact",
-            "shorten the arcs, take more teeth, or more backlash or clearance",
+            "they would cut the flanks below their active part, or touch teeth outside the path of contact",
+            "shorten the arcs, or use more teeth, backlash or clearance",
             "--profile",
         )
     )
@@ -287,7 +287,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
 def _no_root(demand: ToothRequirement) -> QuestionError:
     return QuestionError(
         Problem(
-            f"there is no root circle for gear {demand.gear}",
+            f"gear {demand.gear} cannot have a root circle",
             f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
             "give less clearance, or thinner teeth by more backlash",
             "--clearance",

@@ -59,12 +59,12 @@ class BlankSizes:
         above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
         minimum = {"fillet": self.fillet, "clearance": self.clearance}
         problems = [
-            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} above 0", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--{name}")
             for name, value in above.items()
             if value is not None and not (isfinite(value) and value > 0)
         ]
         problems += [
-            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} of 0 or more", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--{name}")
             for name, value in minimum.items()
             if value is not None and not (isfinite(value) and value >= 0)
         ]
@@ -256,7 +256,7 @@ def _too_round(gear: int, requested: float, fits: float) -> QuestionError:
     return QuestionError(
         Problem(
             f"a fillet of {requested:g} mm does not fit the root of gear {gear}",
-            "there it would stand in the way of the mate's tips, or of the next tooth",
+            "a larger fillet would touch the mate's tips or the next tooth",
             f"give at most {fits:.4g} mm, or more clearance",
             "--fillet",
         )
@@ -268,10 +268,10 @@ def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
     teeth = tooth.whole().scaled(cut.module)
     if tooth.flank.outward > 0:
         if cut.rim is not None:
-            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "leave --rim out", "--rim"))
+            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --rim", "--rim"))
         return [teeth, *bore(cut, tooth.root * cut.module)]
     if cut.bore is not None:
-        raise QuestionError(Problem("a ring has no bore", "its middle is open", "leave --bore out", "--bore"))
+        raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --bore", "--bore"))
     return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
 
 

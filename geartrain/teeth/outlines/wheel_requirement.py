@@ -110,7 +110,7 @@ def _at_odds(first: PairRequirement, other: PairRequirement) -> Problem:
     else:
         how = f"{first.words} flanks of two shapes"
     return Problem(
-        f"its pairs '{first.pair}' and '{other.pair}' ask for different teeth",
-        f"they want {how}, and a wheel is cut once",
+        f"its pairs '{first.pair}' and '{other.pair}' require different teeth",
+        f"they require {how}, but a wheel has one kind of teeth",
         "declare teeth that run with both mates, or give each of them a wheel of its own",
     )

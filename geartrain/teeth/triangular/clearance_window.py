@@ -129,7 +129,7 @@ class TriangularContact:
             return "overhang", self.overhang
         if self.backlash < -_ROUNDING * self.sizes.p2:
             return "jam", (
-                f"the back flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven "
+                f"the coast flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven "
                 f"wheel too thick for "
                 "the spaces at this clearance"
             )
@@ -140,12 +140,12 @@ class TriangularContact:
             )
         if self.dragged.arrested:
             return "dwell", (
-                "the driven wheel is left standing for good: no tooth is in reach for a while, and the next one goes by"
+                "the driven wheel stops for good: no tooth is within range for a while, and the next one passes it"
             )
         if self.idle > 0:
             return "dwell", (
-                f"the driven wheel stands still for {degrees(self.idle):.4g} deg of the driver at each pitch, and is "
-                f"{degrees(self.lost):.4g} deg behind when the next tooth comes"
+                f"the driven wheel dwells for {degrees(self.idle):.4g} deg of the driver in each pitch, and lags by "
+                f"{degrees(self.lost):.4g} deg when the next tooth arrives"
             )
         return "runs", "the wheels turn"
 
@@ -202,7 +202,7 @@ def _no_valley(sizes: TriangularSizes) -> str:
         if not 0 < angle < 90:
             return (
                 f"{z} teeth of half angle {degrees(beta):.6g} deg do not exist: on the {name} half angle "
-                f"{'+' if sign > 0 else '-'} 180/z is {angle:.6g} deg, and must be {bound} deg for flanks to meet in a "
+                f"{'+' if sign > 0 else '-'} 180/z is {angle:.6g} deg, but must be {bound} deg for flanks to meet in a "
                 "valley"
             )
     raise AssertionError
@@ -414,6 +414,6 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
         raise refused(
             f"no clearance gives a backlash of {text}",
             f"these teeth have from {max(minimum, 0):.6g} to {most:.6g} (in m, or the plain unit)",
-            "give a backlash between the two",
+            "give a backlash in this range",
         )
     return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

@@ -108,8 +108,8 @@ class TriangularSizes:
             raise RangeError(
                 Problem(
                     f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half apertures "
-                    f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} are no pair of triangular teeth",
-                    f"radii lie between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures between 0 and a right angle",
+                    f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} do not describe triangular teeth",
+                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures between 0 and a right angle",
                     "give at least 3 teeth, radii and half apertures above 0, and an excess above 0",
                 )
             )

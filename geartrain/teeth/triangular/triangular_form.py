@@ -28,7 +28,7 @@ FEWEST = 3
 _UNLIKE = 10  # how far radii may be from the ratio of their teeth
 _THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
 TRIANGULAR_SCOPE = (
-    "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate is taken for a spur wheel"
+    "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate wheel is treated as a spur wheel"
 )
 
 
@@ -56,30 +56,29 @@ class Triangular(ToothForm):
 
     form: Literal["triangular"] = Field(description="The name of this form")
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(twice), WithJsonSchema(_ONE_OR_TWO)] = Field(
-        description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
+        description="Half aperture angle of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
     clearance_factor: Figure | None = Field(
         None,
-        description="Centre distance over that at which a tip touches the bottom of a space: above 1, in a ring "
-        "below 1",
+        description="Centre distance divided by the one at which a tip touches the bottom of a space: above 1, or below 1 "
+        "with a ring",
     )
     excess: Figure | None = Field(
         None,
-        description="The part of that distance by which the wheels are apart, above 0: clearance factor less 1, in a ring "
-        "1 less clearance factor",
+        description="Difference between clearance factor and 1, above 0: clearance factor minus 1, or 1 minus clearance "
+        "factor with a ring",
     )
     backlash: Length | None = Field(
-        None, description="Least play over a pitch, as an arc of the second wheel's pitch circle"
+        None, description="Minimum backlash over a pitch, as an arc of the second wheel's pitch circle"
     )
-    centre_distance: Length | None = Field(None, description="Distance of the two axes")
+    centre_distance: Length | None = Field(None, description="Centre distance of the pair")
     window: Figure | None = Field(
-        None, description="Where between jamming (0) and losing contact (1) the clearance lies"
+        None, description="Position of the clearance between jamming (0) and loss of contact (1)"
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,
-        description="How the tip radii follow from the tooth numbers, or the two radii themselves, or one number: "
-        "the second over the first, in the ratio of their teeth (1 is pitch_true). Default equal_depth, with a ring "
-        "pitch_true",
+        description="Rule for the tip radii, or the two radii, or one number: the ratio of the second radius to the first "
+        "divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or pitch_true with a ring",
     )
 
     @model_validator(mode="after")
@@ -87,14 +86,14 @@ class Triangular(ToothForm):
         for angle in self.half_angle:
             turns = angle.si / RADIANS_PER_TURN
             if not _THINNEST <= turns < 0.25:
-                within = "outside 0 to 90 deg" if not 0 < turns < 0.25 else "thinner than any tooth can be cut"
+                within = "outside 0 to 90 deg" if not 0 < turns < 0.25 else "too small for a tooth to be cut"
                 raise PydanticCustomError(
                     "half_angle",
                     "half_angle {angle} is {within}",
                     {
                         "angle": angle.text,
                         "within": within,
-                        "fix": "a triangular tooth has a half aperture between 0 and 90 deg, and 0.001 deg at least",
+                        "fix": "give a half aperture angle of at least 0.001 deg and below 90 deg",
                     },
                 )
         given = [name for name in _CLEARANCES if getattr(self, name) is not None]
@@ -110,9 +109,9 @@ class Triangular(ToothForm):
 
     def _check_clearance(self) -> None:
         bounds = (
-            (self.clearance_factor, 0, None, "a clearance factor is above 1, in a ring between 0 and 1"),
-            (self.excess, 0, None, "an excess is above 0: at 0 a tip touches the bottom of a space"),
-            (self.window, 0, 1, "a window's fraction lies between 0, jamming, and 1, losing contact"),
+            (self.clearance_factor, 0, None, "give a clearance factor above 1, or between 0 and 1 with a ring"),
+            (self.excess, 0, None, "give an excess above 0; at 0 a tip touches the bottom of a space"),
+            (self.window, 0, 1, "give a fraction between 0 (jamming) and 1 (loss of contact)"),
         )
         for figure, low, high, fix in bounds:
             if figure is None:
@@ -131,7 +130,7 @@ class Triangular(ToothForm):
                 "a ratio of radii of {text} is out of range",
                 {
                     "text": self.radii.text,
-                    "fix": "write the second radius over the first in the ratio of teeth, near 1",
+                    "fix": "give the ratio of the radii divided by the ratio of the tooth numbers, near 1",
                 },
             )
         lengths = {"backlash": self.backlash, "centre_distance": self.centre_distance}
@@ -141,8 +140,8 @@ class Triangular(ToothForm):
             if length.value < 0 or (name != "backlash" and length.value == 0):
                 raise PydanticCustomError(
                     "length",
-                    "{name} {text} is no length",
-                    {"name": name, "text": length.text, "fix": "write it above 0"},
+                    "{name} {text} is out of range",
+                    {"name": name, "text": length.text, "fix": "give a length above 0"},
                 )
         if len({length.unit is None for length in given.values()}) > 1:
             raise PydanticCustomError(
@@ -211,8 +210,8 @@ class Triangular(ToothForm):
         """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
-            "their play follows from their clearance, and thinner teeth would have another motion",
-            "leave --backlash out, or declare a larger `clearance_factor`",
+            "their backlash follows from their clearance, and thinner teeth would move differently",
+            "omit --backlash, or declare a larger `clearance_factor`",
         )
 
     def sizes(
@@ -245,13 +244,13 @@ class Triangular(ToothForm):
                 what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no triangular teeth"
                 raise refused(what, TRIANGULAR_SCOPE, f"give at least {FEWEST} teeth, or another tooth_form")
         if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
-            what = f"a ring of {(z1, z2)[ring - 1]} teeth has no room for a wheel of {(z2, z1)[ring - 1]}"
-            raise refused(what, "it needs one tooth more at least", "give the ring more teeth")
+            what = f"a ring of {(z1, z2)[ring - 1]} teeth cannot contain a wheel of {(z2, z1)[ring - 1]} teeth"
+            raise refused(what, "it needs at least one tooth more than its pinion", "give the ring more teeth")
         sizes = self._placed(self._unplaced(z1, z2, ring), pitch_distance)
         if sizes.surrounds:
             raise refused(
-                "the teeth overlap all round",
-                f"the tips of the ring lie {sizes.D:.6g} or less within those of its wheel on every side",
+                "the teeth overlap at every angle",
+                f"the tip circle of the ring lies within that of its wheel at the centre distance {sizes.D:.6g}",
                 "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance",
             )
         return sizes
@@ -290,8 +289,8 @@ class Triangular(ToothForm):
         assert length is not None
         if not self._given_radii and (pitch_distance is None or length.unit is None):
             raise refused(
-                f"the length {length.text} has nothing to be compared with",
-                "neither radii nor modules with a unit give these wheels a size",
+                f"the length {length.text} cannot be related to the size of these wheels",
+                "neither radii nor modules with a unit are declared",
                 "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
             )
         if self.centre_distance is not None:
@@ -373,7 +372,7 @@ def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
     window = find_window(sizes)
     if not window:
         raise refused(
-            f"no clearance lets {sizes.z1} and {sizes.z2} triangular teeth turn",
+            f"no clearance lets wheels of {sizes.z1} and {sizes.z2} triangular teeth turn",
             f"up to a factor of {window.jam_factor:.6g} there is {window.jam_kind}, and from "
             f"{window.run_factor:.6g} on {window.run_kind}",
             OTHER_SHAPES[bool(sizes.ring)],

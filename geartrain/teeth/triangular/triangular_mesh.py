@@ -30,7 +30,7 @@ OTHER_SHAPES = (
 )
 _WORDS = (
     "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
-    "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
+    "wheel, mean sliding efficiency at constant driver torque, relative jumps of normal velocity at collisions."
 )
 _PLACE = ("pair", "drives", "clearance factor", "window", "verdict")
 _TRANSMISSION = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
@@ -290,7 +290,7 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
     return (
         f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
         f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
-        f"give a clearance between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
+        f"give a clearance factor between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
     )
 
 
@@ -298,7 +298,7 @@ def explain_friction_lock(transmission: TriangularTransmission) -> tuple[str, st
     """Return problem, cause and remedy if friction locks the teeth."""
     return (
         f"a friction of {transmission.friction:g} locks these teeth",
-        "before the line of centres the driver pushes the driven apex against its own sliding: friction times the "
-        f"tangent of the flank's lean reaches 1 at {transmission.locking_friction:.6g}",
+        "before the line of centres sliding opposes the push on the driven apex: friction times the tangent of the "
+        f"flank's inclination reaches 1 at a friction of {transmission.locking_friction:.6g}",
         f"give a friction below {transmission.locking_friction:.4g}, or let the other wheel drive",
     )

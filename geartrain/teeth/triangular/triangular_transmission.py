@@ -196,8 +196,8 @@ class TriangularTransmission(TransmissionFunction):
     def _driven(self) -> tuple[DriveInterval, ...]:
         """Drive intervals of the real path. Raises `RangeError` for a pair without one."""
         if not self.intervals:
-            what = "give a clearance within the window of the pair, or teeth that exist"
-            raise RangeError(Problem(self.verdict.text, "these teeth have no law", what))
+            fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
+            raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
         return self.intervals
 
     @cached_property

@@ -96,7 +96,7 @@ REFUSED = [
     (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "3mm"], "is a length"),
     (["--teeth", 48, 96, "--clearance", 1.01, "--friction", -0.1], "0 or more"),
     (["--teeth", 48, 96, "--clearance", 1.01, "--rate", "3 furlong"], "unknown unit"),
-    (["--teeth", 48, 96, "--centre-distance", "40mm"], "nothing to be compared with"),
+    (["--teeth", 48, 96, "--centre-distance", "40mm"], "cannot be related to the size of these wheels"),
     (["--teeth", 48, 96, "--centre-distance", "40", "--radii", "10mm,20mm"], "mix plain numbers"),
     (["--teeth", 48, 96, "--backlash", "9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
     (["--teeth", 8, 64, "--window", 0.5], "no clearance lets 8 and 64"),

@@ -518,7 +518,7 @@ def test_a_mixed_train_shows_each_family_in_its_own_table() -> None:
     train = load(CHAIN.format(first=INVOLUTE, second=RIPPLING) + "friction: 0.1\n")
     page = to_markdown([describe_train(collect_report(train))])
     assert "Triangular teeth, each pair" in page
-    assert "Conjugate teeth keep the ratio" in page
+    assert "Conjugate teeth have a constant speed ratio" in page
     conjugate, triangular = collect_report(train).to_dict()["teeth"]
     assert (conjugate["form"], triangular["form"]) == ("involute", "triangular")
     assert conjugate["transmission_error"]["peak_to_peak"] == 0

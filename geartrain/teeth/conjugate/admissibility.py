@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 Halves = tuple[float, float]
 """Half the tooth thickness of each gear on its pitch surface, as X; infinite for pins, which cannot become pointed."""
 
-_SCAN = 257  # contacts of a side: a speed that is below 0 between two of them only is not seen
-_LEAVES = 12.5  # teeth below which clockmakers cut cycloids
+_SCAN = 257  # contacts sampled on a side; a speed below 0 only between two samples is not detected
+_LEAVES = 12.5  # tooth number below which clockmakers cut cycloids
 _ROUNDING = 1e-12  # modules
 
 
@@ -43,7 +43,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
     for recess in (False, True):
         if not (span := path.span(recess)):
             continue
-        # not from the pitch point itself, where U is 0 for psi = 0, as of a cycloid
+        # the pitch point itself is excluded: U is 0 there for psi = 0, as for a cycloid
         d = span[0] + (span[1] - span[0]) * np.linspace(0, 1, _SCAN)[1:]
         contact = path.along(d, recess)
         for gear, U in ((1, contact.U1), (2, contact.U2)):
@@ -56,7 +56,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
                     gear,
                     X,
                     f"gear {gear} is undercut",
-                    f"in {where} the contact speed along its dedendum is 0 at {abs(angle):.6g} deg from the pitch point",
+                    f"in {where} the contact speed on its dedendum is 0 at {abs(angle):.6g} deg from the pitch point",
                     f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or use more teeth or a larger "
                     "pressure angle",
                 )
@@ -105,13 +105,15 @@ def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> f
         return _thickness(path, gear, x, halves)
 
     foot, _ = path.ends(gear)
-    foot = foot if foot * X > 0 else 0.0  # contact on one side of the pitch point keeps off it
+    foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
     at_foot, at_tip = room(foot), room(X)
     return root(room, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
 
 
 def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
-    """Return the angle (rad) of the top land of a gear's tooth; negative if its flanks cross. `halves` as in `faults`.
+    """Return the angle (rad) of the top land of a gear's tooth; negative if its flanks cross.
+
+    `halves` are as in `faults`.
     """
     return _thickness(path, gear, path.ends(gear)[1], halves)
 
@@ -125,15 +127,14 @@ def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) 
 
 
 def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
-    """Return the azimuth (rad) of a body point from the pitch point, positive towards the middle of its flank's tooth.
-    """
+    """Return the azimuth (rad) of a body point from the pitch point, positive towards the middle of its tooth."""
     _, forwards = path.pitch.polar(gear, point)
     return float(-forwards if gear == 1 else forwards)  # a driver's tooth is behind its flank
 
 
 def _broken(path: PathOfContact) -> Iterator[ToothFault]:
     ratio = path.contact_ratio
-    # arcs of a pitch in all add up to 1 but for rounding
+    # arcs with a sum of one pitch give 1 except for rounding
     if ratio < 1 - 1e-12:
         yield ToothFault(
             "contact ratio",
@@ -238,7 +239,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
         lowest = hypot(wheel.base, max(R * sin(pair.psi) - arc * cos(pair.psi), 0.0))
         if gone > lowest + _ROUNDING:
             minimum = wheel.cut - wheel.r * sin(wheel.psi) ** 2
-            # a whole number that rounding has raised a little is that number
+            # an integer raised slightly by rounding must not become the next integer
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
             other = ", or use `form: cycloidal`, which suits pinions of few leaves" if 2 * wheel.r <= _LEAVES else ""
             yield ToothFault(

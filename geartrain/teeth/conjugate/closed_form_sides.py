@@ -32,15 +32,15 @@ if TYPE_CHECKING:
     Points = NDArray[np.complex128]
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_SCAN, _NARROWED = 129, 6  # positions in a bracket, and how often it is narrowed, by 64 each time
-_FARTHEST = 0.6  # of the way to the far side of the lantern
+_SCAN, _NARROWED = 129, 6  # positions in a bracket, and number of refinements, each by a factor of 64
+_FARTHEST = 0.6  # fraction of the angle to the far side of the lantern
 
 
 class ConeCirclePiece(PathPiece):
     """Small circle through the pitch point: the path of contact of a rolling cone of half-angle `rho` (rad).
 
-    Its pole is above the pitch point. In the triangle of pole, pitch point and contact tan(d/2) = tan(rho) sin(psi). The
-    cone has turned by X / sin(rho) where sin(d/2) = sin(rho) sin(X / (2 sin rho)).
+    Its pole is above the pitch point. In the triangle of pole, pitch point and contact tan(d/2) = tan(rho) sin(psi).
+    The cone has turned by X / sin(rho) where sin(d/2) = sin(rho) sin(X / (2 sin rho)).
     """
 
     def __init__(self, rho: float, end: float) -> None:
@@ -65,7 +65,7 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
     Raises `RangeError` if the arc is longer than half the rolling circle.
     """
     longest = pi * sin(rho) if pitch.bevel else pi * rho
-    # at half the circle itself the pressure angle is a right angle, and its cosine 0
+    # at exactly half the circle the pressure angle is a right angle, with cosine 0
     if longest * (1 - 1e-9) <= X:
         raise RangeError(
             Problem(
@@ -106,8 +106,8 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
 class PinPiece(PathPiece):
     """Path of contact of a round pin: sin psi = (L^2 + R^2 - A^2) / (2 R L).
 
-    L = B + d outside and B - d `inside`. Outside, beyond the pitch point, the mate's addendum works; inside, its dedendum
-    works as far as its undercut.
+    L = B + d outside and B - d `inside`. Outside, beyond the pitch point, the mate's addendum works; inside, its
+    dedendum works as far as its undercut.
     """
 
     def __init__(self, R: float, A: float, B: float, end: float, inside: bool = False) -> None:
@@ -134,7 +134,7 @@ class PinPiece(PathPiece):
 
         beta is the angle of the pin's centre from the line of centres.
         """
-        # the half-angle form of the cosine rule; rounding may put L a little inside |A - R|, on the line of centres
+        # half-angle form of the cosine rule; on the line of centres rounding may make L smaller than |A - R|
         half = np.sqrt(np.maximum(self._length(d) ** 2 - (self.A - self.R) ** 2, 0) / (4 * self.A * self.R))
         found: Floats = self.sign * self.R * (2 * np.arcsin(half) - pin_angle(self.R, self.A, self.B))
         return found
@@ -154,7 +154,7 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     first = pin_angle(R, A, B)
     beta = first - X / R if inside else first + X / R
     most = first if inside else 3.14 - first
-    # a little short of half a turn, where the arc sine in `travel` would lose half its digits
+    # slightly less than half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
         side, limit = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
         raise RangeError(
@@ -178,7 +178,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     def off(d: float) -> float:
         L = d + B
         sine = (L * L + (R - A) * (R + A)) / (2 * R * L)
-        # without the squares of both radii, whose difference would cancel
+        # factored, because the difference of the squares of both radii would cancel
         return d * (d + 2 * mate * sine) - (tip - abs(mate)) * (tip + abs(mate))
 
     most = A + R - B
@@ -199,7 +199,7 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
     return float(PinPiece(R, A, B, d).travel(np.array(d)))
 
 
-# ------------------------------------------------------------------------------------------- extremal of least friction
+# ----------------------------------------------------------------------------------------- extremal of minimum friction
 
 
 class ExtremalPiece(PathPiece):
@@ -214,7 +214,7 @@ class ExtremalPiece(PathPiece):
     def sin_psi(self, d: Floats) -> Floats:
         """Return the sine sqrt(1 - (S / D)^2) of the pressure angle."""
         S = self.pitch.S(d) / self.D
-        # not 1 - S^2, which cancels where the pressure angle is small
+        # factored, because 1 - S^2 cancels at small pressure angles
         return np.sqrt((1 - S) * (1 + S))
 
     def slope(self, d: Floats) -> Floats:
@@ -243,9 +243,9 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
         start, end = ends(D)
         return D * log(tan(end / 2) / tan(start / 2)) - X
 
-    # just short of where the arc sine of the end is not defined; at D = 0 the arc is 0
+    # just below the limit of the arc sine of the end; at D = 0 the arc is 0
     high = (1 - 1e-12) / cos(last)
-    # -inf stands for -X, the limit there: `root` halves while a value is not finite
+    # -inf replaces -X, the limit there; `root` bisects while a value is not finite
     D = root(off, 1e-9 * X, high, -inf, off(high))
     return PathSide((ExtremalPiece(pitch, D, *ends(D)),))
 
@@ -257,7 +257,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
     """Return X of the first contact that the pins leave of the mate's flank; -inf if nothing is cut away.
 
     R, A and B are pitch radius, distance from the axle and radius of the pins. `mate` is the pitch radius of the mate,
-    negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank reaches inside the pitch point.
+    negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank reaches inside the pitch
+    point.
     """
     first = pin_angle(R, A, B)
     far = first + _FARTHEST * (acos(-1.0) - first)
@@ -268,7 +269,7 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
         point, spans = _flank(R, A, B, mate, beta), ((-far, -beta), (-beta, 0.0), (0.0, cusp))
         return min(_nearest(R, A, mate, point, *span) for span in spans) - B
 
-    # the farther out the less is cut: from the cusp outwards in growing steps to where nothing is
+    # the cut depth decreases outwards: search from the cusp in growing steps for the first uncut contact
     step, low, high = 0.05 * first, cusp, far
     while cusp + step < far:
         if left(cusp + step) > 0:
@@ -276,7 +277,7 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
             break
         low, step = cusp + step, 1.5 * step
     at_high = left(high)
-    # at the cusp itself nothing is asked: a pin on its pitch circle may stand at the pitch point there
+    # the cusp itself is not evaluated: a pin on its pitch circle may be at the pitch point there
     if low == cusp or at_high <= 0 or (at_low := left(low)) >= 0:
         return R * ((cusp if at_high > 0 else far) - first) if found or at_high <= 0 else -inf
     return R * (root(left, low, high, at_low, at_high) - first)
@@ -295,7 +296,7 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
     speeds = np.array([speed(beta) for beta in grid])
     still = np.flatnonzero(speeds <= 0)
     if still.size == 0:
-        # at 0 itself L is |A - R|, which may be 0: then the speed is not defined
+        # at 0 itself L is |A - R|, which may be 0, and the speed is then undefined
         minimum = 1e-9 * far
         return root(speed, minimum, grid[0], speed(minimum), speeds[0]) if speed(minimum) < 0 else None
     at = int(still[-1])

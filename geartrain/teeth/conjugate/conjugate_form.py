@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import PairFigures
 
-_DESIGN = 1e-9  # of a centre distance: nearer to the design is at it
+_DESIGN = 1e-9  # relative difference of centre distances that counts as rounding
 
 
 class ConjugateToothForm(ToothForm):
@@ -92,7 +92,7 @@ class ConjugateToothForm(ToothForm):
         )
         mesh = ConjugateMesh(wheels, self, wheels.driver, transmission)
         if not mesh.rigid:
-            _ = mesh.faults  # teeth too far apart to touch raise: here, where the pair is named
+            _ = mesh.faults  # raises if the teeth are too far apart to touch, where the pair is named in the message
         return mesh
 
     def own_backlash(self, pair: str) -> Problem | None:
@@ -166,8 +166,8 @@ class ConjugateToothForm(ToothForm):
         Returns
         -------
         float or None
-            Backlash on the pitch circle [module], below 0 if the teeth jam. None for forms that run as designed at their
-            own distance only.
+            Backlash on the pitch circle [module], below 0 if the teeth jam. None for forms that run as designed at
+            their own distance only.
         """
         del wheels, gap
         return None
@@ -249,7 +249,8 @@ class ConjugateToothForm(ToothForm):
         shaft_angle : float, optional
             Shaft angle [rad] of bevels; None for parallel axes.
         pitch_distance : float, optional
-            Half the sum of module times teeth of both wheels, also for a ring gear [m]. Only lengths with a unit need it.
+            Half the sum of module times teeth of both wheels, also for a ring gear [m]. Only lengths with a unit need
+            it.
         helix : float
             Helix angle of helical wheels [rad], 0 or more; their lengths are in transverse modules.
 
@@ -369,7 +370,11 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
     """Raise pydantic's error if an arc is below 0 or both are 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
-        raise bad("arcs", f"arcs [{text}] are out of range", "give arcs of approach and recess in pitches, with a sum of at least 1")
+        raise bad(
+            "arcs",
+            f"arcs [{text}] are out of range",
+            "give arcs of approach and recess in pitches, with a sum of at least 1",
+        )
 
 
 def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
@@ -435,7 +440,7 @@ def _are_skew(shaft_angle: ShaftAngle) -> bool:
     try:
         return shaft_angle() is not None
     except RangeError:
-        return True  # they pass each other, as those of helical wheels may
+        return True  # the axes are skew, as helical wheels permit
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:

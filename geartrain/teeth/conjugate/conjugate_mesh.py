@@ -84,8 +84,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def stands(self) -> float:
-        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is counted from where flanks touch.
-        """
+        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
 
@@ -291,7 +290,14 @@ class PairDesign(Result):
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
-        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "losses_and_stresses", "efficiency", "outlines"),
+        *(
+            "arcs",
+            Key("contact_ratio", "path.contact_ratio"),
+            "pressure_angles",
+            "losses_and_stresses",
+            "efficiency",
+            "outlines",
+        ),
     )
 
     mesh: ConjugateMesh

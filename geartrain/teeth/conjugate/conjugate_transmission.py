@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.admissibility import Halves
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
-# 8 nodes leave 1e-11 on usual teeth and 16 rounding: twice that for steep ones
+# 8 nodes give 1e-11 and 16 give rounding on usual teeth; twice as many for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(32)
-_NARROW = 1e-13  # of a period: a stretch that is none
-_TOUCH = 1e-12  # of a pitch: a gap between two contacts that is rounding
+_NARROW = 1e-13  # of a period: shorter intervals are rounding
+_TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,16 +160,15 @@ class ConjugateTransmission(ExactRatio):
         p, (approach, recess) = self.path.pitch.p, self._arcs
         ahead = self._lead + approach + self.direction * self._reach * np.asarray(S, dtype=float)
         first = np.mod(ahead, p) - approach
-        # a contact ratio that is whole but for rounding needs no row more
+        # a contact ratio that exceeds an integer only by rounding needs no additional row
         rows = int(np.ceil((approach + recess) / p * (1 - _TOUCH)))
         X = np.stack([first + k * p for k in range(max(rows, 1))])
-        # a contact that rounding puts just beyond the last one is that one
+        # a contact just beyond the end by rounding counts as the last contact
         slack = _TOUCH * p
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at which a tooth pair enters or leaves contact or passes a kink of its path.
-        """
+        """Return the driver angles (rad) at which a tooth pair enters or leaves contact or passes a kink of its path."""
         approach, recess = self.path.approach, self.path.recess
         if self.driver == 2:
             approach, recess = recess, approach
@@ -255,7 +254,7 @@ class ConjugateTransmission(ExactRatio):
         """Return the minimum efficiency, from 201 samples of each smooth interval; NaN where friction locks."""
         if self._locks:
             return nan
-        # at an end itself another pair of teeth is in contact, or the other side of the pitch point
+        # the ends belong also to the next tooth pair or to the other side of the pitch point
         inside = np.linspace(1e-9, 1 - 1e-9, 201)
         S = np.concatenate([low + (high - low) * inside for low, high in self._stretches])
         return float(np.nanmin(self.efficiency(S)))

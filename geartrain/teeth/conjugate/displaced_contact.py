@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_STRAIGHT = 0.5  # modules of root beneath a flank, and not beyond a third of the way to the axle
-_NODES = 257  # of the tables along the path and beyond its ends; linear between them
-_SMALL = 1e-12  # of a radian of contact beyond an end: none
-_END_STEP = 1e-4  # of the arc of contact: over which it is told how a tip's radius changes
-_BLUNT = radians(10)  # half the aperture, at least: of teeth with parallel sides no fraction could be taken
+_STRAIGHT = 0.5  # modules of root beneath a flank, at most a third of its radius
+_NODES = 257  # of the tables along the path and beyond its ends, with linear interpolation
+_SMALL = 1e-12  # rad: shorter contact beyond an end is neglected
+_END_STEP = 1e-4  # of the arc of contact: step of the difference quotient of the tip's radius
+_BLUNT = radians(10)  # lower bound of the half aperture, by which errors are divided; it is 0 for parallel sides
 
 
 Value = TypeVar("Value")
@@ -80,11 +80,11 @@ def _touched(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
     """Return polar points of the mate's flank that the tip of `gear` touches beyond the end of the path."""
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
-    # closer towards the end of the path, where the corner leaves it along a parabola
+    # quadratic spacing, as the corner leaves the path along a parabola
     part = np.linspace(0, 1, _NODES) ** 2
     if pair.solid[mate - 1]:
         return pitch.polar(mate, path.flank(mate, first + (last - first) * part))
-    # a round pin goes on beyond its flank, as far as its outermost point
+    # a round pin extends beyond its flank to its outermost point
     radius, azimuth = (float(each) for each in pitch.polar(mate, path.flank(mate, first)))
     reach = pitch.reach_of(mate)
     middle = reach * np.exp(1j * pair.halves[mate - 1] / reach * (-1 if mate == 1 else 1))
@@ -105,7 +105,7 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
     if pitch.bevel:
         middle[:, 2] = 1.0
     P0 = (pitch.on_gear1 if gear == 1 else pitch.on_gear2)(middle, -X)
-    # P lies on the normal, or P x n is the pole of its great circle: both as at the pitch point
+    # P is on the normal (bevel: P x n is the pole of its great circle), so the values at the pitch point apply
     return np.asarray(P0[:, 1] * at.cos_psi - P0[:, 0] * at.sin_psi)
 
 
@@ -133,8 +133,7 @@ class KinkLag:
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Reference sizes to which the errors of one wheel are related. Lengths in modules (cones: rad on the unit sphere).
-    """
+    """Reference sizes for the errors of one wheel. Lengths in modules (cones: rad on the unit sphere)."""
 
     z: int
     depth: float
@@ -154,9 +153,9 @@ class DisplacedWheelSizes:
 class DisplacedContact:
     """Contact of one tooth pair throughout its engagement, and the effects of displaced flanks.
 
-    Lengths are in modules; on cones they are angles on the unit sphere. All columns are the lag of the driven wheel (rad)
-    for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). Pairs of columns are for
-    the driver and the driven wheel, in this order.
+    Lengths are in modules; on cones they are angles on the unit sphere. All columns are the lag of the driven wheel
+    (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). Pairs of columns
+    are for the driver and the driven wheel, in this order.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
@@ -211,7 +210,7 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
         raise RangeError(
             Problem("these teeth do not reach each other", "displaced flanks need an arc of contact", "use longer arcs")
         )
-    # gear 2 drives the same contacts the other way round
+    # with gear 2 driving, the same contacts occur in reverse order
     sense = 1.0 if driver == 1 else -1.0
     first, last = path.ends(driver)
     X = np.linspace(first, last, _NODES)
@@ -219,10 +218,10 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     own, other = (pitch.reach_of(gear) for gear in gears)
     normal = 1 / (other * at.cos_psi)
     tangent, radial = normal * at.cos_psi, normal * at.sin_psi
-    # from the axle of a gear to the pitch point; a ring's is that of the other wheel
+    # direction from the axle of a gear to the pitch point; for a ring that of the other wheel
     ring = not pitch.bevel and pitch.R2 < 0
     up = {1: sense, 2: sense if ring else -sense}
-    # cones: a wheel whose axis leans moves its teeth across by the cosine of its cone, docs/cut-by-hand.md (3)
+    # cones: a displaced axis moves the teeth across by the cosine of the pitch cone, docs/cut-by-hand.md (3)
     lean = {1: cos(pitch.R1), 2: cos(pitch.R2)} if pitch.bevel else {1: 1.0, 2: 1.0}
     lead = pair.halves[driver - 1]
     found = DisplacedContact(
@@ -262,7 +261,7 @@ def _kink(pair: ConjugatePair, gear: int, driver: int) -> KinkLag:
     beyond = (turned[driver - 1] - first) / pitch.reach_of(driver) * (1.0 if gear == 1 else -1.0)
     good = np.isfinite(beyond) & np.isfinite(lag) & (beyond >= 0)
     beyond, lag = np.append(0.0, beyond[good]), np.append(0.0, lag[good])
-    # as far as the corner goes on; where it turns round it has left the flank
+    # up to the first reversal of the corner, where it has left the flank
     rising = np.flatnonzero(np.diff(beyond) < 0)
     stop = int(rising[0]) + 1 if len(rising) else len(beyond)
     beyond, lag = beyond[:stop], np.maximum.accumulate(lag[:stop])
@@ -399,7 +398,7 @@ def _joints(path: PathOfContact) -> list[float]:
 def _straight(flank: object, foot: float, tip: float) -> OutlineCurve:
     """Return the root of a tooth: a straight line that continues the foot of its flank."""
     assert callable(flank)
-    # near enough for the tangent, far enough that the difference is not rounding
+    # small enough for the tangent, large enough that the difference exceeds rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
     way = start - near
     length = min(_STRAIGHT, float(np.hypot(*start)) / 3)

@@ -73,13 +73,14 @@ class InvoluteWheel:
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
             return 0.0
-        # at the base circle itself a square root may be of rounding below 0
+        # at the base circle itself rounding may make the radicand negative
         low = max(self.base, self.r - u) * (1 + 1e-12)
         at_low, at_high = self._left(low), self._left(self.r)
         return root(self._left, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
 
     def _left(self, radius: float) -> float:
-        """Return the azimuth of the corner's trochoid over that of the involute at a radius; below 0 the corner cuts.
+        """Return the azimuth of the corner's trochoid less that of the involute at a radius; negative if the corner
+        cuts.
         """
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
@@ -129,15 +130,16 @@ class InvolutePair:
     def arcs(self) -> tuple[float, float]:
         """Arcs of approach and recess (X), from the tip circles.
 
-        One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one side of
-        the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
+        One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one
+        side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
         """
         pitch, psi = self.pitch, self.psi
         found = []
         for wheel, R in ((self.second, pitch.R2), (self.first, pitch.R1)):
             sign = -1 if wheel.ring else 1
             over = sign * (sqrt(max(wheel.tip**2 - wheel.base**2, 0.0)) - abs(R) * sin(psi))
-            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))  # 0 but for rounding is no negative arc
+            # an arc that is 0 except for rounding must not be negative
+            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
             raise _apart(self.first, self.second, self.distance)
         return found[0], found[1]
@@ -190,7 +192,7 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
     cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
     """
     base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
-    # a tip cone inside the base cone is taken for the base cone: the involute begins there
+    # the involute begins at the base cone, so a smaller tip cone is replaced by it
     return (acos(min(cos(tip) / base, 1.0)) - atan2(sin(psi) * sin(R), cos(R))) / cos(psi)
 
 

@@ -40,20 +40,20 @@ if TYPE_CHECKING:
 
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
-_NODES = (24, 48, 96, 192)  # doubled until the last coefficients have fallen
-FALLEN = 1e-14  # of the greatest coefficient: less is rounding
-_UNFINISHED = 1e-5  # coefficients that have not fallen so far with the most nodes: beyond 84 deg or so
-_STEPS = 25  # of Newton's method
-_ROUGH = 1e-9  # residuals below this are left to rounding
-_CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are looked at, and their rounding
-_NEAR = 0.05  # of a side: nearer to the pitch point slopes are those of the series
-# 16 nodes leave rounding on usual sides: far more for those near a right angle
+_NODES = (24, 48, 96, 192)  # doubled until the last coefficients are small
+FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding
+_UNFINISHED = 1e-5  # upper bound of the last coefficients at the maximum number of nodes; exceeded above about 84 deg
+_STEPS = 25  # maximum number of Newton steps
+_ROUGH = 1e-9  # residuals below this are rounding
+_CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are checked, and tolerance of their rounding
+_NEAR = 0.05  # of a side: closer to the pitch point slopes are taken from the series
+# 16 nodes give rounding on usual sides; many more for pressure angles near a right angle
 _GAUSS = np.polynomial.legendre.leggauss(64)
-_TRIES, _CUTS = 20, 4  # how many ends a series is solved up to, and how many one series is cut at
-_BEYOND = 1e-7  # of a series' length: so far past its end it is as good as inside
-_CONVERGED = 1e-9  # of the end: so near, one more Newton step on the piece's own series is exact
-_FARTHER, _REACH = 0.1, 8.0  # so far past its end a series still tells where to solve next: this, or (8 / nodes)^2
-_GIVEN_UP = 1e-4  # of the end: what cannot be reached nearer than this cannot be reached
+_TRIES, _CUTS = 20, 4  # maximum number of solved ends, and of end corrections on one series
+_BEYOND = 1e-7  # of a series' length: extrapolation by this is still accurate
+_CONVERGED = 1e-9  # of the end: from here one more Newton step on the piece's own series is exact
+_FARTHER, _REACH = 0.1, 8.0  # a series predicts the next end within min(0.1, (8 / nodes)^2) beyond its own
+_GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
 
 
 def involute(X: float, psi: float) -> PathSide:
@@ -78,7 +78,7 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
     def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
-        with np.errstate(invalid="ignore", divide="ignore"):  # NaN beyond |v| = 1: Newton's step is then halved
+        with np.errstate(invalid="ignore", divide="ignore"):  # NaN beyond |v| = 1 makes Newton's method halve its step
             cosine = np.sqrt(1 - v * v)
             under = np.sqrt(((a + b) * S) ** 2 + 4 * k * v / cosine)
             w = ((b - a) * S + under) / 2
@@ -151,7 +151,7 @@ def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
         if not v.start < end - step <= most:
             return piece.end - first
         end -= step
-        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
+        # stop at rounding, or near it once steps no longer decrease
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         last = abs(step)
@@ -182,7 +182,7 @@ def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathP
     for _ in range(30):
         at = np.array(end)
         step = (float(piece.travel(at)) - X) * sqrt(1 - float(piece.sin_psi(at)) ** 2)
-        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
+        # stop at rounding, or near it once steps no longer decrease
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         end, last = end - step, abs(step)
@@ -233,8 +233,8 @@ def _raised(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: flo
 def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: float) -> PathSide:
     """Return a ray of pressure angle `psi` up to the maximum allowed heat of the dedendum, followed by uniform heat.
 
-    Its stress is finite. The ray ends where S / S' = sin psi / (b + gamma / cos psi). If the ray never reaches that heat,
-    it is the whole side.
+    Its stress is finite. The ray ends where S / S' = sin psi / (b + gamma / cos psi). If the ray never reaches that
+    heat, it is the whole side.
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
@@ -254,7 +254,8 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 def least_friction(
     pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
 ) -> PathSide:
-    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum speed `u` along the dedendum.
+    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum speed `u` along the
+    dedendum.
 
     The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) if friction
     depends on speed and `weight` gives mu S at distances d. Raises `RangeError` if the arc is longer than teeth within
@@ -275,15 +276,15 @@ def least_friction(
         sine, end = lifted(first)
         return float(sine(np.array(end))) - sin(psi)
 
-    # a path below psi ends no nearer than a ray, where even the lowest, of eta = u d + b (integral of S), must be below
+    # a path below psi does not end before a ray does; the lowest one, eta = u d + b (integral of S), is tested there
     if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
         raise _too_long(pitch, X, psi, u)
-    # the bracket keeps off a ray, and a second piece, of no length
+    # the bracket excludes pieces of zero length
     minimum, most = 1e-3 * longest, longest * (1 - 1e-6)
     if weight is not None and variation(minimum) * variation(most) > 0:
         raise other_shape("no length of the first piece makes the second one optimal")
     first = root(variation, minimum, most, variation(minimum), variation(most))
-    if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
+    if above(first) > 0:  # the maximum pressure angle is reached before the end; a shorter ray reaches it at the end
         if above(minimum) > 0:
             raise _too_long(pitch, X, psi, u)
         first = root(above, minimum, first, above(minimum), above(first))
@@ -305,8 +306,7 @@ def _too_long(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeErro
 
 
 def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
-    """Return sin psi of the second piece as a function of d, like `SteadySpeedPiece` but without its series of travel.
-    """
+    """Return sin psi of the second piece as a function of d, like `SteadySpeedPiece` without its travel series."""
     eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
 
     def sine(d: Floats) -> Floats:
@@ -329,7 +329,7 @@ def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
         )
         step = (travelled - rest) * sqrt(1 - float(sine(np.array(end))) ** 2)
         end -= step
-        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
+        # stop at rounding, or near it once steps no longer decrease
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         last = abs(step)
@@ -365,8 +365,8 @@ def solved(
            pitch point
     near   the solution up to another end, as the initial guess
 
-    The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError` if
-    the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
+    The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError`
+    if the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
     """
     series = near or ChebyshevSeries.through(np.full(_NODES[0], first), start, end)
     for nodes in _NODES:
@@ -392,7 +392,7 @@ def fitted(
     """Solve the same problem as `solved` with a fixed number of nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
-    # held at its last value beyond its end, where a series soon grows without bound
+    # constant beyond its end, where a series soon diverges
     guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
     return ChebyshevSeries.through(_Collocated(pitch, f, first, d).newton(guess), start, end)
 
@@ -403,7 +403,7 @@ class _Collocated:
     def __init__(self, pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats) -> None:
         self.f, self.first, self.d = f, first, d
         self.matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
-        # the first row gives way to the condition v = first: at the pitch point S is 0, and the equation says no more
+        # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
         self.matrix[0] = 0.0
 
     def residual(self, v: Floats) -> tuple[Floats, Floats]:
@@ -419,13 +419,13 @@ class _Collocated:
             step = np.linalg.solve(self.matrix + np.diag(slope), left)
             part, size = 1.0, np.abs(left).max()
             trial, (left, slope) = v - step, self.residual(v - step)
-            # halve a step that leaves what f is defined for, or, within a thousandth, that makes the residual grow
+            # halve a step that leaves the domain of f, or, down to a thousandth, that increases the residual
             while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
                 part /= 2
                 if part < 1e-9:
                     raise lost(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
-            # at rounding, or where the residual no longer shrinks
+            # stop at rounding, or where the residual no longer decreases
             done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
             v = trial
             if done:
@@ -446,7 +446,7 @@ def lost(end: float) -> RangeError:
     )
 
 
-# --------------------------------------------------------------------------------------------- conditions of least loss
+# ------------------------------------------------------------------------------------------- conditions of minimum loss
 
 
 def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight) -> Floats:
@@ -462,8 +462,7 @@ def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, e
 def check_pieces(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], end: float, first: float, weight: Weight
 ) -> None:
-    """Raise `RangeError` if a ray and one slow piece are not optimal, by the conditions of docs/shapes.md, section 15.
-    """
+    """Raise `RangeError` if a ray and one slow piece are not optimal (conditions of docs/shapes.md, section 15)."""
     d = np.linspace(0.0, end, _CHECKED)
     if (np.diff(weight(d)) < 0).any():
         raise other_shape("the friction loss of a contact decreases there with increasing sliding velocity")

@@ -34,11 +34,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-# 12 nodes leave 1e-12 on usual paths and 24 rounding: twice that for steep ones
+# 12 nodes give 1e-12 and 24 give rounding on usual paths; twice as many for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(48)
-_SCAN = 257  # points of one piece among which an extreme is looked for
-_NARROWED, _ACROSS = 5, 33  # times the bracket around it is scanned again, and by how many points
-_ROUNDING = 1e-12  # of a pitch: a stretch so short is none
+_SCAN = 257  # grid points of one piece in the search for a maximum
+_NARROWED, _ACROSS = 5, 33  # number of refinements of its bracket, and grid points of each
+_ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding
 
 ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
@@ -47,7 +47,7 @@ LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
 """Names of the measures that depend on load sharing, in the order of tables."""
 FREE = ("depth", "contact_ratio", "slowest")
 """Names of the measures that do not depend on load sharing."""
-_STEP, _STEPS = 1.25, 40  # growth of the bracket, and how often it may grow: by 1.25^40 = 7500
+_STEP, _STEPS = 1.25, 40  # growth factor of the bracket, and maximum number of growths: 1.25^40 = 7500
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +68,8 @@ class PathLosses(Result):
     loss: float
     """Mean loss over friction, first order.
 
-    One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path (Buckingham). Shared load: the mean over a pitch
-    (Ohlendorf).
+    One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path (Buckingham). Shared load: the mean over a
+    pitch (Ohlendorf).
     """
     stress: float
     """Maximum Hertzian pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0."""
@@ -186,7 +186,7 @@ def sharing(path: PathOfContact) -> list[Stretch]:
     found = []
     for low, high in pairwise(cuts):
         if high - low > _ROUNDING * p:
-            # counted in the middle of a stretch, where no rounding decides
+            # counted in the middle of an interval, where rounding has no influence
             middle = (low + high) / 2
             found.append((low, high, floor((recess - middle) / p) + floor((approach + middle) / p) + 1))
     return found
@@ -197,7 +197,7 @@ def _costs(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> Pa
     pitch = path.pitch
     bound = 0.1 * pitch.p
 
-    # H, the square of the pressure, and heat go with the force on a pair; flash with its power of 3/4
+    # H (pressure squared) and heat are proportional to the force on a pair, flash to its power 3/4
     def most(what: Callable[[PathContact], Floats], power: float, beyond: float = 0.0) -> float:
         return max(float(maximum(path, what, beyond, low, high) / count**power) for low, high, count in stretches)
 
@@ -268,7 +268,8 @@ def maximum(
     low: float = -inf,
     high: float = inf,
 ) -> float:
-    """Return the maximum of a quantity over contacts with |X| >= `beyond` and X from `low` to `high`; -inf without contact.
+    """Return the maximum of a quantity over contacts with |X| >= `beyond` and X from `low` to `high`; -inf without
+    contact.
 
     Each piece is scanned on a grid, and the bracket of its maximum is then refined.
     """
@@ -288,7 +289,7 @@ def _reaches(
     if not (span := path.span(recess, low, high)):
         return
     for piece in (path.recess if recess else path.approach).pieces:
-        # at a joint itself a side answers with the next piece
+        # at a joint itself the methods of a side evaluate the next piece
         first, last = max(piece.start, span[0]), min(float(np.nextafter(piece.end, 0.0)), span[1])
         if last > first:
             yield first, last
@@ -301,7 +302,7 @@ def _peak(f: Callable[[Floats], Floats], first: float, last: float, scale: float
     """
     d = np.linspace(first, last, _SCAN)
     if first == 0.0:
-        # near enough for its limit, where what is 0/0 still has half its digits
+        # close enough for the limit, far enough that a quotient 0/0 keeps half its digits
         d[0] = min(1e-7 * scale, float(d[1]))
         at_pitch = f(np.zeros(1))[0]
         if np.isposinf(at_pitch):
@@ -364,7 +365,7 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
     pitch = path.pitch
 
     def lean(contact: PathContact) -> Floats:
-        # power out is linear in friction: cos psi less friction times this lean
+        # power out is linear in friction: cos psi minus friction times this slope times cos psi
         power = powers(pitch, contact, 1.0, driver)[1] - contact.cos_psi
         found: Floats = -power / contact.cos_psi
         return found
@@ -390,14 +391,14 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
         try:
             return depth(gamma) - wanted
         except GearTrainError:
-            return nan  # too steep to be reached, or too hot for the contact to move
+            return nan  # the depth cannot be reached, or the contact speed would be 0
 
     low = high = start
     at_low = at_high = off(start) if wanted < most else nan
     for _ in range(_STEPS if wanted < most else 0):
         if at_low < 0 < at_high or at_low == 0:
             break
-        # upwards while even the hottest is too low; NaN, which cannot be reached, and too deep both lead downwards
+        # increase gamma while the depth is too small; decrease it if it is too large or NaN (not reachable)
         if not at_high >= 0 and at_high == at_high:
             low, at_low, high = high, at_high, high * _STEP
             at_high = off(high)

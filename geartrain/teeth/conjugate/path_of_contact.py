@@ -203,11 +203,11 @@ class PathSide:
         X = np.asarray(X, dtype=float)
         arc = self.arc
         d = self.start + (np.clip(X / arc, 0.0, 1.0) * (self.end - self.start) if arc else np.zeros(X.shape))
-        # quadratic but for sharp bends; clipped, for beyond its end a series means nothing
+        # convergence is quadratic except at sharp bends; clipped, as a series is invalid beyond its end
         for _ in range(40):
             step = (self.travel(d) - X) * np.sqrt(np.maximum(1 - self.sin_psi(d) ** 2, 0.0))
             d = np.clip(d - step, self.start, self.end)
-            # two roundings of the greatest distance
+            # two rounding errors of the maximum distance
             if np.abs(step).max(initial=0.0) <= 4e-16 * self.end:
                 break
         return d
@@ -332,7 +332,7 @@ class PathOfContact:
         if far <= max(near, 0.0) or side.arc == 0:
             return None
         start = side.start if near <= 0 else float(side.distance(np.array(near)))
-        # a whole side ends where it says, not where an inversion puts it
+        # a complete side ends exactly at its end, without the rounding of an inversion
         end = side.end if far >= side.arc else float(side.distance(np.array(far)))
         return (start, end) if end > start else None
 
@@ -413,15 +413,15 @@ class PathOfContact:
         pitch = self.pitch
         A, B = pitch.A, pitch.B
         S, slope = pitch.S(d), pitch.S_slope(d)
-        # rounding may put a sine beyond 1 where the pressure angle is a right angle
+        # rounding may make a sine exceed 1 where the pressure angle is a right angle
         cosine = np.sqrt(np.maximum(1 - sine * sine, 0.0))
         w = slope * sine + S * q
         U1, U2 = w + A * S, w - B * S
         bend = S * sine if pitch.bevel else 0.0
-        # U is 0 at a cusp, where curvature and pressure are infinite, and below 0 beyond it, where its root is NaN
+        # U is 0 at a cusp, with infinite curvature and pressure, and negative beyond it, where its root is NaN
         with np.errstate(divide="ignore", invalid="ignore"):
             k1, k2 = ((q + A) * slope - bend) / U1, ((q - B) * slope - bend) / U2
-            # psi = 0 at the pitch point, as of a cycloid, makes U 0 there too: 0/0, whose limit is infinite
+            # at the pitch point psi = 0, as for a cycloid, makes U 0 too; the limit of 0/0 is infinite
             kr = np.where(sine > 0, (A + B) * sine / (U1 * U2), np.inf)
             H = kr / cosine
             rub = np.abs(S) / cosine

@@ -116,12 +116,11 @@ class PitchSurfaces:
         return np.stack([S * cos_psi, S * sin_psi, np.cos(d)], axis=-1)
 
     def on_gear1(self, points: Floats, X: Floats) -> Floats:
-        """Transform points of the fixed frame to the body frame of gear 1 at X = 0: rotation by +X / reach about O1."""
+        """Transform fixed points to the body frame of gear 1 at X = 0: rotation by +X / reach about O1."""
         return self._turned(points, X / self.reach, -self.R1)
 
     def on_gear2(self, points: Floats, X: Floats) -> Floats:
-        """Transform points of the fixed frame to the body frame of gear 2 at X = 0: rotation by -X / reach2 about O2.
-        """
+        """Transform fixed points to the body frame of gear 2 at X = 0: rotation by -X / reach2 about O2."""
         return self._turned(points, -X / self.reach2, self.R2)
 
     def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
@@ -137,7 +136,7 @@ class PitchSurfaces:
             return np.hypot(x, y), np.arctan2(x, self._side(gear) * y)
         axis, up = self._axis_and_up(gear)
         outwards = points @ up
-        # not acos, which loses half the digits of a slender cone
+        # arctan2, because acos loses half the digits for a slender cone
         return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
 
     def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
@@ -155,8 +154,7 @@ class PitchSurfaces:
         return 1.0 if self.axle_of(gear) < 0 else -1.0
 
     def _axis_and_up(self, gear: int) -> tuple[Floats, Floats]:
-        """Return two unit vectors of a cone: the axis of the gear, and the direction of the pitch point normal to it.
-        """
+        """Return two unit vectors of a cone: the gear's axis, and the direction of the pitch point normal to it."""
         R, side = self.axle_of(gear), self._side(gear)
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 FEWEST, MOST_TEETH = 3, 10**9
-_MINIMUM_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, and cones lost in rounding
+_MINIMUM_ANGLE = 1e-6  # rad: axes at a smaller angle are practically parallel, and their cones vanish in rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,9 @@ class WheelPair:
                 "give the ring more teeth",
             )
         if self.internal and self.bevel:
-            raise refused("a ring cannot have a shaft angle", "its axis is parallel to its pinion's", "omit the shaft angle")
+            raise refused(
+                "a ring cannot have a shaft angle", "its axis is parallel to its pinion's", "omit the shaft angle"
+            )
         if max(self.z1, self.z2) > MOST_TEETH:
             raise refused(
                 f"a wheel of {max(self.z1, self.z2)} teeth has too many teeth",

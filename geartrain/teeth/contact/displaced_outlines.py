@@ -1,8 +1,8 @@
 """Effect of displaced flanks on the driven wheel, for any two outlines without a path of contact.
 
-A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes
-the point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n along
-the normal turns the driven wheel ahead by n over the moment arm of the normal about the driven axle, docs/cut-by-hand.md
+A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes the
+point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n along the
+normal turns the driven wheel ahead by n over the moment arm of the normal about the driven axle, docs/cut-by-hand.md
 (1), as for conjugate teeth. Unlike there, the lag of error-free wheels is not constant.
 """
 
@@ -25,14 +25,14 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
-_NODES = 1025  # of the tables along the contact; linear between them
-_CORNER_NODES = 257  # beyond its ends
-_SEARCHED = 2001  # of the window of a couple, for the ends of its contact
-_FARTHEST = 0.25  # of a driven pitch: a couple that lags more is held up by its neighbours
+_NODES = 1025  # of the tables along the contact, with linear interpolation
+_CORNER_NODES = 257  # of the tables beyond its ends
+_SEARCHED = 2001  # samples in the window of a tooth pair, for the ends of its contact
+_FARTHEST = 0.25  # of a driven pitch: with more lag the neighbouring pairs are in contact instead
 _NO_CORNER = 1e-9  # rad of the driver
-_AT_PITCH_POINT = 1e-6  # modules: nearer to it the normal is that of the flank
-_ROUGH = 1e-4  # rad: what is sought to rounding, among touches so near to the furthest
-_BLUNT = radians(10)  # half the aperture, at least
+_AT_PITCH_POINT = 1e-6  # modules: closer to the pitch point the normal is taken from the flank
+_ROUGH = 1e-4  # rad: touches within this margin of the first one are refined
+_BLUNT = radians(10)  # lower bound of the half aperture
 
 
 class ToothPairContact(NamedTuple):
@@ -70,7 +70,7 @@ class ToothPairSearch:
         judge = self.pair.judge
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
         touches = judge.touch(tooth_pairs, judge.furthest(tooth_pairs, judge.segments(tooth_pairs), _ROUGH))
-        # the furthest touch of each angle comes last
+        # the touch of maximum angle of each pair is sorted last
         order = np.lexsort((touches.angle, touches.tooth_pair))
         last = order[np.flatnonzero(np.diff(touches.tooth_pair[order], append=count))]
         where = touches.tooth_pair[last]
@@ -103,7 +103,7 @@ class ToothPairSearch:
             flank = np.stack([-along[1], along[0]])
             found = np.where(np.hypot(*to) > _AT_PITCH_POINT, to, flank)
             found = found / np.hypot(*found)
-        # about the driven axle, beyond, the push goes the way its near side moves
+        # the push is in the direction in which the near side of the driven wheel moves
         return np.asarray(np.where(found[1] < 0, -found, found))
 
 
@@ -120,7 +120,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
     axles = np.array([[0.0, gears.distance], [0.0, 0.0]])
     px, py = found.point
     nx, ny = found.normal
-    # 1 over the moment arm about the driven axle, the way it turns there
+    # reciprocal of the moment arm about the driven axle
     normal = 1 / np.abs((px - axles[0, 1]) * ny - py * nx)
     working = _foremost(found, first.pitch)
     sizes, levers, longer = [], [], []
@@ -163,7 +163,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
         what = "these teeth do not touch for a whole pitch"
         why = "the effect of a displaced flank is defined for a contact of at least one pitch"
         raise RangeError(Problem(what, why, "use larger addenda or a smaller centre distance"))
-    # the places of the search are fine beside the tables; an end lies within
+    # the search samples are finer than the tables, so no refinement of the ends is needed
     start, end, minimum, most = (float(found.x[at]) for at in (flanks[0], flanks[-1], reach[0], reach[-1]))
     return start, end, minimum, most
 
@@ -207,8 +207,7 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return the points at which the flank in contact crosses the pitch circle; these are the centres of its rotation.
-    """
+    """Return the centres of flank rotation: the points at which the flank in contact crosses the pitch circle."""
     wheel, table = ((search.first, search.pair.judge.first), (search.second, search.pair.judge.second))[gear]
     radius = wheel.z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]

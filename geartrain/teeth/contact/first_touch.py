@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.flank_table import FlankTable
 
-_ASIDE = 1e-5  # of a segment: where a slope is asked for if the end has none
-_FINE = 1e-14  # of u: G itself is flat where its slope is 0, and only the speed is as good as u
-_WIDE = 2.0  # bounds from tangents are doubled
-_LEFT = 1e-8  # of u: what an inversion leaves where a curve stands still, the square root of rounding
+_ASIDE = 1e-5  # of a segment: offset at which a slope is evaluated if it is undefined at the end
+_FINE = 1e-14  # of u: at a maximum of G only the speed depends on u to first order
+_WIDE = 2.0  # safety factor of bounds from tangents
+_LEFT = 1e-8  # of u: error of an inversion where a curve is stationary, the square root of rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,15 +47,16 @@ class AxlePlacement:
         return DrivenFrame(self, r, b)
 
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
-        """Return the maximum |azimuth| at which a radius from `lowest` to `highest` about the first axle can be in range.
+        """Return the maximum |azimuth| at which a radius from `lowest` to `highest` about the first axle can be in
+        range.
 
-        The range of radii about the second axle is from `minimum` to `most`. The result is taken from samples and widened, so
-        that it is never too small except for rounding. It is -1 if no point is in range.
+        The range of radii about the second axle is from `minimum` to `most`. The result is taken from samples and
+        widened, so that it is never too small except for rounding. It is -1 if no point is in range.
         """
         r = np.linspace(lowest, highest, 129)[:, None]
         b = np.linspace(0, np.pi, 721)[None, :]
         seen = DrivenFrame(self, *np.broadcast_arrays(r, b)).radius
-        # what may pass between two samples, and rounding
+        # allowance for extremes between two samples, and for rounding
         slack = 2 * (highest - lowest) / 128 + 1e-9 * highest
         inside = ((seen <= most + slack) & (seen >= minimum - slack)).any(axis=0)
         if not inside.any():
@@ -79,7 +80,7 @@ class DrivenFrame:
         self.along = e * far * self.height + s * self.tilt * self.across
         if sight.bevel:
             self.up = self.tilt * self.height - s * e * far * self.across
-            # not arccos of `up`, which loses half the digits near the axle
+            # arctan2, because arccos of `up` loses half the digits near the axle
             self.radius = np.arctan2(np.hypot(self.side, self.along), self.up)
         else:
             self.radius = np.hypot(self.side, self.along)
@@ -167,7 +168,7 @@ class FlankSegmentation:
         start, end = self.second.first[tooth], self.second.first[tooth + 1]
         found = []
         for local in range(int(np.diff(self.second.first).max())):
-            # all teeth at once: one with fewer pieces repeats its last, which `start + local < end` leaves out
+            # all teeth at once; a tooth with fewer pieces repeats its last one, which `start + local < end` excludes
             piece2 = np.minimum(start + local, end - 1)
             within = (low <= self.second.ends[1, piece2]) & (high >= self.second.ends[0, piece2])
             which = np.flatnonzero(within & (start + local < end) & ~self.second.flat[piece2])
@@ -175,8 +176,7 @@ class FlankSegmentation:
         return self._clipped(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the cells between nodes that may be at radii of the driven side; the driven piece is not yet chosen.
-        """
+        """Return the cells between nodes that may be at radii of the driven side, before a driven piece is chosen."""
         nodes = self.first.nodes
         pieces, us, begins = (
             nodes[0][tooth_pairs.tooth1],
@@ -187,7 +187,7 @@ class FlankSegmentation:
         view = self.sight.look(r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
-        # where the distance turns inside a cell it passes both ends by less than the slopes there would take it
+        # an extreme of the distance inside a cell exceeds the ends by less than the slopes there would give
         slack = np.where(turning, (np.abs(change[:, :-1]) + np.abs(change[:, 1:])) * np.diff(us, axis=1), 0.0)
         minimum, most = (each[tooth_pairs.tooth2][:, None] for each in self.second.span)
         here, there = view.radius[:, :-1], view.radius[:, 1:]
@@ -276,7 +276,7 @@ class FirstTouchSearch(FlankSegmentation):
         ends, slopes = self._rough(segments)
         with np.errstate(invalid="ignore", divide="ignore"):
             width = segments.u[1] - segments.u[0]
-            # where the tangents at both ends meet: a bound on G within if it is concave, doubled for where it is not
+            # intersection of the tangents at both ends: bounds G if it is concave, and is doubled in case it is not
             meets = (ends[1] - ends[0] - slopes[1] * width) / (slopes[0] - slopes[1])
             rise = np.where((slopes[0] > 0) & (slopes[1] < 0), ends[0] + slopes[0] * meets - ends.max(axis=0), 0.0)
         unknown = ~np.isfinite(slopes).all(axis=0) | self._stalled(segments).any(axis=0)
@@ -284,7 +284,7 @@ class FirstTouchSearch(FlankSegmentation):
         place = tooth_pairs.place[segments.tooth_pair]
         position = tooth_pairs.position[segments.tooth_pair]
         best = np.full(int(tooth_pairs.position.max()) + 1 if len(tooth_pairs.position) else 0, -np.inf)
-        # `maximum.at`: many segments share a position, and an assignment would keep the last
+        # `maximum.at`, because many segments share a position and an assignment would keep only the last
         np.maximum.at(best, position, ends.max(axis=0) - place)
         return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
 
@@ -304,14 +304,14 @@ class FirstTouchSearch(FlankSegmentation):
         r = np.clip(segments.seen[0], low, high)
         within = np.isnan(segments.v)
         v = np.where(within, self.second.guess(piece, r)[0], segments.v)
-        # where the piece stands still a step of Newton's method leads anywhere
+        # where the piece is stationary a single Newton step is not reliable
         still = within & self.second.near_stall(piece, v)
         v[still] = self.second.inverse(piece[still], r[still])
         radius, rise = value(self.second.radius, piece, v)
         azimuth, turn = value(self.second.azimuth, piece, v)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = turn / rise
-            # elsewhere one step of it instead of the inversion; at an end of the piece nothing is left to correct
+            # elsewhere one Newton step replaces the inversion; at an end of the piece no correction is needed
             correction = np.where(within & ~still, slant * (r - radius), 0.0)
             return segments.seen[1] - azimuth - correction, segments.seen[3] - slant * segments.seen[2]
 
@@ -328,7 +328,7 @@ class FirstTouchSearch(FlankSegmentation):
             """
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
-            # clipped: rounding may put a radius beyond the ends of the piece
+            # clipped, because rounding may move a radius beyond the ends of the piece
             v = self.second.inverse(piece, np.clip(view.radius, low[which], high[which]))
             change, swing = view.moved(dr, da)
             return swing * value(self.second.radius, piece, v)[1] - value(self.second.azimuth, piece, v)[1] * change
@@ -338,7 +338,7 @@ class FirstTouchSearch(FlankSegmentation):
         step = _ASIDE * (ends_u[1] - ends_u[0])
         stalled = self._stalled(segments)
         for side, way in ((0, 1), (1, -1)):
-            # where a curve stands still at its end the slope there is 0, give or take its rounding
+            # where a curve is stationary at its end the slope there is 0 up to rounding
             which = np.flatnonzero(stalled[side] | ~(way * slopes[side] > 0))
             ends_u[side, which] += way * step[which]
             slopes[side, which] = rising(ends_u[side, which], which)
@@ -363,13 +363,13 @@ class FirstTouchSearch(FlankSegmentation):
         change, swing = view.moved(dr, da)
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
-            slant = np.where(kink, swing / change, turn / rise)  # of azimuth by radius, on the side that is smooth
+            slant = np.where(kink, swing / change, turn / rise)  # derivative of azimuth by radius on the smooth side
             off = view.radius - r
-            # more than rounding leaves is asked for only where the smooth side stands still and `slant` is noise
+            # a larger correction occurs only where the smooth side is stationary and `slant` is noise
             trusted = np.abs(off / np.where(kink, change, rise)) <= _LEFT
             correction = np.where(trusted, slant * off, 0.0)
             speed = ahead - slant * drift
-        # `correction` takes off what the inversion left of the radius, so that the angle is good to rounding
+        # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding
         angle = view.azimuth - a - correction - tooth_pairs.place[segments.tooth_pair]
         radius1 = value_alone(self.first.radius, piece1, u)
         return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.tooth_pair)

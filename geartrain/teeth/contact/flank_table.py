@@ -13,12 +13,12 @@ from geartrain.numerics.polynomial_pieces import COUNT, ends, value, value_alone
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
-_CELLS = 8  # of a side, at least: the furthest point is looked for in each
-_CLOSER, _CLOSE = 0.75, 30  # geometric steps towards an end that stands still, where a turn may lie at any distance
-_BINS = 64  # of a piece: radius is inverted from the nearest
-_STALLED = 1e-3  # of its mean slope: where a piece stands still, as a cycloid does on its pitch circle
-_MOST = 80  # steps of an inversion
-_NEAR = 1e-10  # a Newton step as short as this ends on the root: the next would be about its square
+_CELLS = 8  # minimum number of search cells of a side
+_CLOSER, _CLOSE = 0.75, 30  # geometric steps towards a stationary end: an extreme may be at any distance from it
+_BINS = 64  # of a piece: initial brackets for the inversion of the radius
+_STALLED = 1e-3  # of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
+_MOST = 80  # maximum number of steps of an inversion
+_NEAR = 1e-10  # a Newton step of this length ends at the root, as the next would be about its square
 
 
 @dataclass(frozen=True)
@@ -52,8 +52,7 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Flags, (2, pieces): True if the radius of a piece is stationary in u at its beginning (row 0) or end (row 1).
-        """
+        """Flags, (2, pieces): True if the radius of a piece is stationary in u at its start (row 0) or end (row 1)."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -64,7 +63,7 @@ class FlankTable:
         """Minimum and maximum radius, minimum and maximum azimuth of all teeth."""
         u = np.linspace(-1, 1, 33)
         azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
-        # what an azimuth may exceed its samples by, where it turns between two of them
+        # allowance for extremes of the azimuth between two samples
         slack = float(np.ptp(azimuth)) / 64
         return (
             float(self.ends.min()),
@@ -93,7 +92,7 @@ class FlankTable:
         begins = np.append(piece[1:] == piece[:-1], False)
         start = np.searchsorted(piece, self.first)
         most = int(np.diff(start).max())
-        # teeth with fewer nodes repeat their last one, at which no cell begins
+        # teeth with fewer nodes repeat their last node, at which a cell does not begin
         at = np.minimum(start[:-1, None] + np.arange(most), start[1:, None] - 1)
         return piece[at], u[at], begins[at]
 
@@ -119,14 +118,13 @@ class FlankTable:
 
     @cached_property
     def _bins(self) -> tuple[Floats, Floats]:
-        """Radii at uniform u, (pieces, bins + 1), and the same values scaled to one increasing row for a single search.
-        """
+        """Radii at uniform u, (pieces, bins + 1), and the same scaled to one increasing row for a single search."""
         pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
         radii = value_alone(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
         low, high = self.ends[:, :, None]
         share = np.maximum.accumulate(np.clip((radii - low) / np.where(high > low, high - low, 1.0), 0, 1), axis=1)
         share[:, -1] = 1.0
-        # 2 apart, so that one search in one rising row serves all pieces; `accumulate` against falls by rounding
+        # offset by 2, so that one search in one row serves all pieces; `accumulate` removes decreases by rounding
         return radii, (share + 2.0 * pieces).ravel().astype(np.float64)
 
     def guess(self, piece: Indices, r: Floats) -> tuple[Floats, Floats, Floats]:
@@ -154,7 +152,7 @@ class FlankTable:
 
     def _newton(self, piece: Indices, r: Floats, u: Floats, low: Floats, high: Floats) -> Floats:
         found = u
-        # indices only once some have ended and others not: before that nothing need be gathered
+        # indices are gathered only after some iterations have ended and others have not
         which: Indices | None = None
         for _ in range(_MOST):
             here, slope = value(self.radius, piece, u)
@@ -162,7 +160,7 @@ class FlankTable:
             low, high = np.where(off < 0, u, low), np.where(off > 0, u, high)
             with np.errstate(invalid="ignore", divide="ignore"):
                 step = u - off / slope
-            # NaN, where the slope is 0, is not inside either: the bracket is halved
+            # NaN, from a slope of 0, also fails the test, and the bracket is bisected
             step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
             left = np.abs(step - u) > _NEAR
             u = step

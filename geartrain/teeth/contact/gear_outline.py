@@ -1,5 +1,4 @@
-"""Outline of a wheel: smooth curves, teeth made of them, teeth about the axle; and flanks cut into polynomial pieces.
-"""
+"""Outline of a wheel: smooth curves, teeth made of them, and flanks cut into polynomial pieces."""
 
 from __future__ import annotations
 
@@ -21,11 +20,11 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
 
-_MEETS = 1e-9  # of the radius: curves whose ends are nearer than this follow each other
-_FLAT = 1e-12  # of the radius: a piece that rises less is an arc about the axle
-_TURNED = 1e-9  # of the greatest slope: less is no turning point
-_SMOOTH = 1e-7  # rad: curves that meet under less have no corner
-_STILL = 1e-3  # of its second derivative: a slope that says nothing of the direction
+_MEETS = 1e-9  # of the radius: curves whose ends are closer than this are connected
+_FLAT = 1e-12  # of the radius: a piece that rises less counts as an arc about the axle
+_TURNED = 1e-9  # of the maximum slope: smaller sign changes are rounding
+_SMOOTH = 1e-7  # rad: curves that meet at a smaller angle form a smooth joint
+_STILL = 1e-3  # of its second derivative: a smaller slope does not determine the direction
 
 
 @dataclass(frozen=True)
@@ -309,7 +308,9 @@ class GearOutline:
 def _check(side: tuple[OutlineCurve, ...]) -> None:
     """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
     if not side:
-        raise QuestionError(Problem("a tooth has a side without curves", "each side needs a curve", "give at least one curve"))
+        raise QuestionError(
+            Problem("a tooth has a side without curves", "each side needs a curve", "give at least one curve")
+        )
     last = None
     for curve in side:
         ends = curve.at(np.array([curve.start, curve.end]))
@@ -346,11 +347,11 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
         first.append(len(pieces))
     coefficients = np.stack([piece.coefficients for piece, _, _ in pieces])
     radius, azimuth = np.ascontiguousarray(coefficients[:, :, 0].T), np.ascontiguousarray(coefficients[:, :, 1].T)
-    rise = radius[1::2].sum(axis=0)  # half the radius at u = 1 less that at u = -1
+    rise = radius[1::2].sum(axis=0)  # half the difference of the radii at u = 1 and u = -1
     flat = np.abs(rise) < _FLAT * radius[0]
     falls = rise < 0
     kinks = np.array([[begins, ends] for _, begins, ends in pieces]).T
-    # u reversed: odd powers change their sign
+    # reversing u changes the sign of odd powers
     for each in (radius, azimuth):
         each[1::2, falls] *= -1
     kinks[:, falls] = kinks[::-1, falls]
@@ -384,9 +385,9 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
-    # just inside the piece the slope is the second derivative times the way from the end, whose sign is -end
+    # just inside the piece the slope is the second derivative times the distance from the end, of sign -end
     second = -end * (powers * (powers - 1) * signs * end @ piece.coefficients)
-    # azimuth times radius is a length too
+    # azimuth times radius is a length, as the radius is
     round_ = np.array([1.0, float(piece.coefficients[0, 0])])
     chosen = first if np.hypot(*(first * round_)) > _STILL * np.hypot(*(second * round_)) else second
     found: Floats = chosen * round_ / np.hypot(*(chosen * round_))
@@ -411,7 +412,7 @@ def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece
 def _turning(slope: Floats, low: float, high: float) -> float:
     """Find the sign change of a polynomial between low and high by bisection."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
-    # bisection to neighbouring floats: the slope is that of a fit, and noise where the radius hardly turns
+    # bisection to neighbouring floats, because the slope of a fit is noise where the radius hardly changes
     while low < (middle := low + (high - low) / 2) < high:
         if (np.polynomial.polynomial.polyval(middle, slope) > 0) == rising:
             high = middle

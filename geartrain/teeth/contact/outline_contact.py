@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_BLOCK = 60_000  # nodes worked on at once: bounds the memory of long arrays of angles
-_MARGIN = 1e-5  # of a driven pitch: how far rough angles may be off
-_TIE = 4e-15  # rad: of touches as near as this the later couple, and a flank before a corner, is named
+_BLOCK = 60_000  # nodes per block, which limits the memory of long arrays of angles
+_MARGIN = 1e-5  # of a driven pitch: maximum error of estimated angles
+_TIE = 4e-15  # rad: among touches within this the later tooth pair, and a flank before a corner, is reported
 KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
@@ -64,7 +64,7 @@ class OutlinePair:
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
         """Return the fields of `FlankContact` at driver angles of shape (n,)."""
         period = self.cycle * self.first.pitch
-        # worked out within one period, and whole periods added after: their rounding stays out of the contact
+        # computed within one period; whole periods are added afterwards, so that their rounding does no harm
         turns = np.floor(self.sign * phi1 / period)
         rest = self.sign * phi1 - turns * period
         parts = [self._block(part, within) for part in self._blocks(rest)]
@@ -90,7 +90,7 @@ class OutlinePair:
         number = max(0, ceil((self.window[1] - self.window[0] + 2 * slack) / pitch) + 1)
         j = (lowest[:, None] + np.arange(number)).ravel()
         position = np.repeat(np.arange(len(rest)), number)
-        # in a mirror tooth j touches the tooth behind it, whose number is one more when counted backward
+        # in the mirror image tooth j touches the tooth behind it, whose number counted backward is j + 1
         mate = j if self.sign > 0 else j + 1
         tooth1, tooth2 = (self.sign * j) % self.first.z, (self.sign * mate) % self.second.z
         x = rest[position] + j * pitch + self.sign * _taken(self.first.turns, tooth1)
@@ -112,7 +112,7 @@ class OutlinePair:
         np.maximum.at(best, position, found.angle)
         sharing = self._sharing(found, best[position] - within, tooth_pairs, count)
         kind = self._kind(found)
-        # of touches that tie: the later couple, then what has fewer corners, then the furthest
+        # order of ties: later tooth pair, then flank before corner, then maximum angle
         ties = np.flatnonzero(found.angle >= best[position] - _TIE)
         order = ties[np.lexsort((found.angle[ties], kind[ties] == 0, j[found.tooth_pair[ties]], position[ties]))]
         last = np.flatnonzero(np.diff(position[order], append=count))
@@ -125,8 +125,7 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def _kind(self, found: FirstTouches) -> Indices:
-        """Return the kind of each touch: 1 for a corner of the first wheel, 2 of the second, 3 of both, 0 for neither.
-        """
+        """Return the kind of each touch: 1 for a corner of the first wheel, 2 of the second, 3 of both, else 0."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.judge.first, found.piece1, found.u), (self.judge.second, found.piece2, found.v))
@@ -249,10 +248,10 @@ def solve(
 ) -> TwoFlankContact:
     """Compute the position of the second wheel for given angles of the first, which drives.
 
-    The driven angle is the maximum that any point of the driver's outline requires; neither normals nor a path of contact
-    are used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by polynomials to
-    rounding (`GearOutline.ahead.error`). Far from 0 the rounding of phi1 itself dominates. Both angles are 0 where tooth 0
-    is on the line of centres, and increase forward; tooth 0 pushes tooth 0.
+    The driven angle is the maximum that any point of the driver's outline requires; neither normals nor a path of
+    contact are used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by
+    polynomials to rounding (`GearOutline.ahead.error`). Far from 0 the rounding of phi1 itself dominates. Both angles
+    are 0 where tooth 0 is on the line of centres, and increase forward; tooth 0 pushes tooth 0.
 
     Parameters
     ----------
@@ -340,7 +339,11 @@ def contact(
     """
     phi1 = np.asarray(phi1, dtype=float)
     if not np.isfinite(phi1).all():
-        raise RangeError(Problem("an angle of the driver is not finite", "positions must be finite", "remove infinite and NaN angles"))
+        raise RangeError(
+            Problem(
+                "an angle of the driver is not finite", "positions must be finite", "remove infinite and NaN angles"
+            )
+        )
     meeting = OutlinePair(first, second, distance, side)
     flat = meeting.at(phi1.ravel(), within)
     shapes = (each.reshape((*each.shape[:-1], *phi1.shape)) for each in flat)

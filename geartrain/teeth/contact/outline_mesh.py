@@ -48,8 +48,7 @@ class OutlineMesh(GearMesh):
 
     @property
     def stands(self) -> float:
-        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is counted from where flanks touch.
-        """
+        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
         return self.transmission.gears.lead / pi
 
     def size(self, tips: Mapping[str, float]) -> PairSize:

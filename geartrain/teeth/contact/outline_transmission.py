@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.transmission_fit import PiecewiseTransmission
 
-_GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the law's polynomials have degree 30
-_NEAR_PITCH_POINT = 1e-7  # of the distance of the axles: roots of differences of their squares are this uncertain
-_FLAT = 1e-9  # slope of friction against a contact: less is rounding, and locks nothing
-_SAMPLES = 256  # angles of a pitch at which play is looked for
+_GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the fitted polynomials have degree 30
+_NEAR_PITCH_POINT = 1e-7  # of the centre distance: uncertainty of roots of differences of squares
+_FLAT = 1e-9  # smaller friction slopes against a contact are rounding, and do not lock
+_SAMPLES = 256  # angles of a pitch at which backlash is evaluated
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +54,8 @@ class OutlineGears:
 
 
 class OutlineTransmission(TransmissionFunction):
-    """Transmission function of two outlines; with `driver` 2 the second wheel drives, `direction` -1 reverses the motion.
+    """Transmission function of two outlines; with `driver` 2 the second wheel drives, `direction` -1 reverses the
+    motion.
 
     S = 0 has a driver's tooth on the line of centres, and the driven angle is counted from where flanks touch.
     """
@@ -89,7 +90,7 @@ class OutlineTransmission(TransmissionFunction):
         """Verdict on whether the pair can turn: faults of its teeth, and lack of backlash at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
-        # rad: the teeth of a pair without play touch on both sides but for rounding
+        # rad: without backlash the teeth touch on both sides up to rounding
         found = self.gears.faults if backlash >= -1e-12 else (*self.gears.faults, _jam(self.distance, backlash))
         if not np.isfinite(backlashes).all():
             found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(backlashes)))))
@@ -114,8 +115,7 @@ class OutlineTransmission(TransmissionFunction):
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the steps at which the next tooth takes over at a higher speed; they are the same in reversed motion.
-        """
+        """Return the steps at which the next tooth takes over at a higher speed, the same as in reversed motion."""
         return self.table.speed_leaps()
 
     def steepest_fall(self) -> float:
@@ -139,7 +139,7 @@ class OutlineTransmission(TransmissionFunction):
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and maximum speed ratio, among 16 angles of each smooth stretch and its ends."""
         ends = self.table.breaks
-        # at a corner the speed has two values, one of either side
+        # at a kink the speed has two values, one on either side
         found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
         return float(np.nanmin(found)), float(np.nanmax(found))
 
@@ -155,8 +155,8 @@ class OutlineTransmission(TransmissionFunction):
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S (rad); NaN without contact or where friction locks.
 
-        The common normal passes the instantaneous pitch point, which divides the centre distance in the ratio of the speeds.
-        With this point as pitch point the contact obeys the formulas of conjugate teeth.
+        The common normal passes the instantaneous pitch point, which divides the centre distance in the ratio of the
+        speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
         """
         return self._passed(_leans(self.gears, self.driver, self._forward(S)))
 
@@ -173,7 +173,7 @@ class OutlineTransmission(TransmissionFunction):
 
     def _rubbing(self, leans: tuple[Floats, Floats, Floats], speed: Floats) -> ContactRubbing:
         cosine, into, out = leans
-        # the pitch point of the instant parts the distance as the speeds do, that of the pitch line as the teeth do
+        # the instantaneous pitch point divides the distance by speeds, the nominal pitch point by tooth numbers
         first, second = self._wheels
         mean, same = float(self.ratio), -1 if first.ring or second.ring else 1
         share = np.abs(speed / (speed + same) * (mean + same) / mean)
@@ -229,9 +229,9 @@ def _friction(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Flo
     d = np.hypot(x, y)
     with np.errstate(divide="ignore", invalid="ignore"):
         way = np.where(x < 0, -1.0, 1.0)
-        # at the pitch point itself, 0/0, the flanks do not slide, and any normal will do
+        # at the pitch point itself (0/0) the flanks do not slide, and any normal is valid
         sine, cosine = np.where(d > 0, way * y / d, 0.0), np.where(d > 0, np.abs(x) / d, 1.0)
-        rub = way * np.sign(1 / R1 + 1 / R2)  # a ring that drives is slower than its pinion: it slides the other way
+        rub = way * np.sign(1 / R1 + 1 / R2)  # a driving ring is slower than its pinion, so sliding is reversed
         return cosine, rub * (sine + way * d / R1), rub * (sine - way * d / R2)
 
 
@@ -241,22 +241,22 @@ def _leans(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, F
     """
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)
-    # a ring's axle is on its pinion's other side, and its pitch circle turns the same way
+    # a ring's axle is on the other side of its pinion, and both pitch circles turn the same way
     a = gears.distance * (-1 if second.ring else 1)
     R1 = a * at.speed / (at.speed + (-1 if first.ring or second.ring else 1))
     along = (at.radius1**2 - at.radius2**2 + a * a) / (2 * a)
-    # on the line of centres rounding may put the square below 0
+    # on the line of centres rounding may make the square negative
     side = np.sqrt(np.maximum(at.radius1**2 - along**2, 0.0))
-    # the side ahead of a tooth lies within half a pitch ahead of its middle
+    # the leading flank of a tooth is within half a pitch ahead of its middle
     middle = forward + (at.pair + 0.25) * first.pitch
     ahead = np.abs(np.arctan2(side, along) - middle) < np.abs(np.arctan2(-side, along) - middle)
     off = along - R1
-    # so near the pitch point the root above is rounding, and tells of no normal
+    # closer to the pitch point the root above is rounding and does not determine a normal
     apart = np.hypot(side, off) >= _NEAR_PITCH_POINT * gears.distance
     return _friction(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
 
 
-# What two outlines do to each other costs much, and is the same whatever the friction and whichever way they turn.
+# The contact of two outlines is expensive and does not depend on friction or direction, so it is cached.
 
 
 @lru_cache(maxsize=64)

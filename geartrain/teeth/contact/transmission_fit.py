@@ -26,21 +26,24 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_JUMP = 1e-6  # of the ratio: less is rounding at a corner
-_NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)  # inside, so that a stretch never asks beyond its corners
-# between the nodes, where fits are off most, and short of the ends, beyond which something else may touch
+_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding
+# Chebyshev nodes are interior, so that a stretch is never evaluated beyond its kinks
+_NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)
+# between the nodes, where fits have their largest errors, and inside the ends, beyond which the contact may change
 _CHECKS = np.concatenate([[-0.999], -np.cos(np.pi * np.arange(1, COUNT) / COUNT), [0.999]])
 _ALL = np.sort(np.concatenate([_NODES, _CHECKS]))
-# from values to coefficients; at these nodes as well conditioned as a cosine transform
+# from values to coefficients; at these nodes it is as well conditioned as a cosine transform
 _SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
-_PARTS = 4  # stretches of a pitch to begin with
-_OFFSET = 0.1180339887498949  # of a stretch: no corner is likely to be exactly where one begins
-_THIN = 1e-9  # of a pitch: a stretch is not cut again, as where a tip grazes a side and the speed is infinite
-_CUTS = 17  # parts of a gap that holds a corner: one call for many angles costs little more than for one
-_SAFETY = 2.0  # stated error over the greatest found
-_FLAT = 1e-7  # of the ratio: corners that change the speed by less stay where they were found
-_LEAP = 1e-9  # rad: a greater step of the angle is a leap of the law, and no corner
-_MOST = 100_000  # stretches
+_PARTS = 4  # initial stretches of a pitch
+_OFFSET = 0.1180339887498949  # of a stretch: an irrational offset, so that a kink is unlikely to be at an end
+_THIN = (
+    1e-9  # of a pitch: thinner stretches are not divided, as where a tip is tangent to a side and the speed is infinite
+)
+_CUTS = 17  # subdivisions of a gap with a kink; one call for many angles costs little more than for one
+_SAFETY = 2.0  # reported error over the maximum found
+_FLAT = 1e-7  # of the ratio: kinks with a smaller change of speed are not refined
+_LEAP = 1e-9  # rad: a larger step of the angle is a discontinuity, not a kink
+_MOST = 100_000  # maximum number of stretches per driver pitch
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ class PiecewiseTransmission:
         phi1 = np.asarray(phi1, dtype=float)
         flat = phi1.ravel()
         rest = flat - self.breaks[0]
-        # quicker than %, and good enough: `searchsorted` is clipped where rounding leaves `rest` outside the period
+        # faster than %; rounding may leave `rest` outside the period, so `searchsorted` is clipped
         rest -= np.floor(rest / self.period) * self.period
         rest += self.breaks[0]
         which = np.clip(np.searchsorted(self.breaks, rest, side="right") - 1, 0, len(self.breaks) - 2)
@@ -114,7 +117,7 @@ class PiecewiseTransmission:
 
     def steepest_fall(self) -> float:
         """Return the maximum of -d speed / d phi1 within the stretches (1/rad), 0 if the speed never falls."""
-        slopes = np.zeros_like(self.speeds)  # one degree less, in as many coefficients
+        slopes = np.zeros_like(self.speeds)  # degree reduced by one, same number of coefficients
         slopes[:-1] = self.speeds[1:] * np.arange(1, len(slopes))[:, None] / self.halves
         return max(0.0, -extremes(slopes)[0])
 
@@ -256,7 +259,7 @@ class _Maker:
     def _good(self, stretches: _Stretches, before: Floats) -> Bools:
         """Return flags of stretches within tolerance, too thin to divide, or limited by rounding."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
-        # halving a stretch of a smooth law gains far more than 4: what gains less at this size is rounding
+        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding
         stuck = (stretches.off > before / 4) & (before < 1e-10)
         good: Bools = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
         return good
@@ -275,7 +278,7 @@ class _Maker:
         ]
         nowhere = labels[1].max(axis=1) < 0
         off = [np.where(nowhere, 0.0, np.where(np.isnan(each), np.inf, each)) for each in off]
-        pair, kind = labels[:2, :, COUNT]  # at the middle one of 2 COUNT + 1 points
+        pair, kind = labels[:2, :, COUNT]  # at the middle of 2 COUNT + 1 points
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _requested(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
@@ -297,7 +300,7 @@ class _Maker:
     def _narrowed(self, low: Floats, high: Floats, left: Indices) -> Floats:
         """Locate the first change of labels from `left` between low and high, by repeated subdivision to rounding."""
         share = np.arange(1, _CUTS) / _CUTS
-        for _ in range(20):  # 17^20 is far beyond 2^53: it ends where a gap shrinks no more
+        for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
             inner = np.clip(inner, low[:, None], high[:, None])
             _, _, labels = self._requested(inner)
@@ -322,8 +325,8 @@ class _Maker:
 
     def _crossing(self, stretches: _Stretches, at: int, kink: float) -> float:
         errors, speeds = ends(stretches.errors[:, at - 1 : at + 1]), ends(stretches.speeds[:, at - 1 : at + 1])
-        # a Newton step on the difference of both fits makes the law continuous: labels place a corner no better than
-        # nearly equal angles can be told apart
+        # a Newton step on the difference of both fits makes the function continuous; labels locate a kink only to
+        # the resolution of nearly equal angles
         step, change = float(errors[1, 0] - errors[0, 1]), float(speeds[1, 0] - speeds[0, 1])
         if not abs(change) > _FLAT * float(self.ratio) or not abs(step) < _LEAP:
             return kink

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_SAME = 1e-9  # vertices nearer than this are one
-_MINIMUM_STEP = 2 * pi / 65536  # of a chord, in radians: wheels of a trillion teeth are drawn too
+_SAME = 1e-9  # vertices closer than this are merged
+_MINIMUM_STEP = 2 * pi / 65536  # minimum angle of a chord (rad), which bounds the number of points of very large wheels
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +77,8 @@ class Contour:
     def moments(self) -> tuple[float, float]:
         """Compute area (mm2) and polar second moment about (0, 0) (mm4), exactly, by Green's theorem.
 
-        The result is the sum over the polygon of the vertices and the circular segment of each arc. It is below 0 if the
-        contour runs clockwise.
+        The result is the sum over the polygon of the vertices and the circular segment of each arc. It is below 0 if
+        the contour runs clockwise.
         """
         (x, y), (u, v) = self.points.T, np.roll(self.points, -1, axis=0).T
         cross = x * v - y * u
@@ -114,7 +114,7 @@ class Contour:
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
     """Return the points of an arc without its end point."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
-    # the chord whose sagitta is the tolerance
+    # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)
     count = max(1, ceil(abs(sweep) / step))
     centre = _arc_centre(start, end, bulge)
@@ -126,8 +126,8 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
     """Return area and polar second moment about (0, 0) of the segment between an arc and its chord.
 
-    About its own centre, with radius R and sweep s, they are R^2 (s - sin s)/2 and R^4 (s/4 - sin s (2 + cos s)/12). The
-    first moment is 2/3 R^3 sin^3(s/2) along the bisector.
+    About its own centre, with radius R and sweep s, they are R^2 (s - sin s)/2 and R^4 (s/4 - sin s (2 + cos s)/12).
+    The first moment is 2/3 R^3 sin^3(s/2) along the bisector.
     """
     R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
     centre = _arc_centre(start, end, bulge)

@@ -26,8 +26,8 @@ ESCAPEMENT = "escapement"
 ESCAPE_WORDS = "of a dead-beat escapement, pointed, faces undercut by 6 degrees"
 UNDERCUT = radians(6.0)
 """Angle of the leading face of a tooth behind the radius through its tip (rad), as for a dead-beat anchor."""
-_DEPTH = 0.7  # of a pitch
-_DEEPEST = 0.5  # of the radius
+_DEPTH = 0.7  # of a pitch: depth of a tooth
+_DEEPEST = 0.5  # of the radius: maximum depth of a tooth
 _BASE = 0.45  # of a pitch: thickness of a tooth at its root
 _LAND = 0.03  # of a pitch: width of a tip
 WAVE = "strain wave"
@@ -52,17 +52,17 @@ CUP = 0.25
 def escape_tooth(z: int, sense: int) -> FixedTooth:
     """Return the tooth of an escape wheel of z teeth, 3 or more, with tips on its pitch circle.
 
-    The middle of its root is on the x axis. Proportions are those of clockmakers, after G. Graham's anchor of about 1715:
-    faces undercut by 6 degrees, straight backs.
+    The middle of its root is on the x axis. Proportions are those of clockmakers, after G. Graham's anchor of about
+    1715: faces undercut by 6 degrees, straight backs.
 
     sense   direction of rotation and of lean: 1 counter-clockwise, -1 clockwise
     """
     radius, pitch = z / 2, 2 * pi / z
     depth = min(_DEPTH * pitch, _DEEPEST) * radius
     root = hypot(radius - depth, depth * tan(UNDERCUT))
-    face = atan2(depth * tan(UNDERCUT), radius - depth)  # how far the tip is ahead of the foot of its face
+    face = atan2(depth * tan(UNDERCUT), radius - depth)  # angle of the tip ahead of the foot of its face
     tooth = tuple(_vertices(pitch, radius, root, face))
-    if sense < 0:  # in a mirror, and the other way round: an edge's bulge stands at its other end
+    if sense < 0:  # mirrored and in reverse order, so the bulge of an edge belongs to its other end
         tooth = tuple((x, -y, tooth[at - 1][2]) for at, (x, y, _) in reversed([*enumerate(tooth)]))
     return FixedTooth(radius, root, tooth)
 
@@ -93,7 +93,7 @@ def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
     radius, pitch = z / 2, 2 * pi / z
     side = -1 if ring else 1
     tip, root = radius + side * ADDENDUM, radius - side * DEDENDUM
-    half = pi / 4 - backlash / 4  # of a tooth on the pitch circle
+    half = pi / 4 - backlash / 4  # half thickness of a tooth on the pitch circle
     ends = [(root, half + DEDENDUM * tan(FLANK)), (tip, half - ADDENDUM * tan(FLANK))]
     (foot, x), (top, tip_x) = ((asin(y / r), sqrt(r**2 - y**2)) for r, y in ends)
     low, high = ends[0][1], ends[1][1]
@@ -114,9 +114,9 @@ def wall(radius: float) -> float:
 def bent_line(line: Floats, middle: float, wave: tuple[float, int], turns: tuple[float, float] = (0.0, 0.0)) -> Floats:
     """Return points of a thin wheel (n, 2) after a wave has bent it and it has been rotated; lengths in any one unit.
 
-    The wheel is flexible, but its middle line keeps its length. A point on it at the angle t moves outwards by
-    w cos(n (t - s)), where s is the angle of the wave, and along by -w/n sin(n (t - s)). Points off the middle line stay
-    on its normal.
+    The wheel is flexible, but its middle line keeps its length. A point on it at the angle t moves outwards by w cos(n
+    (t - s)), where s is the angle of the wave, and along by -w/n sin(n (t - s)). Points off the middle line stay on its
+    normal.
 
     middle   radius of its middle line
     wave     amplitude, and number of lobes, the first of which is on the x axis

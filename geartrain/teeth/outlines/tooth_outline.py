@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
-_DENSE = 801  # points from which the spacing of the others follows
-_FEWEST = 8  # pieces, however straight a flank is
-_FINE = 4e-6  # modules: finer than this turning is lost in rounding
-_NEAR = 1e-3  # of a flank: points as near as that are one
-_STRAIGHT = 1e-9  # modules, or rad: what bends by less is straight
+_DENSE = 801  # sample points from which the final spacing is computed
+_FEWEST = 8  # minimum number of pieces of a flank
+_FINE = 4e-6  # modules: at smaller tolerances the change of direction is lost in rounding
+_NEAR = 1e-3  # of a flank: points closer than this are merged
+_STRAIGHT = 1e-9  # modules, or rad: pieces with smaller deviation count as straight
 _MEETING = 1e-9  # rad
 
 
@@ -111,14 +111,13 @@ class ToothOutline:
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Return the half angle (rad) of the tooth as cut, with straight edges and fillet, at radii from root to tip.
-        """
+        """Return the half angle (rad) of the tooth as cut, including the fillet, at radii from root to tip."""
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
         at = np.clip(np.searchsorted(r * s, radius * s, side="right") - 1, 0, len(r) - 2)
         start, along = place[at], place[at + 1] - place[at]
-        # |start + t along| = radius, on the side where the radius grows towards the tip
+        # |start + t along| = radius, with the root at which the radius increases towards the tip
         a, b, c = np.abs(along) ** 2, (np.conj(along) * start).real, r[at] ** 2 - radius**2
         t = (-b + s * np.sqrt(np.maximum(b * b - a * c, 0.0))) / a
         edge = np.angle(start + np.clip(t, 0.0, 1.0) * along)
@@ -126,7 +125,7 @@ class ToothOutline:
             return np.asarray(edge)
         centre = complex(*self.fillet.centre)
         far = abs(centre)
-        # where the radius is 0 no quotient of 0
+        # avoids a division by 0
         cosine = (radius**2 + far**2 - self.fillet.radius**2) / (2 * np.maximum(radius, 1e-300) * far)
         round_ = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
         return np.asarray(np.where(radius * s < r[0] * s, round_, edge))
@@ -138,7 +137,7 @@ class ToothOutline:
         flank = zip((self.flank.r * np.cos(half)).tolist(), (self.flank.r * np.sin(half)).tolist(), strict=True)
         round_ = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
         end = fillet.end
-        if pi / self.z - fillet.half < _MEETING:  # two rounds meet in the middle of the space
+        if pi / self.z - fillet.half < _MEETING:  # two fillets meet in the middle of the space
             end = self.root * cos(pi / self.z), self.root * sin(pi / self.z)
         return [(*end, round_), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
 
@@ -155,7 +154,7 @@ class ToothOutline:
         gap = pi / self.z - self.fillet.half
         ground = np.tan(gap / 2) if gap >= _MEETING else 0.0
         up = [(x, -y, -bulge) for x, y, bulge in half[:-1]] + [(x, -y, float(land))]
-        # coming down each edge is met at its other end
+        # in reverse order the bulge of an edge belongs to its other end
         bulges = [bulge for _, _, bulge in half]
         down = [(x, y, -bulge) for (x, y, _), bulge in zip(half[:0:-1], bulges[-2::-1], strict=True)]
         return [*up, *down, (*half[0][:2], float(ground))]
@@ -201,8 +200,8 @@ def pin_span(R: float, radius: float) -> Floats:
 class FlankCurve:
     """Flank from its root end to its tip end, lengths in modules.
 
-    Chords never protrude from the true tooth. A convex flank is approximated by chords and a concave one by tangents, so
-    that teeth in contact without backlash do not overlap.
+    Chords never protrude from the true tooth. A convex flank is approximated by chords and a concave one by tangents,
+    so that teeth in contact without backlash do not overlap.
     """
 
     r: Floats
@@ -256,9 +255,9 @@ def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floa
     length = np.hypot(steps[:, 0], steps[:, 1])
     heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
     turned = np.abs(np.gradient(heading))
-    # a chord of length ds leaves an arc by ds^2 curvature / 8
+    # a chord of length ds deviates from an arc by ds^2 curvature / 8
     cost = np.concatenate(([0.0], np.cumsum(np.sqrt(turned * length / (8 * tolerance)))))
-    # a share by length alone keeps straight stretches from having no points
+    # a share proportional to length gives points to straight parts also
     cost += np.linspace(0, 0.02 * cost[-1] + 1e-9, len(cost))
     count = max(_FEWEST, ceil(1.2 * cost[-1])) + 1
     found = np.interp(np.linspace(0, cost[-1], count), cost, X)
@@ -298,7 +297,7 @@ def _within(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Fl
     ways = (along + 1j * across) * np.exp(1j * angle)  # towards the root
     middle, turned = _polar(path, gear, (X[1:] + X[:-1]) / 2)
     chord = points[1:] - points[:-1]
-    # how far the middle of a piece lies beside its chord, away from the space
+    # distance of the middle of a piece from its chord, away from the space
     beside = _cross(chord, middle * np.exp(1j * turned) - points[:-1]) / np.abs(chord) * -outward
     det = _cross(ways[:-1], ways[1:])
     hollow = (beside > _STRAIGHT) & (np.abs(det) > _STRAIGHT)
@@ -308,7 +307,7 @@ def _within(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Fl
     corners = points[:-1] + reach * ways[:-1]
     line = [points[0]]
     for k, bent in enumerate(hollow.tolist()):
-        # between two hollow pieces the point of contact lies on the line from corner to corner
+        # between two concave pieces the tangent point is on the line from corner to corner
         line += [corners[k]] if bent else []
         line += [] if bent and k + 1 < len(hollow) and hollow[k + 1] else [points[k + 1]]
     found = np.array(line)
@@ -327,7 +326,7 @@ def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[
     x, y = path.pitch.point(contact.d, contact.sin_psi, contact.cos_psi).T
     y = y - path.pitch.axle_of(gear)
     up = 1.0 if (gear == 1 or outward < 0) else -1.0
-    lean = np.arctan2(x, y * up)  # of the radius to the contact, from the line of centres towards +x
+    lean = np.arctan2(x, y * up)  # angle of the radius to the contact, from the line of centres towards +x
     # unit vectors along the radius and across it towards +x; the flank runs along (-sine, cosine)
     along = -sine * np.sin(lean) + cosine * up * np.cos(lean)
     beside = (-sine * np.cos(lean) - cosine * up * np.sin(lean)) * (1 if gear == 1 else -1)

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
 
-_STEPS = 120  # positions in a pitch
-_MARGIN = 1e-3  # modules: least room at the round, which is more than a tip moves between two positions
+_STEPS = 120  # positions of the mate in a pitch
+_MARGIN = 1e-3  # modules: minimum gap at the fillet, more than a tip moves between two positions
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,15 +60,15 @@ def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
     inside = (radius - tip) * outward <= 0
     own = turn * mate.z / z * (1 if mate.internal else -1)
     pitch = 2 * pi / z
-    aside = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a space of the wheel meets the mate's tooth
+    aside = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a tooth space faces the mate's tooth
     return MatePassage(radius[inside], aside[inside])
 
 
 def bite(tooth: ToothOutline, mate: MatePassage) -> float:
     """Return the depth (modules) to which the mate's tooth cuts into the wheel's in its passage; negative for a gap.
 
-    It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a margin
-    is added.
+    It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a
+    margin is added.
     """
     if not mate.radius.size:
         return -inf
@@ -97,11 +97,11 @@ def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
 
 CLEARANCE = 0.25  # modules
 _FILLET = 0.38  # modules
-_BITES = (1e-9, 1e-6)  # modules: deeper is interference; flanks found by numbers are not nearer to their true ones
-_RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg; a root so much steeper than the flank it goes on from
+_BITES = (1e-9, 1e-6)  # modules: tolerated interference; flanks computed numerically need the second value
+_RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg by which a root is steeper than the end of its flank
 _MINIMUM_FILLET = 1e-3  # modules
-_HALVINGS = 18  # of less than 0.4 modules: to 2e-6
-_ALIKE = 1e-5  # modules: flanks that differ by less are one
+_HALVINGS = 18  # bisections of less than 0.4 modules, to a resolution of 2e-6
+_ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
 
 @dataclass(frozen=True)
@@ -196,7 +196,7 @@ class ToothRequirement(WheelRequirement):
             flanks = np.stack([np.tile(found.r, 2), np.concatenate((half, -half))])
             land = np.stack([np.full(9, found.r[-1]), np.linspace(-half[-1], half[-1], 9)])
             span = np.concatenate((flanks, land), axis=1)
-        # both wheels being symmetric, what passes on this side of its play passes on the other
+        # both wheels are symmetric, so one side of the backlash is sufficient
         touching = span + np.array([[0.0], [self.pair.backlash / 2 / found.R]])
         distance = own.R - found.R if self.internal else own.R + found.R
         mate = MateTooth(touching, other.z, distance, self.internal, found.outward < 0)
@@ -205,7 +205,7 @@ class ToothRequirement(WheelRequirement):
 
 @lru_cache(maxsize=4096)
 def _flank(pair: ConjugatePair, gear: int, tolerance: float) -> FlankCurve:
-    # pins are round whatever part of them works
+    # pins are full circles, whichever part of them is active
     whole = pair.path.approach.arc, pair.path.recess.arc
     return flank(pair.path, gear, pair.arcs if pair.solid[gear - 1] else whole, tolerance)
 
@@ -221,7 +221,7 @@ def check_flat(pair: ConjugatePair) -> None:
     """Raise `QuestionError` if flat wheels cannot be cut for a pair."""
     path = pair.path
     if path.pitch.bevel:
-        # a crown wheel develops into a rack, of infinitely many teeth
+        # the back cone of a crown wheel develops into a rack with infinitely many teeth
         virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
         raise QuestionError(
             Problem(
@@ -236,7 +236,9 @@ def check_flat(pair: ConjugatePair) -> None:
         raise QuestionError(Problem(fault.what, fault.why, fault.fix, "--profile") for fault in pair.faults)
     if path.approach.start or path.recess.start:
         why = "the tooth thickness at the ends of its flanks is undefined"
-        raise QuestionError(Problem("this path of contact does not reach the pitch point", why, "use another tooth form"))
+        raise QuestionError(
+            Problem("this path of contact does not reach the pitch point", why, "use another tooth form")
+        )
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:

@@ -19,7 +19,7 @@ from geartrain.teeth.outlines.wheel_requirement import LanternPins
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
-_THIN = 0.1  # modules: least land of a wheel about its bore
+_THIN = 0.1  # modules: minimum wall between bore and root circle
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,7 +247,7 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
         return Contour.circle(inside)
     half = acos((R**2 + inside**2 - radius**2) / (2 * R * inside))
     x, y = inside * cos(half), inside * sin(half)
-    # bulges are tangents of quarters of both arcs: that of the seat, and that of the ring to the next one
+    # bulges are tangents of a quarter of each arc: of the seat, and of the ring up to the next seat
     seat = (x, -y, tan(atan2(y, x - R) / 2)), (x, y, tan((2 * pi / z - 2 * half) / 4))
     return Contour.of(repeated(seat, z))
 

@@ -12,7 +12,7 @@ from geartrain.errors import Problem
 if TYPE_CHECKING:
     from geartrain.teeth.outlines.tooth_outline import Vertex
 
-SAME_SIZE = 1e-9  # of a length, or rad: what differs by less is one
+SAME_SIZE = 1e-9  # of a length, or rad: smaller differences count as equal
 
 
 @dataclass(frozen=True, slots=True)

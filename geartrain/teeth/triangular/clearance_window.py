@@ -17,8 +17,8 @@ from geartrain.teeth.triangular.real_path import DWELL, DraggedPath, DriveInterv
 from geartrain.teeth.triangular.tooth_pair import APPROACH
 
 MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "dwell", "apart"]
-_ROUNDING = 1e-11  # of a driven pitch: play that is less below 0 is none
-_NEARLY_0 = 1e-9  # of the reach
+_ROUNDING = 1e-11  # of a driven pitch: backlash above minus this counts as 0
+_NEARLY_0 = 1e-9  # of the maximum excess
 
 
 class TriangularContact:
@@ -74,8 +74,8 @@ class TriangularContact:
     def backlash(self) -> float:
         """Minimum backlash at the coast flanks over a pitch (rad of the driven wheel); below 0 they jam.
 
-        The sum of the transmission function and the mirror image of the bounds is smooth between their kinks. Within a smooth
-        cell it has its minimum where both have the same tau.
+        The sum of the transmission function and the mirror image of the bounds is smooth between their kinks. Within a
+        smooth cell it has its minimum where both have the same tau.
         """
         pitch = self.sizes.p1
         kinks = {kink % pitch for interval in self.intervals for kink in self._kinks(interval)}
@@ -95,7 +95,7 @@ class TriangularContact:
         theirs, back = _locate(self._bounds, -middle, pitch)
         half = (high - low) / 2
         if back < theirs.end - _ROUNDING * pitch:
-            return inf  # a gap: nothing is in reach of the back flanks
+            return inf  # a gap: nothing limits the coast flanks
         start, back = start - half, back + half
 
         def backlash(step: float) -> float:
@@ -107,7 +107,7 @@ class TriangularContact:
         ends = min(backlash(0.0), backlash(2 * half))
         if not slope(0.0) < 0 < slope(2 * half):
             return ends
-        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)  # a slope of 0 makes it halve
+        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)  # a derivative of 0 makes it bisect
         return min(ends, backlash(step))
 
     @cached_property
@@ -164,7 +164,7 @@ class TriangularContact:
         """Text on an overhanging flank that the path reaches or that turns the driven wheel back; empty if there is
         none.
         """
-        # ends of intervals are roots, found to less than this
+        # ends of intervals are roots with a smaller error than this
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
             if interval.held is not None:
@@ -215,8 +215,8 @@ def _no_valley(sizes: TriangularSizes) -> str:
 class ClearanceWindow:
     """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, each as excess.
 
-    It is false if `run` is below `jam`, so that no clearance works. If a pair runs in several ranges of clearance, this is
-    the first.
+    It is false if `run` is below `jam`, so that no clearance works. If a pair runs in several ranges of clearance, this
+    is the first.
 
     See Also
     --------
@@ -314,7 +314,7 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
     low = max(jam, leaning)
     clash = _stretch(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
     still = _stretch(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
-    # equal wheels do both at once, and the driven wheel that stands lets the next tooth in
+    # equal wheels reach both limits at once, and the dwelling driven wheel admits the next tooth
     run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < still[1] * (1 - 1e-9) else "dwell"
     starts: dict[Literal["jam", "overhang", "clash", "dwell"], float]
     starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "dwell": still[0]}
@@ -342,11 +342,11 @@ def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
     jam.
     """
     reach = sizes.maximum_excess
-    # at the jam itself the play is 0 but for rounding
+    # at the jam limit itself the backlash is 0 except for rounding
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
 
     def stands(excess: float) -> float:
-        return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0  # a step: `root` halves
+        return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0  # a step function: `root` bisects
 
     if low >= reach or not any(sizes.at(low).lean) or stands(low) > 0:
         return 0.0
@@ -364,7 +364,7 @@ def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tupl
     if low >= reach:
         return 0.0, 0.0
     start = _first_sign_change(margin, max(low * (1 + 1e-9), reach * _NEARLY_0), reach)
-    # so near to where tips last touch the sign is that of rounding
+    # close to the excess at which tips last touch the sign is due to rounding
     if start >= reach * (1 - 1e-6):
         return 0.0, 0.0
     return start, _first_sign_change(margin, start + 1e-9 * reach, reach)
@@ -384,11 +384,11 @@ def _exit(path: RealPath) -> float:
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
     """Return the smallest excess above `low` at which `value` changes its sign; `reach` if it never does."""
-    # looked at in 16 steps before `root`: a stretch shorter than one of them may be passed over
+    # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)
     for step in range(1, steps + 1):
-        # short of the reach, where tips barely touch and the path has no length
+        # below the maximum excess, where tips barely touch and the path has zero length
         high = start + (reach * (1 - _NEARLY_0) - start) * step / steps
         at_high = value(high)
         if (at_high > 0) != (at_low > 0):
@@ -407,7 +407,7 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
         D = sizes.factor(excess) * sizes.deepest_distance
         return TriangularContact(sizes.at(excess)).backlash * D * sizes.z2 / sizes.pitch_sum
 
-    # at the greatest excess itself tips do not touch, and there is no play
+    # at the maximum excess itself tips do not touch and the backlash is undefined
     low, high = 0.0, sizes.maximum_excess * (1 - 1e-9)
     minimum, most = backlash_at(low), backlash_at(high)
     if not minimum <= backlash <= most:

@@ -14,9 +14,9 @@ from typing import Literal
 
 from geartrain.errors import Problem, RangeError
 
-_MINIMUM = 1e-40  # of any unit: the fourth power of a radius is a float
+_MINIMUM = 1e-40  # in any unit: the fourth power of a radius must not underflow
 _GRAZING = 1 - 1e-12  # sine of the angle between flank and driven radius: at 1 the speed ratio is infinite
-_NEARLY_GRAZING = 2e-6  # rad: a little more than that sine leaves to a right angle
+_NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle from a right angle
 
 
 def depth(z: int, beta: float) -> float:
@@ -37,9 +37,9 @@ def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
 
     The overlap is delta = R1 + R2 - D.
     """
-    # the half-angle form of the cosine rule: the cosine itself, near 1, would lose half the digits
+    # half-angle form of the cosine rule: the cosine, near 1, would lose half the digits
     square = delta * (2 * R2 - delta) / (4 * D * R1)
-    # 0 where tips do not overlap; above 1 they would go past the far side
+    # 0 if tips do not overlap; above 1 they would pass the far side
     return 2 * asin(sqrt(min(1.0, max(0.0, square))))
 
 
@@ -53,7 +53,8 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TriangularSizes:
-    """Geometry of a pair of wheels with triangular teeth, the first driving. All lengths are in the same arbitrary unit.
+    """Geometry of a pair of wheels with triangular teeth, the first driving. All lengths are in the same arbitrary
+    unit.
 
     At `deepest_distance` a tip touches the bottom between two teeth. It is the minimum distance
     R1 + R2 - (the smaller depth) of an external pair, and the maximum R_ring - R_pinion + (the smaller depth) of an
@@ -93,14 +94,14 @@ class TriangularSizes:
     excess: float
     """Deviation of the centre distance from `deepest_distance`, as a fraction of it.
 
-    D = (1 + excess) deepest_distance for an external pair. D = (1 - excess) deepest_distance for an internal pair, whose
-    clearance factor is below 1.
+    D = (1 + excess) deepest_distance for an external pair. D = (1 - excess) deepest_distance for an internal pair,
+    whose clearance factor is below 1.
     """
     ring: Literal[0, 1, 2] = 0
     """Number of the wheel that is a ring gear; 0 for an external pair."""
 
     def __post_init__(self) -> None:
-        # without valleys there are no teeth, and radii of equal depth may come out negative: a verdict says so
+        # without valleys teeth do not exist, and radii of equal depth may be negative; the verdict reports this
         exist = min(self.z1, self.z2) >= 1 and self.has_valleys
         lengths = all(_MINIMUM < (radius if exist else abs(radius)) < 1 / _MINIMUM for radius in (self.R1, self.R2))
         angles = all(0 < beta < pi / 2 for beta in (self.beta1, self.beta2))
@@ -109,15 +110,14 @@ class TriangularSizes:
                 Problem(
                     f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half apertures "
                     f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} do not describe triangular teeth",
-                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures between 0 and a right angle",
+                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures below a right angle",
                     "give at least 3 teeth, radii and half apertures above 0, and an excess above 0",
                 )
             )
 
     @property
     def signs(self) -> tuple[int, int]:
-        """Sign of tooth number and radius of each wheel in the equations of external pairs: -1 for a ring gear, else 1.
-        """
+        """Sign of tooth number and radius of each wheel in the equations of external pairs: -1 for a ring gear."""
         return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
 
     @property
@@ -194,7 +194,7 @@ class TriangularSizes:
     @cached_property
     def delta(self) -> float:
         """Overlap of the tip circles; 0 or less if no tooth can touch."""
-        # not R1 + R2 - D, which cancels at large tooth numbers
+        # R1 + R2 - D would cancel at large tooth numbers
         return min(self.depths) - self.excess * self.deepest_distance
 
     @cached_property
@@ -226,8 +226,8 @@ class TriangularSizes:
     def matching(self) -> float:
         """Matching position alpha_1m of Eq. (10) (rad), where flank lies on flank; also for unequal aperture angles.
 
-        Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The sine of alpha_1m is
-        written without the difference of nearly equal angles. Infinite if no such position exists.
+        Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The sine of alpha_1m
+        is written without the difference of nearly equal angles. Infinite if no such position exists.
         """
         mirror, D, R2 = self.signs[0], self.side * self.D, self.signed_radii[1]
         first = mirror * sin(self.beta1)
@@ -243,8 +243,8 @@ class TriangularSizes:
     def lean(self) -> tuple[bool, bool]:
         """Overhang of the flanks of each wheel: True if they lean beyond the perpendicular where tips meet.
 
-        This occurs with few, deep teeth. It never occurs in an internal pair, in which flank and driven radius turn the same
-        way.
+        This occurs with few, deep teeth. It never occurs in an internal pair, in which flank and driven radius turn the
+        same way.
         """
         if self.ring:
             return False, False

@@ -155,7 +155,7 @@ def _locate(
 ) -> tuple[float, str]:
     for _ in range(60):
         middle = low + (high - low) / 2
-        # a hundred or so floats from each other: the verdict is no sharper
+        # about 100 floats apart: the verdict has no finer resolution
         if not low < middle < high or high - low < 1e-13 * abs(high):
             break
         verdict, phases, _row = _point(make, {name: middle})
@@ -185,7 +185,7 @@ def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[f
 
     low, high = values[max(at - 1, 0)], values[min(at + 1, len(values) - 1)]
     golden = (5**0.5 - 1) / 2
-    # by 0.618^40 = 4e-9: a maximum is so flat that values tell half the digits only
+    # 0.618^40 = 4e-9: function values resolve only half the digits of a maximum
     for _ in range(40):
         a, b = high - golden * (high - low), low + golden * (high - low)
         low, high = (low, b) if value(a) >= value(b) else (a, high)

@@ -25,8 +25,8 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, RETURN, SLIP, ToothPair
 
 DWELL = "dwell"
-_ROUNDING = 1e-11  # of a pitch: what is shorter is no interval
-_SMALL = 1e-10  # of a pitch: a lesser leap or gap is none
+_ROUNDING = 1e-11  # of a pitch: shorter intervals are discarded
+_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +85,7 @@ class RealPath:
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Pieces of recess, then approach, each cut where the curvature of f changes its sign; empty without valleys.
-        """
+        """Pieces of recess, then approach, each cut where the curvature of f changes sign; empty without valleys."""
         if not self.sizes.has_valleys:
             return []
         first, last = self.sizes.entry, self.sizes.exit
@@ -112,7 +111,7 @@ class RealPath:
         if first == last:
             return [MonotonePiece(phase, low, high, first)]
         a, b = low, high
-        # bisection to neighbouring floats: only the sign of the curvature's formula is needed, and no derivative of it
+        # bisection to neighbouring floats, as it needs only the sign of the curvature and no derivative
         while a < (middle := a + (b - a) / 2) < b:
             a, b = (middle, b) if (slope(middle) > 0) == first else (a, middle)
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
@@ -170,7 +169,7 @@ class RealPath:
     def _candidates(self, piece: MonotonePiece, t: float, first: int, last: int) -> set[int]:
         if last - first < 4 or not piece.convex:
             return {k for k in (first, first + 1, last - 1, last) if first <= k <= last}
-        # two couples on either side of the bottom, where one would do: rounding may shift it
+        # two tooth pairs on either side of the minimum instead of one, as rounding may shift it
         bottom = round((self._bottom(piece) - t) / self.pitch)
         return {k for k in range(bottom - 2, bottom + 3) if first <= k <= last} | {first, last}
 
@@ -213,7 +212,7 @@ class RealPath:
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
         """Yield the drive intervals of a range of t in which no branch begins or ends."""
         middle = low + (high - low) / 2
-        found = {}  # the two ends of a concave piece may be one stretch of one couple
+        found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
             k = floor((branch.high - middle) / self.pitch)
             if middle + k * self.pitch >= branch.low:
@@ -267,7 +266,7 @@ class RealPath:
             return float(self.tooth_pair.slope(a.phase, x) - self.tooth_pair.slope(b.phase, x + shift))
 
         def bounds(c: float, d: float) -> tuple[float, float]:
-            # where the difference bends one way its slope is bounded by the ends; three points speak for the stretch
+            # where the curvature of the difference has one sign, its slope is bounded by the ends; three samples decide
             bends = (bend(c), bend((c + d) / 2), bend(d))
             if min(bends) > 0 or max(bends) < 0:
                 ends = sorted((slope(c), slope(d)))
@@ -322,7 +321,7 @@ class SpeedJump(Result):
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
     """Return True if one tooth pair continues from flank to flank through the matching position."""
     faces = last.held is None and new.held is None and last.phase != new.phase
-    # both are the same root, found from either side
+    # both are the same root, computed from either side
     return faces and abs(last.end - new.start) < 1e-9 * pitch
 
 
@@ -335,8 +334,8 @@ class DraggedPath:
 
     intervals: tuple[DriveInterval, ...]
     clash: float
-    lost: float  # the driven wheel's law leaps by this at standstills, per pitch (rad)
-    arrested: bool = False  # the driven wheel is left standing for good
+    lost: float  # driven angle lost in dwells per pitch (rad)
+    arrested: bool = False  # the driven wheel stops for good
 
 
 def drag(path: RealPath) -> DraggedPath:
@@ -369,7 +368,7 @@ class _Walk:
         self.path, self.first = path, first
         self.small, self.gap = _SMALL * path.sizes.p2, _SMALL * path.pitch
         self.done: list[DriveInterval] = [first]
-        self.held: DriveInterval | None = None  # the couple that let go
+        self.held: DriveInterval | None = None  # the tooth pair that let go
         self.clash = self.lost = 0.0
         self.arrested = False
 
@@ -382,14 +381,14 @@ class _Walk:
         leap = self.path.tooth_pair.angle(interval.phase, interval.start) - y
         gap = last.end - interval.start + (interval.tooth_pair - last.tooth_pair) * self.path.pitch
         if leap < -self.small:
-            # a tooth that enters an empty reach ahead of its mate passes by, and nothing pushes the mate any more
+            # a tooth that enters ahead of its mate while no other touches passes it, and its push ends
             self.arrested |= gap > self.gap
             self.clash = self.clash if gap > self.gap else max(self.clash, -leap)
         if self.held is None and (leap > self.small or gap > self.gap):
             self.held = last
             self.lost += max(leap, 0.0)
         if self.held is not None and leap > self.small:
-            # an interval that ends above the driven wheel never comes down to it
+            # an interval that ends above the driven wheel never reaches it
             if self.path.tooth_pair.angle(interval.phase, interval.end) >= y:
                 return
             start = bracketed_root(

@@ -60,7 +60,7 @@ class ToothPair:
         cos_psi = self.cos1 * cosine - self.sin1 * sine
         c = (2 * self.R1 * u * (self.cos1 * w - self.sin1 * u) - self.delta * sin_psi) / self.R2
         s = sin_psi + c
-        # a flank that grazes the tip circle has s = 1, give or take its rounding
+        # a flank tangent to the tip circle has s = 1 up to rounding
         return u, sin_psi, cos_psi, c, s, m.sqrt(abs((1 - s) * (1 + s)))
 
     def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
@@ -73,9 +73,9 @@ class ToothPair:
         return self.side * m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """Return R1 cos(beta1) - v, with v of Eq. (9): distance from the contact to the foot of O1 on the flank's line.
-        """
-        if self.leans:  # W and its divisor vanish together; so few teeth lose nothing by the plain difference
+        """Return R1 cos(beta1) - v, with v of Eq. (9): distance of the contact from the foot of O1 on the flank."""
+        # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
+        if self.leans:
             return self.D * cos_psi - self.R2 * q
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         return self.R1 * self.cos1 - W / (self.D * cos_psi - self.R1 * self.cos1 + self.R2 * q)
@@ -120,7 +120,7 @@ class ToothPair:
         It is R2 |sin y| / cos psi, the distance from C, times 1 + tau.
         """
         _, sin_psi, cos_psi, c, s, q = self._line(x, m)
-        # (1 + tau) / cos psi is D over the driven wheel's distance from the normal
+        # (1 + tau) / cos psi is D over the distance of the driven axis from the normal
         return abs(self.D) * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
 
     # --------------------------------------------------------------------------------------------------------- recess
@@ -132,9 +132,9 @@ class ToothPair:
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         foot = self.R2 * self.cos2
         square = foot * foot - W
-        # below 0 where teeth overlap down past their flanks; the greater of it and 0, for arrays and numbers
+        # negative where teeth overlap beyond their flanks; max(square, 0) written for arrays and numbers
         arm = self.sign2 * m.sqrt((square + abs(square)) / 2)
-        # the lesser root foot - arm as a quotient: the difference would cancel
+        # the smaller root foot - arm as a quotient, because the difference would cancel
         v = W / (foot + arm)
         across, along = self.R1 * sine, self.R2 - self.delta + 2 * self.R1 * u * u
         inner, outer = self.R2 - v * self.cos2, v * self.sin2
@@ -173,8 +173,8 @@ class ToothPair:
     def recess_slope(self, x: Any, m: ModuleType = math) -> Any:
         """Return d tau / d alpha_1 in recess: tau (1 + tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)].
 
-        In reversed motion the driven wheel meets the driver in approach at the ratio 1/tau. The result is the slope of that
-        motion times tau cubed.
+        In reversed motion the driven wheel meets the driver in approach at the ratio 1/tau. The result is the slope of
+        that motion times tau cubed.
         """
         arm, q, s, sin_psi, cos_psi, _ = self._turned(self._apex(x, m))
         tau = self.R1 * q / arm
@@ -187,8 +187,7 @@ class ToothPair:
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def recess_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity in recess over the driver's angular speed: R1 |sin x| / cos psi2 times 1 + tau.
-        """
+        """Return the sliding velocity in recess over the driver's angular speed: R1 |sin x| (1 + tau) / cos psi2."""
         sine, _, arm, _, _ = self._apex(x, m)
         return abs(self.D * self.R1 * sine / arm)
 
@@ -259,10 +258,11 @@ class ToothPair:
         return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31) corrected.
+        """Return the distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31)
+        corrected.
 
-        That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the centres
-        from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).
+        That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
+        centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).
         """
         n1, n2 = self.normal_arms(phase, x, m)
         side, tan2, tan1 = self.friction(phase, x, m)

@@ -25,8 +25,8 @@ _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
 FEWEST = 3
-_UNLIKE = 10  # how far radii may be from the ratio of their teeth
-_THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
+_UNLIKE = 10  # maximum factor between the ratio of radii and the ratio of tooth numbers
+_THINNEST = 0.001 / 360  # turn: the valleys of thinner teeth vanish in rounding
 TRIANGULAR_SCOPE = (
     "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate wheel is treated as a spur wheel"
 )
@@ -60,13 +60,13 @@ class Triangular(ToothForm):
     )
     clearance_factor: Figure | None = Field(
         None,
-        description="Centre distance divided by the one at which a tip touches the bottom of a space: above 1, or below 1 "
-        "with a ring",
+        description="Centre distance divided by the one at which a tip touches the bottom of a space: above 1, or "
+        "below 1 with a ring",
     )
     excess: Figure | None = Field(
         None,
-        description="Difference between clearance factor and 1, above 0: clearance factor minus 1, or 1 minus clearance "
-        "factor with a ring",
+        description="Difference between clearance factor and 1, above 0: clearance factor minus 1, or 1 minus "
+        "clearance factor with a ring",
     )
     backlash: Length | None = Field(
         None, description="Minimum backlash over a pitch, as an arc of the second wheel's pitch circle"
@@ -77,8 +77,9 @@ class Triangular(ToothForm):
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,
-        description="Rule for the tip radii, or the two radii, or one number: the ratio of the second radius to the first "
-        "divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or pitch_true with a ring",
+        description="Rule for the tip radii, or the two radii, or one number: the ratio of the second radius to the "
+        "first divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or pitch_true with "
+        "a ring",
     )
 
     @model_validator(mode="after")
@@ -224,8 +225,8 @@ class Triangular(ToothForm):
         z1, z2 : int
             Teeth of the driver and of the driven wheel, 3 or more.
         pitch_distance : float, optional
-            Half the sum of module times teeth of both wheels, or half the difference for a ring gear [m]. It becomes the
-            centre distance at which a tip touches the bottom of a space.
+            Half the sum of module times teeth of both wheels, or half the difference for a ring gear [m]. It becomes
+            the centre distance at which a tip touches the bottom of a space.
         ring : {0, 1, 2}
             Number of the wheel that is a ring gear; 0 for an external pair.
 
@@ -298,7 +299,8 @@ class Triangular(ToothForm):
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _factor(self, sizes: TriangularSizes) -> float:
-        """Return the declared excess, subtracted exactly before rounding. Raises `GearTrainError` if it is not above 0.
+        """Return the declared excess, subtracted exactly before rounding. Raises `GearTrainError` if it is not
+        positive.
         """
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)

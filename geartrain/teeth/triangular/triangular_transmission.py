@@ -29,10 +29,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
 
 _USUAL = 5  # rows for each interval of the real path
-_BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
-_GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights on each smooth stretch
-_ROUNDING = 1e-14  # of the mean of tau: what a stretch may be off by
-_DEEPEST = 40  # halvings of a stretch
+_BLOCK = 16384  # samples per block, so that intermediate arrays fit the cache
+_GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights for each smooth stretch
+_ROUNDING = 1e-14  # of the mean of tau: quadrature tolerance of a stretch
+_DEEPEST = 40  # maximum number of bisections of a stretch
 
 
 @lru_cache(maxsize=4096)
@@ -139,8 +139,7 @@ class TriangularTransmission(TransmissionFunction):
         return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the transmission error (rad of the driven wheel) and tau, locating each angle in the path only once.
-        """
+        """Return transmission error (rad of the driven wheel) and tau, locating each angle in the path only once."""
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
@@ -319,7 +318,7 @@ class TriangularTransmission(TransmissionFunction):
         """Return the mean of the transmission error and its rms about the mean (rad of the driven wheel)."""
         lags = [(self._lag(interval, x), weights) for interval, x, weights in self.nodes]
         mean = sum(float(weights @ lag) for lag, weights in lags)
-        # about the mean found first: the mean of squares less the square of the mean would cancel
+        # two passes: the mean of squares minus the square of the mean would cancel
         square = sum(float(weights @ (lag - mean) ** 2) for lag, weights in lags)
         return (-mean if self.direction > 0 else self.sizes.p2 + mean), sqrt(square)
 
@@ -354,7 +353,7 @@ class TriangularTransmission(TransmissionFunction):
         minimum = inf
         for interval, high, low in self.stretches:
             if interval.held is None:
-                # the line of centres itself belongs to both sides, where nothing is lost
+                # the line of centres itself, where nothing is lost, belongs to both sides and is excluded
                 x = np.linspace(high, low, 1001)
                 x[[0, -1]] = high - 1e-12 * (high - low), low + 1e-12 * (high - low)
                 minimum = min(minimum, float(self._eta(interval, x).min()))
@@ -370,7 +369,7 @@ class TriangularTransmission(TransmissionFunction):
             if interval.held is None:
                 x = np.linspace(high, low, 101)
                 side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
-                # the middle one of 101: stretches end at the line of centres, so that one sample tells the side
+                # the middle sample of 101 gives the side, because stretches end at the line of centres
                 inner = side[50] > 0
                 steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
         return 1 / steepest if steepest else inf
@@ -438,7 +437,8 @@ class ContactCourse(Result):
 def contact_course(
     transmission: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
 ) -> ContactCourse:
-    """Tabulate the contact of a pair with `samples` rows for each interval of its real path; empty if teeth never touch.
+    """Tabulate the contact of a pair with `samples` rows for each interval of its real path; empty if teeth never
+    touch.
 
     friction   friction as a function of sliding velocity, which replaces the constant coefficient of the transmission
     """

@@ -35,7 +35,7 @@ def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFaul
 
     `halves` default to a quarter pitch.
     """
-    return (*_undercuts(path), *_pointed(path, halves), *_broken(path))
+    return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
 
 def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
@@ -80,10 +80,10 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
 def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]:
     """Yield a fault where the two flanks of a tooth would intersect before its tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
-        if X and (room := tip_thickness(path, gear, halves)) < 0:
+        if X and (thickness := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.teeth_of(gear)
             name = "recess" if X > 0 else "approach"
-            point = _point(path, gear, X, halves)
+            point = _flank_crossing(path, gear, X, halves)
             end = "end" if (X > 0) == (gear == 1) else "begin"
             shorter = (
                 f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
@@ -93,21 +93,21 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
                 gear,
                 X,
                 f"the teeth of gear {gear} come to a point before their tips",
-                f"their flanks would cross by {-degrees(room):.4g} deg of its {360 / z:.4g} deg pitch",
+                f"their flanks would cross by {-degrees(thickness):.4g} deg of its {360 / z:.4g} deg pitch",
                 shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
             )
 
 
-def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
+def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
     """Return X of the contact at which the flanks of a tooth intersect; 0 if they do so from the first contact."""
 
-    def room(x: float) -> float:
+    def thickness(x: float) -> float:
         return _thickness(path, gear, x, halves)
 
     foot, _ = path.ends(gear)
     foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
-    at_foot, at_tip = room(foot), room(X)
-    return root(room, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
+    at_foot, at_tip = thickness(foot), thickness(X)
+    return root(thickness, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
 
 
 def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
@@ -132,7 +132,7 @@ def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
     return float(-forwards if gear == 1 else forwards)  # a driver's tooth is behind its flank
 
 
-def _broken(path: PathOfContact) -> Iterator[ToothFault]:
+def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
     ratio = path.contact_ratio
     # arcs with a sum of one pitch give 1 except for rounding
     if ratio < 1 - 1e-12:
@@ -234,10 +234,10 @@ def _tangent(pair: InvolutePair, path: PathOfContact, gear: int) -> float:
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
     """Yield a fault where the rack's corner has cut away part of the flank that the mate's tip needs."""
     for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
-        gone = wheel.undercut()
+        cut_radius = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
         lowest = hypot(wheel.base, max(R * sin(pair.psi) - arc * cos(pair.psi), 0.0))
-        if gone > lowest + _ROUNDING:
+        if cut_radius > lowest + _ROUNDING:
             minimum = wheel.cut - wheel.r * sin(wheel.psi) ** 2
             # an integer raised slightly by rounding must not become the next integer
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
@@ -247,7 +247,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
                 gear,
                 (-1 if gear == 1 else 1) * arc,
                 f"gear {gear} is undercut",
-                f"the rack's corner cuts its involute away up to a radius of {gone:.6g} modules, but contact extends "
+                f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules, but contact extends "
                 f"down to {lowest:.6g}",
                 f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}",
             )
@@ -257,17 +257,17 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
     """Yield a fault where tips touch the bottom of the mate's tooth spaces."""
     first, second = pair.first, pair.second
     if second.ring:
-        room = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
+        gaps = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
     else:
-        room = pair.distance - first.tip - second.root, pair.distance - second.tip - first.root
-    for gear, left in zip((1, 2), room, strict=True):
-        if left < -_ROUNDING:
+        gaps = pair.distance - first.tip - second.root, pair.distance - second.tip - first.root
+    for gear, gap in zip((1, 2), gaps, strict=True):
+        if gap < -_ROUNDING:
             yield ToothFault(
                 "clearance",
                 gear,
                 float("nan"),
                 f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}",
-                f"they are {-left:.4g} modules too long",
+                f"they are {-gap:.4g} modules too long",
                 f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or more centre distance",
             )
 

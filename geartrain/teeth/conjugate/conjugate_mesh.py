@@ -139,7 +139,7 @@ class ConjugateMesh(GearMesh):
         free = self.tooth_form.bottom_clearance(wheels, own)
         if cut.clearance is None and free is not None:
             if free < 0:
-                raise QuestionError(_shallow(own, -free))
+                raise QuestionError(_shallow_root(own, -free))
             cut = replace(cut, clearance=free * cut.module)
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
@@ -168,7 +168,7 @@ class ConjugateMesh(GearMesh):
         return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
 
 
-def _shallow(gear: int, overlap: float) -> Problem:
+def _shallow_root(gear: int, overlap: float) -> Problem:
     """Return the problem of a root that the mate's tip would run into; `overlap` in modules."""
     return Problem(
         f"the root of gear {gear} interferes with its mate's tip",

@@ -101,8 +101,8 @@ class ConjugateTransmission(ExactRatio):
         super().__init__(Fraction(z1, z2), 2 * pi / z1)
         self._reach = pitch.reach_of(driver)
         self._backlash = pair.backlash / pitch.reach_of(3 - driver)
-        self._ahead = self._backlash if direction < 0 else 0.0
-        self._lead = pair.halves[driver - 1]
+        self._advance = self._backlash if direction < 0 else 0.0
+        self._half_tooth = pair.halves[driver - 1]
 
     @cached_property
     def verdict(self) -> PairVerdict:
@@ -127,15 +127,15 @@ class ConjugateTransmission(ExactRatio):
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error at driver angles S (rad): 0, or the backlash if the opposite flanks drive."""
-        return self._constant(S, self._ahead)
+        return self._constant(S, self._advance)
 
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and maximum transmission error (rad), which are equal."""
-        return self._ahead, self._ahead
+        return self._advance, self._advance
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error (rad), and its standard deviation 0."""
-        return self._ahead, 0.0
+        return self._advance, 0.0
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
@@ -158,7 +158,7 @@ class ConjugateTransmission(ExactRatio):
             rows without contact.
         """
         p, (approach, recess) = self.path.pitch.p, self._arcs
-        ahead = self._lead + approach + self.direction * self._reach * np.asarray(S, dtype=float)
+        ahead = self._half_tooth + approach + self.direction * self._reach * np.asarray(S, dtype=float)
         first = np.mod(ahead, p) - approach
         # a contact ratio that exceeds an integer only by rounding needs no additional row
         rows = int(np.ceil((approach + recess) / p * (1 - _TOUCH)))
@@ -168,7 +168,7 @@ class ConjugateTransmission(ExactRatio):
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at which a tooth pair enters or leaves contact or passes a kink of its path."""
+        """Return the driver angles (rad) at which a tooth pair enters or leaves contact or passes a kink of the path."""
         approach, recess = self.path.approach, self.path.recess
         if self.driver == 2:
             approach, recess = recess, approach
@@ -177,7 +177,7 @@ class ConjugateTransmission(ExactRatio):
             joints |= {sign * float(side.travel(np.array(d))) for d in side.joints}
         first, last = -self._arcs[0], self._arcs[1]
         cuts = {first, last, *(X for X in joints if first < X < last)}
-        return sorted(self.direction * (X - self._lead) / self._reach for X in cuts)
+        return sorted(self.direction * (X - self._half_tooth) / self._reach for X in cuts)
 
     # ------------------------------------------------------------------------------------------------------- friction
 

@@ -76,7 +76,7 @@ def kink_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats
     return (own, other) if gear == 1 else (other, own)
 
 
-def _touched(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
+def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
     """Return polar points of the mate's flank that the tip of `gear` touches beyond the end of the path."""
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
@@ -223,19 +223,19 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     up = {1: sense, 2: sense if ring else -sense}
     # cones: a displaced axis moves the teeth across by the cosine of the pitch cone, docs/cut-by-hand.md (3)
     lean = {1: cos(pitch.R1), 2: cos(pitch.R2)} if pitch.bevel else {1: 1.0, 2: 1.0}
-    lead = pair.halves[driver - 1]
+    half_tooth = pair.halves[driver - 1]
     found = DisplacedContact(
-        wheels=_both(gears, lambda gear: _sizes(pair, gear)),
-        start=(sense * first - lead) / own,
-        end=(sense * last - lead) / own,
-        across=_both(gears, lambda gear: tangent * lean[gear]),
-        along=_both(gears, lambda gear: radial * up[gear]),
-        tilt=_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
+        wheels=_for_both(gears, lambda gear: _sizes(pair, gear)),
+        start=(sense * first - half_tooth) / own,
+        end=(sense * last - half_tooth) / own,
+        across=_for_both(gears, lambda gear: tangent * lean[gear]),
+        along=_for_both(gears, lambda gear: radial * up[gear]),
+        tilt=_for_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
         apart=-radial if ring else radial,
         normal=normal,
-        entering=_kink(pair, 3 - driver, driver),
-        leaving=_kink(pair, driver, driver),
-        longer=_both(gears, lambda gear: _end_shift(path, gear) / own),
+        entering=_kink_lag(pair, 3 - driver, driver),
+        leaving=_kink_lag(pair, driver, driver),
+        longer=_for_both(gears, lambda gear: _end_shift(path, gear) / own),
         backlash=pair.backlash / other,
         stands=sum(pair.halves) / other,
         even=np.zeros(_NODES),
@@ -244,19 +244,19 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     return found.apart_by(gap) if gap else found
 
 
-def _both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Value, Value]:
+def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Value, Value]:
     """Return a value for the driver and one for the driven wheel."""
     return value(gears[0]), value(gears[1])
 
 
-def _kink(pair: ConjugatePair, gear: int, driver: int) -> KinkLag:
+def _kink_lag(pair: ConjugatePair, gear: int, driver: int) -> KinkLag:
     """Return the lag of the driven gear while the tip of one gear touches beyond the path.
 
     The driver's tip touches as the teeth leave contact, the driven tip as they enter it.
     """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)
-    turned = kink_contact(path, gear, *_touched(pair, gear))
+    turned = kink_contact(path, gear, *_touched_flank(pair, gear))
     lag = (turned[0] - turned[1]) / pitch.reach_of(3 - driver)
     beyond = (turned[driver - 1] - first) / pitch.reach_of(driver) * (1.0 if gear == 1 else -1.0)
     good = np.isfinite(beyond) & np.isfinite(lag) & (beyond >= 0)
@@ -315,7 +315,7 @@ class OffDesignTransmission(OutlineTransmission):
         self, pair: ConjugatePair, distance: float, friction: float = 0.0, driver: int = 1, direction: int = 1
     ) -> None:
         self.pair, self.path = pair, pair.path
-        super().__init__(_gears(pair, distance), friction, driver, direction)
+        super().__init__(_outline_gears(pair, distance), friction, driver, direction)
 
     @property
     def reversed(self) -> OffDesignTransmission:
@@ -328,7 +328,7 @@ class OffDesignTransmission(OutlineTransmission):
 
 
 @lru_cache(maxsize=64)
-def _gears(pair: ConjugatePair, distance: float) -> OutlineGears:
+def _outline_gears(pair: ConjugatePair, distance: float) -> OutlineGears:
     """Return the outlines of a pair at a distance; cached, so that their results are reused."""
     return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
 
@@ -370,17 +370,17 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
     turn = np.exp(-1j * half)
 
     def flank(X: Floats) -> Floats:
-        points = _body(pair.path, gear, X)
+        points = _body_points(pair.path, gear, X)
         place = (points[:, 0] + 1j * points[:, 1]) * turn
         return np.stack([place.real, place.imag], axis=1)
 
     foot, tip = pair.path.ends(gear)
     cuts = sorted({0.0, foot, tip, *_joints(pair.path)}, reverse=foot > tip)
     curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
-    return GearOutline((ToothFlanks.symmetric((_straight(flank, foot, tip), *curves)),), z, ring=R < 0)
+    return GearOutline((ToothFlanks.symmetric((_root_line(flank, foot, tip), *curves)),), z, ring=R < 0)
 
 
-def _body(path: PathOfContact, gear: int, X: Floats) -> Floats:
+def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
     """Return points of a flank from the wheel's axle: x towards the space that the tooth leads into, y outwards."""
     points = path.flank(gear, X)
     if gear == 1:
@@ -395,7 +395,7 @@ def _joints(path: PathOfContact) -> list[float]:
     return [sign * float(side.travel(np.array(d))) for sign, side in ends for d in side.joints]
 
 
-def _straight(flank: object, foot: float, tip: float) -> OutlineCurve:
+def _root_line(flank: object, foot: float, tip: float) -> OutlineCurve:
     """Return the root of a tooth: a straight line that continues the foot of its flank."""
     assert callable(flank)
     # small enough for the tangent, large enough that the difference exceeds rounding

@@ -75,10 +75,10 @@ class InvoluteWheel:
             return 0.0
         # at the base circle itself rounding may make the radicand negative
         low = max(self.base, self.r - u) * (1 + 1e-12)
-        at_low, at_high = self._left(low), self._left(self.r)
-        return root(self._left, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
+        at_low, at_high = self._corner_offset(low), self._corner_offset(self.r)
+        return root(self._corner_offset, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
 
-    def _left(self, radius: float) -> float:
+    def _corner_offset(self, radius: float) -> float:
         """Return the azimuth of the corner's trochoid less that of the involute at a radius; negative if the corner
         cuts.
         """
@@ -141,7 +141,7 @@ class InvolutePair:
             # an arc that is 0 except for rounding must not be negative
             found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
-            raise _apart(self.first, self.second, self.distance)
+            raise _no_contact_error(self.first, self.second, self.distance)
         return found[0], found[1]
 
 
@@ -166,7 +166,7 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))
 
 
-def _apart(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> RangeError:
+def _no_contact_error(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> RangeError:
     return RangeError(
         Problem(
             "the teeth do not reach each other",

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
     Weight = Callable[[Floats], Floats]
-    Made = Callable[[PitchSurfaces, "ValueAndSlope", ChebyshevSeries, float], PathPiece]
+    PieceMaker = Callable[[PitchSurfaces, "ValueAndSlope", ChebyshevSeries, float], PathPiece]
 
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
@@ -66,7 +66,7 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
 
     w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0.
     """
-    return PathSide((_reached(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
+    return PathSide((_piece_over_arc(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
@@ -87,21 +87,21 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
     return f
 
 
-def _reached(
+def _piece_over_arc(
     pitch: PitchSurfaces,
     f: ValueAndSlope,
     first: float,
     guess: float,
     X: float,
     start: float = 0.0,
-    made: Made | None = None,
+    piece_maker: PieceMaker | None = None,
 ) -> PathPiece:
     """Solve S v' + f = 0 for the piece whose displacement at its end is X.
 
     The solution does not depend on the end. It is therefore solved up to a guessed end, and again only if the true end
     lies beyond. If the guess cannot be reached, the end is bisected towards the last one that could.
     """
-    made = made or _plain
+    piece_maker = piece_maker or _sine_piece
     v: ChebyshevSeries | None = None
     low, end = start, guess
     for _ in range(_TRIES):
@@ -112,30 +112,32 @@ def _reached(
                 raise
             end = (low + end) / 2
             continue
-        low, end, piece = end, *_cut(partial(made, pitch, f, v), X, v)
+        low, end, piece = end, *_piece_to_arc(partial(piece_maker, pitch, f, v), X, v)
         if piece is not None:
             return piece
-    raise lost(end)
+    raise unreachable_end(end)
 
 
-def _cut(made: Callable[[float], PathPiece], X: float, v: ChebyshevSeries) -> tuple[float, PathPiece | None]:
+def _piece_to_arc(
+    piece_maker: Callable[[float], PathPiece], X: float, v: ChebyshevSeries
+) -> tuple[float, PathPiece | None]:
     """Return the distance at which X is reached, and the piece that ends there.
 
     The piece is None if the series must first be solved up to that distance.
     """
     end = v.end
     for _ in range(_CUTS):
-        piece = made(end)
-        found = _end(piece, X, v)
+        piece = piece_maker(end)
+        found = _corrected_end(piece, X, v)
         if found > v.end + _BEYOND * (v.end - v.start) or (v.tail > FALLEN and found < v.end * (1 - _BEYOND)):
             return found, None
         if abs(found - end) <= _CONVERGED * end:
-            return found, piece if found == end else made(found)
+            return found, piece if found == end else piece_maker(found)
         end = found
-    return end, made(end)
+    return end, piece_maker(end)
 
 
-def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
+def _corrected_end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
     """Find the end at which the piece has the displacement X, by Newton's method on its own series.
 
     Returns one Newton step if further steps would leave the range of the series.
@@ -158,7 +160,7 @@ def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
     return end
 
 
-def _plain(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
+def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
     """Return the piece whose sin psi is the solution itself."""
     return SampledPiece(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
 
@@ -175,10 +177,10 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
     return slope
 
 
-def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
+def _ended_at_arc(piece_maker: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
     """Return the piece whose displacement at its end is X, by Newton's method with slope 1 / cos psi at the end."""
     end, last = guess, inf
-    piece = made(end)
+    piece = piece_maker(end)
     for _ in range(30):
         at = np.array(end)
         step = (float(piece.travel(at)) - X) * sqrt(1 - float(piece.sin_psi(at)) ** 2)
@@ -186,7 +188,7 @@ def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathP
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         end, last = end - step, abs(step)
-        piece = made(end)
+        piece = piece_maker(end)
     return piece
 
 
@@ -196,7 +198,7 @@ def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> P
     beta is b of the hotter surface (reading b in docs/shapes.md).
     """
     f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
-    return PathSide((_reached(pitch, f, first, _short(beta, gamma, X), X, made=_raised),))
+    return PathSide((_piece_over_arc(pitch, f, first, _guess_end(beta, gamma, X), X, piece_maker=_quotient_piece),))
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
@@ -212,13 +214,13 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
     return f
 
 
-def _short(beta: float, gamma: float, X: float) -> float:
+def _guess_end(beta: float, gamma: float, X: float) -> float:
     """Return a first guess of the end, from the cycloid tangent to the path at the pitch point."""
     rho = 1 / (beta + gamma)
     return circle_end(rho, min(X, 2 * rho))
 
 
-def _raised(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
+def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
     """Return the piece whose solution is g = sin psi / S, with 2 S' g + S g' = beta + gamma / cos psi."""
     steep = _slope(pitch, f, g)
     return SampledPiece(
@@ -248,7 +250,7 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
             return pitch.S_slope(d) * v - b * S - gamma * S / cosine, pitch.S_slope(d) - gamma * S * v / cosine**3
 
     rest = X - first / cos(psi)
-    return PathSide((RayPiece(psi, first), _reached(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
+    return PathSide((RayPiece(psi, first), _piece_over_arc(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
 
 
 def least_friction(
@@ -264,38 +266,38 @@ def least_friction(
     loss = pitch.S if weight is None else weight
     longest = ray_end(psi, X)
 
-    def lifted(first: float) -> tuple[Callable[[Floats], Floats], float]:
-        sine = _lifted(pitch, b, u, first, psi)
-        return sine, _lifted_end(sine, first, X - first / cos(psi), psi)
+    def second_piece(first: float) -> tuple[Callable[[Floats], Floats], float]:
+        sine = _second_sine(pitch, b, u, first, psi)
+        return sine, _second_end(sine, first, X - first / cos(psi), psi)
 
     def variation(first: float) -> float:
-        sine, end = lifted(first)
-        return _variation(pitch, sine, first, end, loss)
+        sine, end = second_piece(first)
+        return _first_variation(pitch, sine, first, end, loss)
 
     def above(first: float) -> float:
-        sine, end = lifted(first)
+        sine, end = second_piece(first)
         return float(sine(np.array(end))) - sin(psi)
 
     # a path below psi does not end before a ray does; the lowest one, eta = u d + b (integral of S), is tested there
     if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
-        raise _too_long(pitch, X, psi, u)
+        raise _too_long_error(pitch, X, psi, u)
     # the bracket excludes pieces of zero length
     minimum, most = 1e-3 * longest, longest * (1 - 1e-6)
     if weight is not None and variation(minimum) * variation(most) > 0:
-        raise other_shape("no length of the first piece makes the second one optimal")
+        raise other_shape_error("no length of the first piece makes the second one optimal")
     first = root(variation, minimum, most, variation(minimum), variation(most))
     if above(first) > 0:  # the maximum pressure angle is reached before the end; a shorter ray reaches it at the end
         if above(minimum) > 0:
-            raise _too_long(pitch, X, psi, u)
+            raise _too_long_error(pitch, X, psi, u)
         first = root(above, minimum, first, above(minimum), above(first))
     elif weight is not None:
-        check_pieces(pitch, *lifted(first), first, weight)
+        check_pieces(pitch, *second_piece(first), first, weight)
     rest = X - first / cos(psi)
-    piece = _to_arc(lambda end: SteadySpeedPiece(pitch, b, u, first, sin(psi), end), lifted(first)[1], rest)
+    piece = _ended_at_arc(lambda end: SteadySpeedPiece(pitch, b, u, first, sin(psi), end), second_piece(first)[1], rest)
     return PathSide((RayPiece(psi, first), piece))
 
 
-def _too_long(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
+def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
     return RangeError(
         Problem(
             f"an arc of {X / pitch.p:.6g} pitches is too long for a margin of {u:g} at {degrees(psi):.6g} deg",
@@ -305,7 +307,7 @@ def _too_long(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeErro
     )
 
 
-def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
+def _second_sine(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
     """Return sin psi of the second piece as a function of d, like `SteadySpeedPiece` without its travel series."""
     eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
 
@@ -316,7 +318,7 @@ def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) 
     return sine
 
 
-def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
+def _second_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
     """Find the end at which the second piece has the displacement `rest`.
 
     The method is Newton's, with the displacement by Gauss-Legendre quadrature.
@@ -336,7 +338,7 @@ def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
     return end
 
 
-def _variation(
+def _first_variation(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float, loss: Weight
 ) -> float:
     """Compute the first variation, docs/shapes.md (13) or (19).
@@ -345,7 +347,7 @@ def _variation(
     """
     x, weights = _GAUSS
     d = first + (end - first) * (x + 1) / 2
-    return float(weights @ pull(pitch, sine_of, d, end, loss))
+    return float(weights @ variation_integrand(pitch, sine_of, d, end, loss))
 
 
 # ------------------------------------------------------------------------------------------------ Chebyshev collocation
@@ -376,7 +378,7 @@ def solved(
         if series.tail < FALLEN:
             break
     if series.tail > _UNFINISHED:
-        raise lost(end)
+        raise unreachable_end(end)
     return series
 
 
@@ -423,7 +425,7 @@ class _Collocated:
             while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
                 part /= 2
                 if part < 1e-9:
-                    raise lost(float(self.d[-1]))
+                    raise unreachable_end(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
             # stop at rounding, or where the residual no longer decreases
             done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
@@ -431,11 +433,11 @@ class _Collocated:
             if done:
                 break
         if not np.abs(left).max() < _ROUGH:
-            raise lost(float(self.d[-1]))
+            raise unreachable_end(float(self.d[-1]))
         return v
 
 
-def lost(end: float) -> RangeError:
+def unreachable_end(end: float) -> RangeError:
     """Return the error for an end of the path that cannot be reached."""
     return RangeError(
         Problem(
@@ -449,7 +451,9 @@ def lost(end: float) -> RangeError:
 # ------------------------------------------------------------------------------------------- conditions of minimum loss
 
 
-def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight) -> Floats:
+def variation_integrand(
+    pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight
+) -> Floats:
     """Compute the integrand of the first variation: loss of a higher path at d less its gain in arc there."""
     S, sine = pitch.S(d), sine_of(d)
     cosine = np.sqrt(1 - sine**2)
@@ -465,15 +469,15 @@ def check_pieces(
     """Raise `RangeError` if a ray and one slow piece are not optimal (conditions of docs/shapes.md, section 15)."""
     d = np.linspace(0.0, end, _CHECKED)
     if (np.diff(weight(d)) < 0).any():
-        raise other_shape("the friction loss of a contact decreases there with increasing sliding velocity")
+        raise other_shape_error("the friction loss of a contact decreases there with increasing sliding velocity")
     d = np.linspace(first, end, _CHECKED)
-    each = pull(pitch, sine_of, d, end, weight)
+    each = variation_integrand(pitch, sine_of, d, end, weight)
     below = np.cumsum((each[1:] + each[:-1]) / 2)
     if below.max() > _SLACK * np.abs(each).sum():
-        raise other_shape("a path whose pressure angle rises again before its end would have less loss")
+        raise other_shape_error("a path whose pressure angle rises again before its end would have less loss")
 
 
-def other_shape(why: str) -> RangeError:
+def other_shape_error(why: str) -> RangeError:
     """Return the error for a friction law whose side of minimum loss does not consist of two pieces."""
     return RangeError(
         Problem(

@@ -158,13 +158,13 @@ def measure(path: PathOfContact) -> PathMeasures:
     >>> round(measure(Involute(form="involute").path(24, 36)).shared.loss, 4)
     0.155
     """
-    alone = [(-path.arcs[0], path.arcs[1], 1)]
+    single = [(-path.arcs[0], path.arcs[1], 1)]
     slowest = -maximum(path, lambda c: -np.minimum(c.U1, c.U2))
     if min(path.arcs) >= 0:
         slowest = min(slowest, float(path.at(0.0).sin_psi))
     return PathMeasures(
-        one_pair=_costs(path, ONE_PAIR, alone),
-        shared=_costs(path, SHARED, sharing(path)),
+        one_pair=_losses_of(path, ONE_PAIR, single),
+        shared=_losses_of(path, SHARED, sharing(path)),
         depth=depth(path),
         slowest=slowest,
         contact_ratio=path.contact_ratio,
@@ -192,7 +192,7 @@ def sharing(path: PathOfContact) -> list[Stretch]:
     return found
 
 
-def _costs(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
+def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
     """Compute the losses and loads if the tooth pairs in contact on each interval share the load equally."""
     pitch = path.pitch
     bound = 0.1 * pitch.p
@@ -201,23 +201,23 @@ def _costs(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> Pa
     def most(what: Callable[[PathContact], Floats], power: float, beyond: float = 0.0) -> float:
         return max(float(maximum(path, what, beyond, low, high) / count**power) for low, high, count in stretches)
 
-    rubbed = sum(_rubbed(path, low, high) / count for low, high, count in stretches)
+    total = sum(_sliding_between(path, low, high) / count for low, high, count in stretches)
     return PathLosses(
         assumption=assumption,
-        loss=(pitch.A + pitch.B) * rubbed / sum((high - low) / count for low, high, count in stretches),
+        loss=(pitch.A + pitch.B) * total / sum((high - low) / count for low, high, count in stretches),
         stress=most(lambda c: c.H, 1.0) ** 0.5,
-        off_pitch=_root(most(lambda c: c.H, 1.0, bound)),
+        off_pitch=_square_root(most(lambda c: c.H, 1.0, bound)),
         heat=most(lambda c: np.maximum(c.Q1, c.Q2), 1.0),
         flash=most(lambda c: c.flash, 0.75),
     )
 
 
-def _root(value: float) -> float:
+def _square_root(value: float) -> float:
     """Return the square root; 0 for a negative value, which is the maximum over no contact."""
     return float(max(value, 0.0) ** 0.5)
 
 
-def _rubbed(path: PathOfContact, low: float, high: float) -> float:
+def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
     """Return the sliding integral J of the contacts between two X, summed over both sides."""
     total = 0.0
     for recess in (False, True):
@@ -275,12 +275,12 @@ def maximum(
     """
     best = -inf
     for recess, side in ((False, path.approach), (True, path.recess)):
-        for first, last in _reaches(path, recess, beyond, low, high):
+        for first, last in _search_intervals(path, recess, beyond, low, high):
             best = max(best, _peak(lambda d, recess=recess: what(path.along(d, recess)), first, last, side.end))  # type: ignore[misc]
     return best
 
 
-def _reaches(
+def _search_intervals(
     path: PathOfContact, recess: bool, beyond: float, low: float, high: float
 ) -> Iterator[tuple[float, float]]:
     """Yield the intervals of distance on one side in which a maximum is searched, piece by piece."""

@@ -62,14 +62,16 @@ class ToothPairSearch:
         self.first, self.second = gears.of(driver)
         self.pair = OutlinePair(self.first, self.second, gears.distance, "front")
         self.distance = gears.distance
-        self.offset = 2 * gears.lead / self.second.z
+        self.offset = 2 * gears.half_teeth / self.second.z
 
     def at(self, x: Floats) -> ToothPairContact:
         """Return the contact at given driver's angles."""
         count, none = len(x), np.zeros(len(x), int)
-        judge = self.pair.judge
+        touch_search = self.pair.touch_search
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
-        touches = judge.touch(tooth_pairs, judge.furthest(tooth_pairs, judge.segments(tooth_pairs), _ROUGH))
+        touches = touch_search.touch(
+            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), _ROUGH)
+        )
         # the touch of maximum angle of each pair is sorted last
         order = np.lexsort((touches.angle, touches.tooth_pair))
         last = order[np.flatnonzero(np.diff(touches.tooth_pair[order], append=count))]
@@ -78,8 +80,8 @@ class ToothPairSearch:
         corner[where] = self._corners(touches.piece1[last], touches.u[last], touches.piece2[last], touches.v[last])
         angle, point, normal = np.full(count, np.nan), np.full((2, count), np.nan), np.full((2, count), np.nan)
         angle[where] = touches.angle[last]
-        r, dr = value(judge.first.radius, touches.piece1[last], touches.u[last])
-        a, da = value(judge.first.azimuth, touches.piece1[last], touches.u[last])
+        r, dr = value(touch_search.first.radius, touches.piece1[last], touches.u[last])
+        a, da = value(touch_search.first.azimuth, touches.piece1[last], touches.u[last])
         a = a + x[where]
         point[:, where] = r * np.cos(a), r * np.sin(a)
         along = np.stack([dr * np.cos(a) - r * da * np.sin(a), dr * np.sin(a) + r * da * np.cos(a)])
@@ -88,8 +90,10 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _corners(self, piece1: Indices, u: Floats, piece2: Indices, v: Floats) -> Indices:
-        judge, found = self.pair.judge, np.zeros(len(u), int)
-        for at, (table, piece, end) in enumerate(((judge.first, piece1, u), (judge.second, piece2, v)), 1):
+        touch_search, found = self.pair.touch_search, np.zeros(len(u), int)
+        for at, (table, piece, end) in enumerate(
+            ((touch_search.first, piece1, u), (touch_search.second, piece2, v)), 1
+        ):
             found += at * ((end == -1) & table.kinks[0][piece] | (end == 1) & table.kinks[1][piece])
         return found
 
@@ -122,11 +126,11 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
     nx, ny = found.normal
     # reciprocal of the moment arm about the driven axle
     normal = 1 / np.abs((px - axles[0, 1]) * ny - py * nx)
-    working = _foremost(found, first.pitch)
+    working = _leading_places(found, first.pitch)
     sizes, levers, longer = [], [], []
     for gear, wheel in enumerate((first, second)):
         radius = np.hypot(px - axles[0, gear], py)
-        tip = (search.pair.judge.first if gear == 0 else search.pair.judge.second).reach[1]
+        tip = (search.pair.touch_search.first if gear == 0 else search.pair.touch_search.second).reach[1]
         sizes.append(_sizes(wheel, radius[working], tip, _half_widths(search, found, gear)[working]))
         pitch_x, pitch_y = _pitch_points(search, found, gear)
         levers.append(normal * ((py - pitch_y) * nx - (px - pitch_x) * ny))
@@ -185,7 +189,7 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> KinkLag:
     return KinkLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
 
 
-def _foremost(found: ToothPairContact, pitch: float) -> Indices:
+def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
     """Return the indices at which this tooth pair drives the wheel, not a pair one pitch before or behind."""
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))
@@ -208,7 +212,9 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
     """Return the centres of flank rotation: the points at which the flank in contact crosses the pitch circle."""
-    wheel, table = ((search.first, search.pair.judge.first), (search.second, search.pair.judge.second))[gear]
+    wheel, table = ((search.first, search.pair.touch_search.first), (search.second, search.pair.touch_search.second))[
+        gear
+    ]
     radius = wheel.z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]
     azimuth = float(value(table.azimuth, piece, table.inverse(piece, np.array([radius])))[0][0])

@@ -42,7 +42,7 @@ class AxlePlacement:
     bevel: bool = False
     ring: Literal[0, 1, 2] = 0
 
-    def look(self, r: Floats, b: Floats) -> DrivenFrame:
+    def frame(self, r: Floats, b: Floats) -> DrivenFrame:
         """Transform points at radii r (bevel: polar angles) and azimuths b about the first axle to the second axle."""
         return DrivenFrame(self, r, b)
 
@@ -55,10 +55,10 @@ class AxlePlacement:
         """
         r = np.linspace(lowest, highest, 129)[:, None]
         b = np.linspace(0, np.pi, 721)[None, :]
-        seen = DrivenFrame(self, *np.broadcast_arrays(r, b)).radius
+        radii = DrivenFrame(self, *np.broadcast_arrays(r, b)).radius
         # allowance for extremes between two samples, and for rounding
         slack = 2 * (highest - lowest) / 128 + 1e-9 * highest
-        inside = ((seen <= most + slack) & (seen >= minimum - slack)).any(axis=0)
+        inside = ((radii <= most + slack) & (radii >= minimum - slack)).any(axis=0)
         if not inside.any():
             return -1.0
         return float(b[0, inside].max() + np.pi / 720)
@@ -67,18 +67,18 @@ class AxlePlacement:
 class DrivenFrame:
     """Polar coordinates of points about the second axle: `radius` and `azimuth`, and their derivatives."""
 
-    __slots__ = ("across", "along", "bevel", "cos_b", "height", "radius", "side", "sight", "sin_b", "tilt", "up")
+    __slots__ = ("across", "along", "axles", "bevel", "cos_b", "height", "radius", "side", "sin_b", "tilt", "up")
 
-    def __init__(self, sight: AxlePlacement, r: Floats, b: Floats) -> None:
-        self.sight, self.bevel = sight, sight.bevel
+    def __init__(self, axles: AxlePlacement, r: Floats, b: Floats) -> None:
+        self.axles, self.bevel = axles, axles.bevel
         self.sin_b, self.cos_b = np.sin(b), np.cos(b)
-        reach = np.sin(r) if sight.bevel else r
-        self.height: Floats | float = np.cos(r) if sight.bevel else 1.0
+        reach = np.sin(r) if axles.bevel else r
+        self.height: Floats | float = np.cos(r) if axles.bevel else 1.0
         self.side, self.across = reach * self.sin_b, reach * self.cos_b
-        far, self.tilt = (sin(sight.distance), cos(sight.distance)) if sight.bevel else (sight.distance, 1.0)
+        far, self.tilt = (sin(axles.distance), cos(axles.distance)) if axles.bevel else (axles.distance, 1.0)
         e, s = self._signs()
         self.along = e * far * self.height + s * self.tilt * self.across
-        if sight.bevel:
+        if axles.bevel:
             self.up = self.tilt * self.height - s * e * far * self.across
             # arctan2, because arccos of `up` loses half the digits near the axle
             self.radius = np.arctan2(np.hypot(self.side, self.along), self.up)
@@ -87,7 +87,7 @@ class DrivenFrame:
 
     def _signs(self) -> tuple[float, float]:
         """Return the sign of the direction to the second axle, and the sign of the first radius along it."""
-        return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.sight.ring]
+        return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
     @property
     def azimuth(self) -> Floats:
@@ -105,7 +105,7 @@ class DrivenFrame:
             h = self.radius
             radius = (self.side * side + self.along * along) / h
             return radius, (self.along * side - self.side * along) / (h * h)
-        far = sin(self.sight.distance)
+        far = sin(self.axles.distance)
         fall = -self._sine() * dr
         along = along + e * far * fall
         up = self.tilt * fall - s * e * far * across
@@ -146,7 +146,7 @@ class FlankSegments(NamedTuple):
     """Index of the driven piece, (n,)."""
     u: Floats
     """Parameters of piece1 at both ends, (2, n)."""
-    seen: Floats
+    polar2: Floats
     """Radius and azimuth about the second axle at both ends, and their slopes by u, (4, 2, n)."""
     v: Floats
     """End of piece2 that is met at either end, -1 or 1, (2, n); NaN if it is not an end."""
@@ -158,12 +158,12 @@ class FlankSegmentation:
 
     first: FlankTable
     second: FlankTable
-    sight: AxlePlacement
+    axles: AxlePlacement
 
     def segments(self, tooth_pairs: CandidatePairs) -> FlankSegments:
         """Return all segments at which the tooth pairs can touch."""
-        cells = self._unturned(tooth_pairs, self._cells(tooth_pairs))
-        low, high = cells.seen[0].min(axis=0), cells.seen[0].max(axis=0)
+        cells = self._divided_at_extremes(tooth_pairs, self._cells(tooth_pairs))
+        low, high = cells.polar2[0].min(axis=0), cells.polar2[0].max(axis=0)
         tooth = tooth_pairs.tooth2[cells.tooth_pair]
         start, end = self.second.first[tooth], self.second.first[tooth + 1]
         found = []
@@ -173,7 +173,7 @@ class FlankSegmentation:
             within = (low <= self.second.ends[1, piece2]) & (high >= self.second.ends[0, piece2])
             which = np.flatnonzero(within & (start + local < end) & ~self.second.flat[piece2])
             found.append(some(cells, which)._replace(piece2=piece2[which]))
-        return self._clipped(tooth_pairs, joined(found))
+        return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
         """Return the cells between nodes that may be at radii of the driven side, before a driven piece is chosen."""
@@ -184,7 +184,7 @@ class FlankSegmentation:
             nodes[2][tooth_pairs.tooth1, :-1],
         )
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
-        view = self.sight.look(r, a + tooth_pairs.x[:, None])
+        view = self.axles.frame(r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
         # an extreme of the distance inside a cell exceeds the ends by less than the slopes there would give
@@ -194,48 +194,50 @@ class FlankSegmentation:
         low, high = np.minimum(here, there), np.maximum(here, there)
         tooth_pair, at = np.nonzero(begins & (low - slack <= most) & (high + slack >= minimum))
         ends = tooth_pair, np.stack([at, at + 1])
-        seen = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
+        polar2 = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
         piece = pieces[tooth_pair, at]
-        return FlankSegments(tooth_pair, piece, np.zeros_like(piece), us[ends], seen, np.full(seen.shape[1:], np.nan))
+        return FlankSegments(
+            tooth_pair, piece, np.zeros_like(piece), us[ends], polar2, np.full(polar2.shape[1:], np.nan)
+        )
 
-    def _unturned(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+    def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
         """Divide cells in which the distance from the second axle has an extreme."""
-        which = np.flatnonzero(np.sign(cells.seen[2, 0]) * np.sign(cells.seen[2, 1]) < 0)
+        which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
             return cells
         turning = some(cells, which)
         x = tooth_pairs.x[turning.tooth_pair]
 
         def slope(u: Floats, these: Indices) -> Floats:
-            found: Floats = self._seen(x[these], turning.piece1[these], u)[2]
+            found: Floats = self._driven_polar(x[these], turning.piece1[these], u)[2]
             return found
 
-        middle = roots_by_false_position(slope, *turning.u, *turning.seen[2])
-        seen = self._seen(x, turning.piece1, middle)
-        cells.u[1, which], cells.seen[:, 1, which] = middle, seen
-        turning.u[0], turning.seen[:, 0] = middle, seen
+        middle = roots_by_false_position(slope, *turning.u, *turning.polar2[2])
+        polar2 = self._driven_polar(x, turning.piece1, middle)
+        cells.u[1, which], cells.polar2[:, 1, which] = middle, polar2
+        turning.u[0], turning.polar2[:, 0] = middle, polar2
         return joined([cells, turning])
 
-    def _clipped(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+    def _clipped_to_pieces(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
         """Clip cells to the radii of their driven piece, by vectorised false position."""
         low, high = self.second.ends[:, cells.piece2]
-        u, seen = cells.u.copy(), cells.seen.copy()
+        u, polar2 = cells.u.copy(), cells.polar2.copy()
         for side in (0, 1):
-            which = np.flatnonzero((cells.seen[0, side] < low) | (cells.seen[0, side] > high))
-            above = cells.seen[0, side, which] > high[which]
+            which = np.flatnonzero((cells.polar2[0, side] < low) | (cells.polar2[0, side] > high))
+            above = cells.polar2[0, side, which] > high[which]
             goal = np.where(above, high[which], low[which])
             x, piece = tooth_pairs.x[cells.tooth_pair[which]], cells.piece1[which]
 
             def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
                 r, a = (value_alone(each, piece[these], at) for each in (self.first.radius, self.first.azimuth))
-                return self.sight.look(r, a + x[these]).radius - goal[these]
+                return self.axles.frame(r, a + x[these]).radius - goal[these]
 
-            u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.seen[0][:, which] - goal))
-            seen[:, side, which] = self._seen(x, piece, u[side, which])
+            u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.polar2[0][:, which] - goal))
+            polar2[:, side, which] = self._driven_polar(x, piece, u[side, which])
             cells.v[side, which] = np.where(above, 1.0, -1.0)
-        return cells._replace(u=u, seen=seen)
+        return cells._replace(u=u, polar2=polar2)
 
-    def _seen(self, x: Floats, piece: Indices, u: Floats) -> Floats:
+    def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
         """Return radius, azimuth and their slopes by u of the driver's points about the second axle, (4, n)."""
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
@@ -246,7 +248,7 @@ class FlankSegmentation:
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
-        return self.sight.look(r, a + x), dr, da
+        return self.axles.frame(r, a + x), dr, da
 
 
 # -------------------------------------------------------------------------------------------------------------- touches
@@ -273,7 +275,7 @@ class FirstTouchSearch(FlankSegmentation):
 
     def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
         """Select the segments that can contain, within `margin` (rad), the maximum of G of their position."""
-        ends, slopes = self._rough(segments)
+        ends, slopes = self._estimates(segments)
         with np.errstate(invalid="ignore", divide="ignore"):
             width = segments.u[1] - segments.u[0]
             # intersection of the tangents at both ends: bounds G if it is concave, and is doubled in case it is not
@@ -297,11 +299,11 @@ class FirstTouchSearch(FlankSegmentation):
         found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         return found
 
-    def _rough(self, segments: FlankSegments) -> tuple[Floats, Floats]:
+    def _estimates(self, segments: FlankSegments) -> tuple[Floats, Floats]:
         """Estimate G and its slope at both ends, (2, n) each, with an inversion that is not refined."""
         piece = np.broadcast_to(segments.piece2, segments.u.shape)
         low, high = self.second.ends[:, segments.piece2]
-        r = np.clip(segments.seen[0], low, high)
+        r = np.clip(segments.polar2[0], low, high)
         within = np.isnan(segments.v)
         v = np.where(within, self.second.guess(piece, r)[0], segments.v)
         # where the piece is stationary a single Newton step is not reliable
@@ -313,7 +315,7 @@ class FirstTouchSearch(FlankSegmentation):
             slant = turn / rise
             # elsewhere one Newton step replaces the inversion; at an end of the piece no correction is needed
             correction = np.where(within & ~still, slant * (r - radius), 0.0)
-            return segments.seen[1] - azimuth - correction, segments.seen[3] - slant * segments.seen[2]
+            return segments.polar2[1] - azimuth - correction, segments.polar2[3] - slant * segments.polar2[2]
 
     # ------------------------------------------------------------------------------------------------------ exactly
 
@@ -347,11 +349,11 @@ class FirstTouchSearch(FlankSegmentation):
         middle = roots_by_false_position(
             lambda u, these: rising(u, inner[these]), low_u, high_u, at_low, at_high, _FINE
         )
-        ends = [self._found(tooth_pairs, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
-        within = self._found(tooth_pairs, some(segments, inner), middle, np.full(len(inner), np.nan))
+        ends = [self._touch_at(tooth_pairs, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
+        within = self._touch_at(tooth_pairs, some(segments, inner), middle, np.full(len(inner), np.nan))
         return joined([*ends, within])
 
-    def _found(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
+    def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
         """Return the touch at parameter u; v is not NaN if an end of the driven piece is met there."""
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)

@@ -87,7 +87,7 @@ class FlankTable:
     def nodes(self) -> tuple[Indices, Floats, Bools]:
         """Search nodes of each tooth, (teeth, nodes): piece, u, and a flag that a cell begins at the node."""
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
-        each = [self._marks(piece, int(number)) for piece, number in enumerate(cells)]
+        each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)
         begins = np.append(piece[1:] == piece[:-1], False)
         start = np.searchsorted(piece, self.first)
@@ -96,7 +96,7 @@ class FlankTable:
         at = np.minimum(start[:-1, None] + np.arange(most), start[1:, None] - 1)
         return piece[at], u[at], begins[at]
 
-    def _marks(self, piece: int, cells: int) -> Floats:
+    def _sample_points(self, piece: int, cells: int) -> Floats:
         """Return the values of u at which a piece is sampled: uniform, with geometric refinement towards stationary
         ends.
         """

@@ -125,7 +125,7 @@ def _straight(a: Floats, b: Floats) -> OutlineCurve:
     return OutlineCurve(points)
 
 
-def _turn(angle: float) -> Callable[[Floats], Floats]:
+def _rotation(angle: float) -> Callable[[Floats], Floats]:
     def turned(points: Floats) -> Floats:
         x, y = points[:, 0], points[:, 1]
         along, across = y * cos(angle) - x * sin(angle), x * cos(angle) + y * sin(angle)
@@ -169,7 +169,7 @@ class ToothFlanks:
         ToothFlanks
             Tooth with both sides.
         """
-        turned = _turn(2 * middle)
+        turned = _rotation(2 * middle)
         behind = tuple(curve.mapped(lambda p: turned(p * np.array([-1.0, 1.0, 1.0])[: p.shape[1]])) for curve in ahead)
         return cls(tuple(ahead), behind)
 
@@ -201,7 +201,7 @@ class ToothFlanks:
         ToothFlanks
             Rotated tooth.
         """
-        return self.mapped(_turn(angle))
+        return self.mapped(_rotation(angle))
 
 
 @dataclass(frozen=True)
@@ -241,7 +241,7 @@ class GearOutline:
                 )
         for tooth in self.teeth:
             for side in (tooth.ahead, tooth.behind):
-                _check(side)
+                _check_side(side)
 
     @property
     def pitch(self) -> float:
@@ -296,16 +296,18 @@ class GearOutline:
                 )
             )
         offsets = self.turns or (0.0,) * self.z
-        return GearOutline(tuple(self._moved(k, offsets[k], x, y) for k in range(self.z)), self.z, (), self.ring)
+        return GearOutline(
+            tuple(self._displaced_tooth(k, offsets[k], x, y) for k in range(self.z)), self.z, (), self.ring
+        )
 
-    def _moved(self, k: int, offset: float, x: float, y: float) -> ToothFlanks:
+    def _displaced_tooth(self, k: int, offset: float, x: float, y: float) -> ToothFlanks:
         place = k * self.pitch
         by = np.array([x, y])
         tooth = self.teeth[k % len(self.teeth)]
         return tooth.turned(place + offset).mapped(lambda points: points + by).turned(-place)
 
 
-def _check(side: tuple[OutlineCurve, ...]) -> None:
+def _check_side(side: tuple[OutlineCurve, ...]) -> None:
     """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
     if not side:
         raise QuestionError(
@@ -364,17 +366,17 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
 def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bool, bool]]]:
     """Return the pieces of each curve of a chain, with flags that a piece begins and ends at a corner."""
     found = [
-        [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _rising(curve, piece)]
+        [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
         for curve in side
     ]
-    kink = [True, *(_kink(a[-1], b[0]) for a, b in pairwise(found)), True]
+    kink = [True, *(_is_kink(a[-1], b[0]) for a, b in pairwise(found)), True]
     return [
         [(piece, at == 0 and kink[i], at == len(pieces) - 1 and kink[i + 1]) for at, piece in enumerate(pieces)]
         for i, pieces in enumerate(found)
     ]
 
 
-def _kink(last: PolynomialPiece, new: PolynomialPiece) -> bool:
+def _is_kink(last: PolynomialPiece, new: PolynomialPiece) -> bool:
     """Return whether two consecutive curves have different directions at their common point."""
     before, after = _direction(last, 1), _direction(new, -1)
     return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)
@@ -394,7 +396,7 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
     return found
 
 
-def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
+def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
     """Divide a piece at the extremes of its radius."""
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
@@ -405,11 +407,11 @@ def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece
     if not turns:
         return [piece]
     half, middle = (piece.end - piece.start) / 2, piece.start + (piece.end - piece.start) / 2
-    cuts = [piece.start, *(middle + half * _turning(slope, u[i], u[j]) for i, j in turns), piece.end]
+    cuts = [piece.start, *(middle + half * _sign_change(slope, u[i], u[j]) for i, j in turns), piece.end]
     return [each for start, end in pairwise(cuts) for each in fitted(curve.polar, start, end)]
 
 
-def _turning(slope: Floats, low: float, high: float) -> float:
+def _sign_change(slope: Floats, low: float, high: float) -> float:
     """Find the sign change of a polynomial between low and high by bisection."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
     # bisection to neighbouring floats, because the slope of a fit is noise where the radius hardly changes

@@ -34,10 +34,10 @@ class OutlinePair:
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
     ) -> None:
-        _check(first, second, distance)
+        _check_pair(first, second, distance)
         self.first, self.second, self.sign = first, second, 1 if side == "front" else -1
-        sight = AxlePlacement(distance, first.bevel, 1 if first.ring else 2 if second.ring else 0)
-        mine, theirs = (
+        axles = AxlePlacement(distance, first.bevel, 1 if first.ring else 2 if second.ring else 0)
+        driving_side, driven_side = (
             (first.ahead, second.behind)
             if side == "front"
             else (
@@ -45,10 +45,10 @@ class OutlinePair:
                 second.ahead.mirrored,
             )
         )
-        self.judge = FirstTouchSearch(mine, theirs, sight)
-        low, high, behind, ahead = mine.reach
-        minimum, most, _, _ = theirs.reach
-        reach = sight.bounds(low, high, minimum, most)
+        self.touch_search = FirstTouchSearch(driving_side, driven_side, axles)
+        low, high, behind, ahead = driving_side.reach
+        minimum, most, _, _ = driven_side.reach
+        reach = axles.bounds(low, high, minimum, most)
         self.window = (-reach - ahead, reach - behind) if reach >= 0 else (0.0, -1.0)
 
     @property
@@ -75,7 +75,7 @@ class OutlinePair:
 
     def _blocks(self, rest: Floats) -> Iterator[Floats]:
         wide = self.window[1] - self.window[0]
-        per_angle = (wide / self.first.pitch + 1) * self.judge.first.nodes[0].shape[1]
+        per_angle = (wide / self.first.pitch + 1) * self.touch_search.first.nodes[0].shape[1]
         size = max(16, int(_BLOCK / per_angle))
         return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
 
@@ -93,8 +93,10 @@ class OutlinePair:
         # in the mirror image tooth j touches the tooth behind it, whose number counted backward is j + 1
         mate = j if self.sign > 0 else j + 1
         tooth1, tooth2 = (self.sign * j) % self.first.z, (self.sign * mate) % self.second.z
-        x = rest[position] + j * pitch + self.sign * _taken(self.first.turns, tooth1)
-        place = np.asarray(mate * self.second.pitch + self.sign * _taken(self.second.turns, tooth2), dtype=np.float64)
+        x = rest[position] + j * pitch + self.sign * _deviations(self.first.turns, tooth1)
+        place = np.asarray(
+            mate * self.second.pitch + self.sign * _deviations(self.second.turns, tooth2), dtype=np.float64
+        )
         shape1 = tooth1 if len(self.first.teeth) > 1 else np.zeros_like(j)
         shape2 = tooth2 if len(self.second.teeth) > 1 else np.zeros_like(j)
         near = (x >= self.window[0]) & (x <= self.window[1])
@@ -102,11 +104,13 @@ class OutlinePair:
 
     def _block(self, rest: Floats, within: float) -> tuple[Any, ...]:
         tooth_pairs, j = self._tooth_pairs(rest)
-        judge, count = self.judge, len(rest)
+        touch_search, count = self.touch_search, len(rest)
         if not len(j):
-            return _nothing(count)
+            return _no_contact(count)
         margin = _MARGIN * self.second.pitch + within
-        found = judge.touch(tooth_pairs, judge.furthest(tooth_pairs, judge.segments(tooth_pairs), margin))
+        found = touch_search.touch(
+            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), margin)
+        )
         position = tooth_pairs.position[found.tooth_pair]
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)
@@ -118,17 +122,20 @@ class OutlinePair:
         last = np.flatnonzero(np.diff(position[order], append=count))
         chosen = order[last]
         where = position[chosen]
-        angle, speed, pair, kinds, r1, r2, _, curves = _nothing(count)
+        angle, speed, pair, kinds, r1, r2, _, curves = _no_contact(count)
         angle[where], speed[where], kinds[where] = best[where], found.speed[chosen], kind[chosen]
         pair[where], r1[where], r2[where] = j[found.tooth_pair[chosen]], found.radius1[chosen], found.radius2[chosen]
-        curves[:, where] = judge.first.curve[found.piece1[chosen]], judge.second.curve[found.piece2[chosen]]
+        curves[:, where] = (
+            touch_search.first.curve[found.piece1[chosen]],
+            touch_search.second.curve[found.piece2[chosen]],
+        )
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def _kind(self, found: FirstTouches) -> Indices:
         """Return the kind of each touch: 1 for a corner of the first wheel, 2 of the second, 3 of both, else 0."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
-            ((self.judge.first, found.piece1, found.u), (self.judge.second, found.piece2, found.v))
+            ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
         ):
             kind += (1 + at) * ((u == -1) & table.kinks[0][piece] | (u == 1) & table.kinks[1][piece])
         return kind
@@ -139,11 +146,11 @@ class OutlinePair:
         return np.bincount(tooth_pairs.position[touching], minlength=count)
 
 
-def _taken(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
+def _deviations(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
     return np.array(turns)[tooth] if turns else 0.0
 
 
-def _nothing(count: int) -> tuple[Any, ...]:
+def _no_contact(count: int) -> tuple[Any, ...]:
     """Return the fields of `FlankContact` for positions without a tooth within range."""
     nan = np.full(count, np.nan)
     none = np.full(count, -1)
@@ -159,7 +166,7 @@ def _nothing(count: int) -> tuple[Any, ...]:
     )
 
 
-def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
+def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
     """Raise an error if two wheels cannot be in contact: mixed spur and bevel, two ring gears, or a distance out of
     range.
     """
@@ -344,7 +351,7 @@ def contact(
                 "an angle of the driver is not finite", "positions must be finite", "remove infinite and NaN angles"
             )
         )
-    meeting = OutlinePair(first, second, distance, side)
-    flat = meeting.at(phi1.ravel(), within)
+    pair_contact = OutlinePair(first, second, distance, side)
+    flat = pair_contact.at(phi1.ravel(), within)
     shapes = (each.reshape((*each.shape[:-1], *phi1.shape)) for each in flat)
     return FlankContact(*shapes)

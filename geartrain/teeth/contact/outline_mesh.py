@@ -49,7 +49,7 @@ class OutlineMesh(GearMesh):
     @property
     def stands(self) -> float:
         """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
-        return self.transmission.gears.lead / pi
+        return self.transmission.gears.half_teeth / pi
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Return the size of the pair, whose lengths are already in modules."""

@@ -41,7 +41,7 @@ class OutlineGears:
     second: GearOutline
     distance: float
     """Centre distance of the wheels."""
-    lead: float
+    half_teeth: float
     """Half a tooth of both wheels on the pitch circles, from which the driven angle is counted."""
     backlash: float
     """Backlash on the pitch circles as designed."""
@@ -65,7 +65,7 @@ class OutlineTransmission(TransmissionFunction):
         self.friction, self.driver, self.direction = check_friction(friction), driver, direction
         driving, driven = self._wheels
         self.ratio, self.period = Fraction(driving.z, driven.z), 2 * pi / driving.z
-        self._offset, self._backlash = 2 * gears.lead / driven.z, 2 * gears.backlash / driven.z
+        self._offset, self._backlash = 2 * gears.half_teeth / driven.z, 2 * gears.backlash / driven.z
 
     @property
     def _wheels(self) -> tuple[GearOutline, GearOutline]:
@@ -101,14 +101,14 @@ class OutlineTransmission(TransmissionFunction):
     def _forward(self, S: ArrayLike) -> Floats:
         return self.direction * np.asarray(S, dtype=float)
 
-    def _of(self, error: Floats | float) -> Floats:
+    def _in_direction(self, error: Floats | float) -> Floats:
         """Convert errors of the front flanks to this direction; reversed motion is the mirror image."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error (rad of the driven wheel) at driver angles S (rad); NaN without contact."""
-        return self._of(self.table.error(self._forward(S)))
+        return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at driver angles S (rad)."""
@@ -128,7 +128,7 @@ class OutlineTransmission(TransmissionFunction):
 
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and maximum transmission error (rad of the driven wheel)."""
-        low, high = sorted(float(self._of(each)) for each in self.table.extremes())
+        low, high = sorted(float(self._in_direction(each)) for each in self.table.extremes())
         return low, high
 
     @property
@@ -146,7 +146,7 @@ class OutlineTransmission(TransmissionFunction):
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error and its rms about the mean (rad of the driven wheel)."""
         S, weights = self._nodes
-        error = self._of(self.table.error(S))
+        error = self._in_direction(self.table.error(S))
         mean = float(weights @ error)
         return mean, float(weights @ (error - mean) ** 2) ** 0.5
 
@@ -158,21 +158,21 @@ class OutlineTransmission(TransmissionFunction):
         The common normal passes the instantaneous pitch point, which divides the centre distance in the ratio of the
         speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
         """
-        return self._passed(_leans(self.gears, self.driver, self._forward(S)))
+        return self._efficiency_of(_friction_terms(self.gears, self.driver, self._forward(S)))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Return sliding and friction of the single contact at driver angles S (rad)."""
         forward = self._forward(S)
-        return self._rubbing(_leans(self.gears, self.driver, forward), self.table.speed(forward))
+        return self._rubbing(_friction_terms(self.gears, self.driver, forward), self.table.speed(forward))
 
     def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing]:
         """Return angles, weights, and sliding and friction at the nodes of `efficiency_mean`."""
         S, weights = self._nodes
-        rubbing = self._rubbing(_leans_at_nodes(self.gears, self.driver), self.table.speed(S))
+        rubbing = self._rubbing(_friction_terms_at_nodes(self.gears, self.driver), self.table.speed(S))
         return self.direction * S, weights, rubbing
 
-    def _rubbing(self, leans: tuple[Floats, Floats, Floats], speed: Floats) -> ContactRubbing:
-        cosine, into, out = leans
+    def _rubbing(self, terms: tuple[Floats, Floats, Floats], speed: Floats) -> ContactRubbing:
+        cosine, into, out = terms
         # the instantaneous pitch point divides the distance by speeds, the nominal pitch point by tooth numbers
         first, second = self._wheels
         mean, same = float(self.ratio), -1 if first.ring or second.ring else 1
@@ -181,8 +181,8 @@ class OutlineTransmission(TransmissionFunction):
             found = np.abs(into - out) * share, into / cosine, out / cosine
         return ContactRubbing(*(each[None] for each in found))
 
-    def _passed(self, leans: tuple[Floats, Floats, Floats]) -> Floats:
-        cosine, into, out = leans
+    def _efficiency_of(self, terms: tuple[Floats, Floats, Floats]) -> Floats:
+        cosine, into, out = terms
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = cosine + self.friction * into, cosine + self.friction * out
             found: Floats = np.where(out > 0, out / into, nan)
@@ -191,7 +191,7 @@ class OutlineTransmission(TransmissionFunction):
     @cached_property
     def locking_friction(self) -> float:
         """Minimum friction coefficient at which a contact locks, among the quadrature nodes; infinite if none locks."""
-        cosine, _, out = _leans_at_nodes(self.gears, self.driver)
+        cosine, _, out = _friction_terms_at_nodes(self.gears, self.driver)
         steepest = float(np.nanmax(-out / cosine))
         return 1 / steepest if steepest > _FLAT else inf
 
@@ -201,8 +201,8 @@ class OutlineTransmission(TransmissionFunction):
         S, weights = self._nodes
         speed = self.table.speed(S)
         touching = ~np.isnan(speed)
-        cosine, into, out = _leans_at_nodes(self.gears, self.driver)
-        found = self._passed((cosine[touching], into[touching], out[touching]))
+        cosine, into, out = _friction_terms_at_nodes(self.gears, self.driver)
+        found = self._efficiency_of((cosine[touching], into[touching], out[touching]))
         return found, speed[touching], weights[touching] / weights[touching].sum()
 
     def efficiency_mean(self) -> float:
@@ -222,9 +222,10 @@ class OutlineTransmission(TransmissionFunction):
         return float(self._sampled[0].min())
 
 
-def _friction(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
-    """Compute `_leans` for a contact at (x, y) from the instantaneous pitch point, at distances R1 and R2 from the
-    axles.
+def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
+    """Compute the friction terms of a contact at (x, y) from the instantaneous pitch point.
+
+    R1 and R2 are the distances of that point from the axles.
     """
     d = np.hypot(x, y)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -235,10 +236,8 @@ def _friction(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Flo
         return cosine, rub * (sine + way * d / R1), rub * (sine - way * d / R2)
 
 
-def _leans(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cos psi, and the terms that unit friction adds to it in the power that enters and in the power that
-    leaves.
-    """
+def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return cos psi, and the terms that unit friction adds to it in the powers that enter and leave."""
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)
     # a ring's axle is on the other side of its pinion, and both pitch circles turn the same way
@@ -253,7 +252,7 @@ def _leans(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, F
     off = along - R1
     # closer to the pitch point the root above is rounding and does not determine a normal
     apart = np.hypot(side, off) >= _NEAR_PITCH_POINT * gears.distance
-    return _friction(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
+    return _friction_terms_at(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
 
 
 # The contact of two outlines is expensive and does not depend on friction or direction, so it is cached.
@@ -282,8 +281,8 @@ def _nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats]:
 
 
 @lru_cache(maxsize=64)
-def _leans_at_nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats, Floats]:
-    return _leans(gears, driver, _nodes(gears, driver)[0])
+def _friction_terms_at_nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats, Floats]:
+    return _friction_terms(gears, driver, _nodes(gears, driver)[0])
 
 
 def _apart(distance: float, share: float) -> ToothFault:

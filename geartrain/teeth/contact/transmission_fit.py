@@ -205,9 +205,9 @@ def tabulate(
     >>> transmission.ratio, transmission.uncertainty < 1e-6
     (Fraction(1, 1), True)
     """
-    meeting = OutlinePair(first, second, distance, side)
-    maker = _Maker(meeting, tolerance)
-    done, breaks, kinks = maker.made()
+    pair_contact = OutlinePair(first, second, distance, side)
+    fitter = _Fitter(pair_contact, tolerance)
+    done, breaks, kinks = fitter.fit()
     if (done.kind < 0).all():
         raise RangeError(
             Problem(
@@ -217,8 +217,8 @@ def tabulate(
             )
         )
     return PiecewiseTransmission(
-        maker.ratio,
-        maker.period,
+        fitter.ratio,
+        fitter.period,
         breaks,
         done.ends.mean(axis=0),
         np.diff(done.ends, axis=0)[0] / 2,
@@ -232,31 +232,31 @@ def tabulate(
     )
 
 
-class _Maker:
-    def __init__(self, meeting: OutlinePair, tolerance: float) -> None:
-        self.meeting, self.tolerance = meeting, tolerance
-        self.ratio = Fraction(meeting.first.z, meeting.second.z)
-        self.pitch = meeting.first.pitch
-        self.period = meeting.cycle * self.pitch
+class _Fitter:
+    def __init__(self, pair_contact: OutlinePair, tolerance: float) -> None:
+        self.pair_contact, self.tolerance = pair_contact, tolerance
+        self.ratio = Fraction(pair_contact.first.z, pair_contact.second.z)
+        self.pitch = pair_contact.first.pitch
+        self.period = pair_contact.cycle * self.pitch
 
-    def made(self) -> tuple[_Stretches, Floats, Floats]:
+    def fit(self) -> tuple[_Stretches, Floats, Floats]:
         """Return all stretches in order, their ends, and the ends that are kinks."""
-        count = _PARTS * self.meeting.cycle
+        count = _PARTS * self.pair_contact.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
         done, kinks = [], [np.empty(0)]
         while pending.shape[1]:
             stretches, labels = self._fitted(pending)
-            good = self._good(stretches, before)
+            good = self._accepted(stretches, before)
             done.append(some(stretches, good))
             cuts = self._kinks(pending[:, ~good], labels[:, ~good])
             kinks += cuts
-            pending, before = _cut(pending[:, ~good], cuts, stretches.off[~good])
-            if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.meeting.cycle:
-                raise _endless(self.tolerance)
+            pending, before = _divided(pending[:, ~good], cuts, stretches.off[~good])
+            if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.pair_contact.cycle:
+                raise _too_many_stretches(self.tolerance)
         return self._ordered(done, np.concatenate(kinks))
 
-    def _good(self, stretches: _Stretches, before: Floats) -> Bools:
+    def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
         """Return flags of stretches within tolerance, too thin to divide, or limited by rounding."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
         # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding
@@ -268,7 +268,7 @@ class _Maker:
         """Fit polynomials on stretches, and return labels of the contact at their nodes, (4, n, nodes)."""
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
-        angle, speed, labels = self._requested(phi1)
+        angle, speed, labels = self._evaluated(phi1)
         error = angle - float(self.ratio) * phi1
         inside = np.isin(_ALL, _NODES)
         fits = [POWERS.T @ (_SERIES @ each[:, inside].T) for each in (error, speed)]
@@ -281,9 +281,9 @@ class _Maker:
         pair, kind = labels[:2, :, COUNT]  # at the middle of 2 COUNT + 1 points
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
-    def _requested(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
+    def _evaluated(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
         """Return driven angle, speed, and labels that identify the contact."""
-        angle, speed, pair, kind, _, _, _, curves = self.meeting.at(phi1.ravel(), 0.0)
+        angle, speed, pair, kind, _, _, _, curves = self.pair_contact.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
@@ -294,16 +294,16 @@ class _Maker:
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         low, high = (middle[stretch] + half[stretch] * _ALL[at + side] for side in (0, 1))
         left = labels[:, stretch, at]
-        found = self._narrowed(low, high, left) if len(stretch) else low
+        found = self._located(low, high, left) if len(stretch) else low
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
-    def _narrowed(self, low: Floats, high: Floats, left: Indices) -> Floats:
+    def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
         """Locate the first change of labels from `left` between low and high, by repeated subdivision to rounding."""
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
             inner = np.clip(inner, low[:, None], high[:, None])
-            _, _, labels = self._requested(inner)
+            _, _, labels = self._evaluated(inner)
             other = (labels != left[:, :, None]).any(axis=0)
             points = np.concatenate([low[:, None], inner, high[:, None]], axis=1)
             first = np.where(other.any(axis=1), other.argmax(axis=1), _CUTS - 1)
@@ -333,7 +333,7 @@ class _Maker:
         return kink - step / change
 
 
-def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
+def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
     """Divide stretches at their kinks, or bisect those without; also return the previous error of each."""
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
@@ -345,7 +345,7 @@ def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]
     return np.array(found).reshape(-1, 2).T, np.array(before)
 
 
-def _endless(tolerance: float) -> RangeError:
+def _too_many_stretches(tolerance: float) -> RangeError:
     return RangeError(
         Problem(
             f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",

@@ -227,12 +227,12 @@ def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: 
     pitch = path.pitch
     ends = (-approach, recess) if gear == 1 else (recess, -approach)
     dense = np.linspace(*ends, _DENSE)
-    X = _spaced(path, gear, dense, max(tolerance, _FINE))
+    X = _spaced_displacements(path, gear, dense, max(tolerance, _FINE))
     outward = -1 if gear == 2 and pitch.R2 < 0 else 1
     if (np.diff(_polar(path, gear, X)[0]) * outward <= 0).any():
         why = "its radius does not increase steadily from the root to the tip"
         raise RangeError(Problem(f"the flank of gear {gear} turns back", why, "shorten the arcs, or use more teeth"))
-    r, angle = _within(path, gear, X, outward)
+    r, angle = _inner_polyline(path, gear, X, outward)
     along, across = _tangents(path, gear, X[:1], outward)
     tangent = float(along[0]), float(across[0])
     return FlankCurve(r, angle, np.stack(_polar(path, gear, dense)), tangent, abs(_R(path, gear)), outward)
@@ -248,7 +248,7 @@ def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
     return radius, azimuth if gear == 1 else -azimuth
 
 
-def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
+def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
     """Return displacements with equal chord deviation everywhere: ds sqrt(curvature) constant."""
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
@@ -261,10 +261,10 @@ def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floa
     cost += np.linspace(0, 0.02 * cost[-1] + 1e-9, len(cost))
     count = max(_FEWEST, ceil(1.2 * cost[-1])) + 1
     found = np.interp(np.linspace(0, cost[-1], count), cost, X)
-    return _with(found, X[_bends(path, gear, X)])
+    return _with_inflections(found, X[_inflections(path, gear, X)])
 
 
-def _bends(path: PathOfContact, gear: int, X: Floats) -> Floats:
+def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
     """Return the indices of the last points before the curvature of the flank changes its sign."""
     points = path.flank(gear, X)
     steps = np.diff(points @ np.array([1, 1j]))
@@ -275,7 +275,7 @@ def _bends(path: PathOfContact, gear: int, X: Floats) -> Floats:
     return np.asarray(bending[:-1][turns] + 1)
 
 
-def _with(found: Floats, bends: Floats) -> Floats:
+def _with_inflections(found: Floats, bends: Floats) -> Floats:
     """Insert displacements `bends`, and drop other interior ones near them."""
     if not bends.size:
         return np.asarray(found)
@@ -286,7 +286,7 @@ def _with(found: Floats, bends: Floats) -> Floats:
     return whole if found[0] < found[-1] else whole[::-1]
 
 
-def _within(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
+def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
     """Return radius and angle of a polyline that nowhere leaves the tooth.
 
     Its vertices are points of the flank where it is convex, and intersections of tangents where it is concave.

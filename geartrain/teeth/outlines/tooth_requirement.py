@@ -64,7 +64,7 @@ def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
     return MatePassage(radius[inside], aside[inside])
 
 
-def bite(tooth: ToothOutline, mate: MatePassage) -> float:
+def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     """Return the depth (modules) to which the mate's tooth cuts into the wheel's in its passage; negative for a gap.
 
     It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a
@@ -75,8 +75,8 @@ def bite(tooth: ToothOutline, mate: MatePassage) -> float:
     s = tooth.flank.outward
     deep = (tooth.half_at(mate.radius) - mate.aside) * mate.radius
     below = (tooth.root - mate.radius) * s
-    on_round = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
-    return float(np.where(below > 0, below, deep + np.where(on_round, _MARGIN, 0.0)).max())
+    on_fillet = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
+    return float(np.where(below > 0, below, deep + np.where(on_fillet, _MARGIN, 0.0)).max())
 
 
 def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
@@ -97,7 +97,7 @@ def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
 
 CLEARANCE = 0.25  # modules
 _FILLET = 0.38  # modules
-_BITES = (1e-9, 1e-6)  # modules: tolerated interference; flanks computed numerically need the second value
+_TOLERATED_DEPTHS = (1e-9, 1e-6)  # modules: tolerated interference; flanks computed numerically need the second value
 _RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg by which a root is steeper than the end of its flank
 _MINIMUM_FILLET = 1e-3  # modules
 _HALVINGS = 18  # bisections of less than 0.4 modules, to a resolution of 2e-6
@@ -271,8 +271,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
         raise _no_root(deepest)
     passages = [each.passage for each in demands]
-    for most, degree in ((most, degree) for most in _BITES for degree in _RELIEFS):
-        made = _maker(deepest, root, passages, radians(degree), most)
+    for most, degree in ((most, degree) for most in _TOLERATED_DEPTHS for degree in _RELIEFS):
+        made = _tooth_builder(deepest, root, passages, radians(degree), most)
         found = made(_FILLET if wanted is None else wanted) or _largest(made, _FILLET if wanted is None else wanted)
         if found is not None:
             return found, radians(degree)
@@ -297,7 +297,7 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
     )
 
 
-def _maker(
+def _tooth_builder(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float
 ) -> Callable[[float], ToothOutline | None]:
     """Return a function from a fillet radius to a tooth that interferes with no mate by more than `most`, or None."""
@@ -308,7 +308,7 @@ def _maker(
         if round_ is None:
             return None
         tooth = ToothOutline(z, flank, round_, widening, root)
-        return tooth if all(bite(tooth, mate) <= most for mate in mates) else None
+        return tooth if all(interference_depth(tooth, mate) <= most for mate in mates) else None
 
     return made
 

@@ -72,7 +72,7 @@ class BlankSizes:
             raise QuestionError(problems)
 
 
-def _twice(radius: float) -> float:
+def _diameter(radius: float) -> float:
     """Return the diameter of a radius."""
     return 2 * radius
 
@@ -88,7 +88,7 @@ class WheelOutline(Result):
 
     KEYS = (
         *("gear", "z", "kind", "module", "thickness", "fillet", "relief", "clearance", "backlash"),
-        *(Key(f"{name}_diameter", f"{name}_radius", _twice) for name in ("pitch", "tip", "root")),
+        *(Key(f"{name}_diameter", f"{name}_radius", _diameter) for name in ("pitch", "tip", "root")),
         *("centre_distance", "tolerance"),
     )
 
@@ -168,13 +168,13 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     (26.0, 60.0)
     """
     check_flat(pair)
-    both = _Both(pair, cut, pins)
+    both = _PairOutlines(pair, cut, pins)
     if pins is not None and gear == pins.gear:
         return both.lantern(pins)
     return both.toothed(gear)
 
 
-class _Both:
+class _PairOutlines:
     """Builder of the outlines of both wheels of a pair."""
 
     def __init__(self, pair: ConjugatePair, cut: BlankSizes, pins: LanternPins | None) -> None:
@@ -187,7 +187,7 @@ class _Both:
         wanted = None if self.cut.fillet is None else self.cut.fillet / self.cut.module
         tooth, relief = cut_tooth([self._of(gear)], wanted)
         if self.cut.fillet is not None and wanted is not None and tooth.fillet.radius < wanted:
-            raise _too_round(gear, self.cut.fillet, tooth.fillet.radius * self.cut.module)
+            raise _fillet_too_large(gear, self.cut.fillet, tooth.fillet.radius * self.cut.module)
         sizes = (tooth.flank.R, tooth.tip, tooth.root, 2 * self.pair.halves[gear - 1], tooth.fillet.radius)
         kind = "ring" if tooth.flank.outward < 0 else "external"
         return self._wheel(gear, kind, _contours(tooth, self.cut), sizes, relief)
@@ -252,7 +252,7 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
     return Contour.of(repeated(seat, z))
 
 
-def _too_round(gear: int, requested: float, fits: float) -> QuestionError:
+def _fillet_too_large(gear: int, requested: float, fits: float) -> QuestionError:
     return QuestionError(
         Problem(
             f"a fillet of {requested:g} mm does not fit the root of gear {gear}",

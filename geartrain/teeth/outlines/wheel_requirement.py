@@ -98,10 +98,10 @@ class PairRequirement:
 def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
     """Return the reason why one wheel cannot serve all its pairs; None if it can."""
     odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
-    return next((_at_odds(requested[0], other) for other in odd), None)
+    return next((_conflict(requested[0], other) for other in odd), None)
 
 
-def _at_odds(first: PairRequirement, other: PairRequirement) -> Problem:
+def _conflict(first: PairRequirement, other: PairRequirement) -> Problem:
     tips = [each.requirement.tip for each in (first, other)]
     if first.words != other.words:
         how = f"{first.words} teeth and {other.words} teeth"

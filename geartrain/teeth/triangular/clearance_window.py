@@ -115,16 +115,16 @@ class TriangularContact:
         """Verdict from the first check that fails: valley, range of contact, overhang, coast flanks, entry, exit."""
         sizes = self.sizes
         if not sizes.has_valleys:
-            return self._failed("no valley", _no_valley(sizes))
+            return self._failure("no valley", _no_valley(sizes))
         if not self.intervals:
-            return self._failed("apart", "the tips never touch: the wheels are too far apart")
-        return PairVerdict(*self._judged(), self.backlash)
+            return self._failure("apart", "the tips never touch: the wheels are too far apart")
+        return PairVerdict(*self._judgement(), self.backlash)
 
     @staticmethod
-    def _failed(kind: MeshingKind, text: str) -> PairVerdict:
+    def _failure(kind: MeshingKind, text: str) -> PairVerdict:
         return PairVerdict(kind, text, -inf)
 
-    def _judged(self) -> tuple[MeshingKind, str]:
+    def _judgement(self) -> tuple[MeshingKind, str]:
         if self.overhang:
             return "overhang", self.overhang
         if self.backlash < -_ROUNDING * self.sizes.p2:
@@ -310,16 +310,16 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
 def _window(sizes: TriangularSizes) -> ClearanceWindow:
     reach = sizes.maximum_excess
     jam = _minimum_excess(sizes)
-    leaning = _leaning_excess(sizes, jam)
-    low = max(jam, leaning)
-    clash = _stretch(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
-    still = _stretch(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
+    overhang = _overhang_excess(sizes, jam)
+    low = max(jam, overhang)
+    clash = _first_range(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
+    dwell = _first_range(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
     # equal wheels reach both limits at once, and the dwelling driven wheel admits the next tooth
-    run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < still[1] * (1 - 1e-9) else "dwell"
+    run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < dwell[1] * (1 - 1e-9) else "dwell"
     starts: dict[Literal["jam", "overhang", "clash", "dwell"], float]
-    starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "dwell": still[0]}
+    starts = {"jam": jam, "overhang": overhang, "clash": clash[0], "dwell": dwell[0]}
     jam_kind = max(starts, key=lambda kind: starts[kind])
-    return ClearanceWindow(starts[jam_kind], min(clash[1], still[1]), run_kind, reach, jam_kind, sizes.side)
+    return ClearanceWindow(starts[jam_kind], min(clash[1], dwell[1]), run_kind, reach, jam_kind, sizes.side)
 
 
 def _minimum_excess(sizes: TriangularSizes) -> float:
@@ -337,7 +337,7 @@ def _minimum_excess(sizes: TriangularSizes) -> float:
     return _first_sign_change(backlash, reach * _NEARLY_0, reach)
 
 
-def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
+def _overhang_excess(sizes: TriangularSizes, jam: float) -> float:
     """Return the excess up to which the path reaches an overhanging flank; 0 if it does not where the pair ceases to
     jam.
     """
@@ -345,15 +345,15 @@ def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
     # at the jam limit itself the backlash is 0 except for rounding
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
 
-    def stands(excess: float) -> float:
+    def margin(excess: float) -> float:
         return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0  # a step function: `root` bisects
 
-    if low >= reach or not any(sizes.at(low).lean) or stands(low) > 0:
+    if low >= reach or not any(sizes.at(low).lean) or margin(low) > 0:
         return 0.0
-    return _first_sign_change(stands, low, reach)
+    return _first_sign_change(margin, low, reach)
 
 
-def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
+def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
     """Return the first range of excess in which `margin` is positive.
 
     The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.

@@ -94,9 +94,9 @@ class RealPath:
         for phase, low, high in ((RECESS, last, matching), (APPROACH, matching, first)):
             if high > low:
                 found += self._cut(phase, low, high)
-        return [*self._slips(), *found] if self.slips else found
+        return [*self._slip_pieces(), *found] if self.slips else found
 
-    def _slips(self) -> Iterator[MonotonePiece]:
+    def _slip_pieces(self) -> Iterator[MonotonePiece]:
         """Yield the contacts with overhanging flanks on the exit side."""
         sizes = self.sizes
         for phase, low, high in ((RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit)):
@@ -128,9 +128,9 @@ class RealPath:
     @cached_property
     def branches(self) -> list[MonotonePiece]:
         """Parts of the pieces, at most one pitch long, on which a tooth pair can be the lowest of its piece."""
-        return [branch for piece in self.pieces for branch in self._lowest(piece)]
+        return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
-    def _lowest(self, piece: MonotonePiece) -> list[MonotonePiece]:
+    def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
         low, high, pitch = piece.low, piece.high, self.pitch
         if high - low <= pitch:
             return [piece]
@@ -170,10 +170,10 @@ class RealPath:
         if last - first < 4 or not piece.convex:
             return {k for k in (first, first + 1, last - 1, last) if first <= k <= last}
         # two tooth pairs on either side of the minimum instead of one, as rounding may shift it
-        bottom = round((self._bottom(piece) - t) / self.pitch)
-        return {k for k in range(bottom - 2, bottom + 3) if first <= k <= last} | {first, last}
+        nearest = round((self._minimiser(piece) - t) / self.pitch)
+        return {k for k in range(nearest - 2, nearest + 3) if first <= k <= last} | {first, last}
 
-    def _bottom(self, piece: MonotonePiece) -> float:
+    def _minimiser(self, piece: MonotonePiece) -> float:
         """Return the minimiser of g in a convex piece."""
         low, high = piece.low, piece.high
         if self.slope(piece.phase, low) >= 0:
@@ -197,9 +197,9 @@ class RealPath:
         for early, late in pairwise(sorted(cuts)):
             if late - early > _ROUNDING * self.pitch:
                 found += self._cell(base - early, base - late)
-        return self._closed(_joined(found))
+        return self._with_whole_first(_join_neighbours(found))
 
-    def _closed(self, found: list[DriveInterval]) -> list[DriveInterval]:
+    def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
         """Shift the period so that it begins where an interval begins, not within one."""
         if not found:
             return found
@@ -279,7 +279,7 @@ class RealPath:
             yield bracketed_root(difference, slope, c, d) - i * self.pitch
 
 
-def _joined(cells: list[DriveInterval]) -> list[DriveInterval]:
+def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
     """Join neighbouring intervals of the same tooth pair and phase."""
     found: list[DriveInterval] = []
     for cell in cells:
@@ -345,10 +345,10 @@ def drag(path: RealPath) -> DraggedPath:
         return DraggedPath((), 0.0, inf)
     first = min(range(len(envelope)), key=lambda at: _minimum(path, envelope[at])) if len(envelope) > 1 else 0
     order = [*envelope[first:], *(_next_pitch(each) for each in envelope[:first])]
-    walk = _Walk(path, order[0])
+    traversal = _PitchTraversal(path, order[0])
     for interval in (*order[1:], _next_pitch(order[0])):
-        walk.on_to(interval)
-    return walk.result()
+        traversal.append(interval)
+    return traversal.result()
 
 
 def _next_pitch(interval: DriveInterval) -> DriveInterval:
@@ -361,7 +361,7 @@ def _minimum(path: RealPath, interval: DriveInterval) -> float:
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
-class _Walk:
+class _PitchTraversal:
     """Traversal of one pitch, from the lowest point of the envelope to the same point again."""
 
     def __init__(self, path: RealPath, first: DriveInterval) -> None:
@@ -372,22 +372,22 @@ class _Walk:
         self.clash = self.lost = 0.0
         self.arrested = False
 
-    def on_to(self, interval: DriveInterval) -> None:
+    def append(self, interval: DriveInterval) -> None:
         """Append the next interval of the envelope: join it, dwell until it reaches the driven wheel, or clash with its
         tip.
         """
         last = self.held or self.done[-1]
-        y = self._standing(last, interval)
-        leap = self.path.tooth_pair.angle(interval.phase, interval.start) - y
+        y = self._dwell_angle(last, interval)
+        step = self.path.tooth_pair.angle(interval.phase, interval.start) - y
         gap = last.end - interval.start + (interval.tooth_pair - last.tooth_pair) * self.path.pitch
-        if leap < -self.small:
+        if step < -self.small:
             # a tooth that enters ahead of its mate while no other touches passes it, and its push ends
             self.arrested |= gap > self.gap
-            self.clash = self.clash if gap > self.gap else max(self.clash, -leap)
-        if self.held is None and (leap > self.small or gap > self.gap):
+            self.clash = self.clash if gap > self.gap else max(self.clash, -step)
+        if self.held is None and (step > self.small or gap > self.gap):
             self.held = last
-            self.lost += max(leap, 0.0)
-        if self.held is not None and leap > self.small:
+            self.lost += max(step, 0.0)
+        if self.held is not None and step > self.small:
             # an interval that ends above the driven wheel never reaches it
             if self.path.tooth_pair.angle(interval.phase, interval.end) >= y:
                 return
@@ -399,15 +399,15 @@ class _Walk:
             )
             interval = DriveInterval(interval.phase, start, interval.end, interval.tooth_pair)
         if self.held is not None:
-            self._stand_until(interval)
+            self._dwell_until(interval)
         self.done.append(interval)
 
-    def _standing(self, last: DriveInterval, interval: DriveInterval) -> float:
+    def _dwell_angle(self, last: DriveInterval, interval: DriveInterval) -> float:
         """Return the angle at which `last` left the driven wheel, as alpha_2 of the tooth pair of `interval`."""
         y = self.path.tooth_pair.angle(last.phase, last.end)
         return float(y + (interval.tooth_pair - last.tooth_pair) * self.path.sizes.p2)
 
-    def _stand_until(self, interval: DriveInterval) -> None:
+    def _dwell_until(self, interval: DriveInterval) -> None:
         last, self.held = self.held, None
         assert last is not None
         end = interval.start + (last.tooth_pair - interval.tooth_pair) * self.path.pitch

@@ -51,7 +51,7 @@ class ToothPair:
 
     # ------------------------------------------------------------------------------------------------------- approach
 
-    def _line(self, x: Any, m: ModuleType) -> FlankLine:
+    def _flank_line(self, x: Any, m: ModuleType) -> FlankLine:
         """Compute the contact values in approach at x."""
         # half angles: 1 - cos x would cancel near the line of centres
         u, w = m.sin(x / 2), m.cos(x / 2)
@@ -65,7 +65,7 @@ class ToothPair:
 
     def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
         """Return alpha_2 in approach, Eq. (7)."""
-        return self._angle_on_flank(self._line(x, m), m)
+        return self._angle_on_flank(self._flank_line(x, m), m)
 
     def _angle_on_flank(self, line: FlankLine, m: ModuleType) -> Any:
         _, sin_psi, cos_psi, c, s, q = line
@@ -84,7 +84,7 @@ class ToothPair:
         """Return the distances of both centres from the common normal in approach; the second is O2C cos(psi) of Eq.
         (11).
         """
-        return self._arms_on_flank(self._line(x, m))
+        return self._arms_on_flank(self._flank_line(x, m))
 
     def _arms_on_flank(self, line: FlankLine) -> tuple[Any, Any]:
         u, _, cos_psi, _, _, q = line
@@ -92,7 +92,7 @@ class ToothPair:
 
     def approach_speed(self, x: Any, m: ModuleType = math) -> Any:
         """Return the speed ratio tau in approach, Eq. (12)."""
-        return self._speed_on_flank(self._line(x, m))
+        return self._speed_on_flank(self._flank_line(x, m))
 
     def _speed_on_flank(self, line: FlankLine) -> Any:
         first, second = self._arms_on_flank(line)
@@ -100,7 +100,7 @@ class ToothPair:
 
     def approach_slope(self, x: Any, m: ModuleType = math) -> Any:
         """Return d tau / d alpha_1 in approach: (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]."""
-        u, sin_psi, cos_psi, _, s, q = self._line(x, m)
+        u, sin_psi, cos_psi, _, s, q = self._flank_line(x, m)
         more = 1 + self._driver_arm(u, cos_psi, q) / (self.R2 * q)
         return self.side * more * (more * s / q - sin_psi / cos_psi)
 
@@ -109,7 +109,7 @@ class ToothPair:
 
         The efficiency with wheel 1 driving is eta = (1 - f side tan2) / (1 - f side tan1).
         """
-        u, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        u, sin_psi, cos_psi, c, s, q = self._flank_line(x, m)
         side = self.side * m.copysign(1.0, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
         mirror = self.mirror
         return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
@@ -119,13 +119,13 @@ class ToothPair:
 
         It is R2 |sin y| / cos psi, the distance from C, times 1 + tau.
         """
-        _, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        _, sin_psi, cos_psi, c, s, q = self._flank_line(x, m)
         # (1 + tau) / cos psi is D over the distance of the driven axis from the normal
         return abs(self.D) * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
 
     # --------------------------------------------------------------------------------------------------------- recess
 
-    def _apex(self, x: Any, m: ModuleType) -> DrivenApex:
+    def _driven_apex(self, x: Any, m: ModuleType) -> DrivenApex:
         """Compute the contact values in recess at x."""
         u = m.sin(x / 2)
         sine, cosine = 2 * u * m.cos(x / 2), 1 - 2 * u * u
@@ -143,10 +143,10 @@ class ToothPair:
 
     def recess_angle(self, x: Any, m: ModuleType = math) -> Any:
         """Return alpha_2 in recess, Eq. (17) with its quadrants."""
-        *_, sin_y, cos_y = self._apex(x, m)
+        *_, sin_y, cos_y = self._driven_apex(x, m)
         return self.side * m.atan2(sin_y, cos_y)
 
-    def _turned(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
+    def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
         """Return arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, and sine of x."""
         sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
@@ -156,15 +156,15 @@ class ToothPair:
         """Return the distances of both centres from the common normal in recess; the first is O1C cos(psi2) of Eq.
         (18).
         """
-        return self._arms_at_apex(self._apex(x, m))
+        return self._arms_at_apex(self._driven_apex(x, m))
 
     def _arms_at_apex(self, apex: DrivenApex) -> tuple[Any, Any]:
-        arm, q, *_ = self._turned(apex)
+        arm, q, *_ = self._apex_directions(apex)
         return self.mirror * self.R1 * q, self.sign2 * arm
 
     def recess_speed(self, x: Any, m: ModuleType = math) -> Any:
         """Return the speed ratio tau in recess, Eq. (19)."""
-        return self._speed_at_apex(self._apex(x, m))
+        return self._speed_at_apex(self._driven_apex(x, m))
 
     def _speed_at_apex(self, apex: DrivenApex) -> Any:
         first, second = self._arms_at_apex(apex)
@@ -176,36 +176,36 @@ class ToothPair:
         In reversed motion the driven wheel meets the driver in approach at the ratio 1/tau. The result is the slope of
         that motion times tau cubed.
         """
-        arm, q, s, sin_psi, cos_psi, _ = self._turned(self._apex(x, m))
+        arm, q, s, sin_psi, cos_psi, _ = self._apex_directions(self._driven_apex(x, m))
         tau = self.R1 * q / arm
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def recess_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
         """Return the side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
-        arm, q, s, _, _, sine = self._turned(self._apex(x, m))
+        arm, q, s, _, _, sine = self._apex_directions(self._driven_apex(x, m))
         mirror = self.mirror
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def recess_sliding(self, x: Any, m: ModuleType = math) -> Any:
         """Return the sliding velocity in recess over the driver's angular speed: R1 |sin x| (1 + tau) / cos psi2."""
-        sine, _, arm, _, _ = self._apex(x, m)
+        sine, _, arm, _, _ = self._driven_apex(x, m)
         return abs(self.D * self.R1 * sine / arm)
 
     # ------------------------------------------------------------------------------------------------------- returning
 
     def return_angle(self, x: Any, m: ModuleType = math) -> Any:
         """Return alpha_2 where the driven apex leaves the driver's overhanging flank past the exit: the second root."""
-        _, sin_psi, cos_psi, _, s, _ = self._line(-x, m)
+        _, sin_psi, cos_psi, _, s, _ = self._flank_line(-x, m)
         return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
 
     def return_speed(self, x: Any, m: ModuleType = math) -> Any:
         """Return d alpha_2 / d alpha_1 of the return phase, which is below 0."""
-        _, _, cos_psi, _, _, q = self._line(-x, m)
+        _, _, cos_psi, _, _, q = self._flank_line(-x, m)
         return -1 - self.D * cos_psi / (self.R2 * q)
 
     def return_slope(self, x: Any, m: ModuleType = math) -> Any:
         """Return the second derivative of alpha_2 by alpha_1 in the return phase."""
-        _, sin_psi, cos_psi, _, s, q = self._line(-x, m)
+        _, sin_psi, cos_psi, _, s, q = self._flank_line(-x, m)
         more = self.D * cos_psi / (self.R2 * q)
         return more * (more * s / q - sin_psi / cos_psi)
 
@@ -228,9 +228,9 @@ class ToothPair:
         if phase == RETURN:
             return self.return_angle(x, m), self.return_speed(x, m)
         if phase == APPROACH:
-            line = self._line(x, m)
+            line = self._flank_line(x, m)
             return self._angle_on_flank(line, m), self._speed_on_flank(line)
-        apex = self._apex(x, m)
+        apex = self._driven_apex(x, m)
         *_, sin_y, cos_y = apex
         return self.side * m.atan2(sin_y, cos_y), self._speed_at_apex(apex)
 

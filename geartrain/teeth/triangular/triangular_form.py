@@ -25,7 +25,7 @@ _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
 FEWEST = 3
-_UNLIKE = 10  # maximum factor between the ratio of radii and the ratio of tooth numbers
+_MAXIMUM_QUOTIENT = 10  # maximum factor between the ratio of radii and the ratio of tooth numbers
 _THINNEST = 0.001 / 360  # turn: the valleys of thinner teeth vanish in rounding
 TRIANGULAR_SCOPE = (
     "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate wheel is treated as a spur wheel"
@@ -125,7 +125,7 @@ class Triangular(ToothForm):
                 )
 
     def _check_lengths(self) -> None:
-        if isinstance(self.radii, Figure) and not 1 / _UNLIKE <= self.radii.value <= _UNLIKE:
+        if isinstance(self.radii, Figure) and not 1 / _MAXIMUM_QUOTIENT <= self.radii.value <= _MAXIMUM_QUOTIENT:
             raise PydanticCustomError(
                 "radii",
                 "a ratio of radii of {text} is out of range",
@@ -247,7 +247,7 @@ class Triangular(ToothForm):
         if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
             what = f"a ring of {(z1, z2)[ring - 1]} teeth cannot contain a wheel of {(z2, z1)[ring - 1]} teeth"
             raise refused(what, "it needs at least one tooth more than its pinion", "give the ring more teeth")
-        sizes = self._placed(self._unplaced(z1, z2, ring), pitch_distance)
+        sizes = self._sizes_at_clearance(self._sizes_at_deepest(z1, z2, ring), pitch_distance)
         if sizes.surrounds:
             raise refused(
                 "the teeth overlap at every angle",
@@ -256,7 +256,7 @@ class Triangular(ToothForm):
             )
         return sizes
 
-    def _unplaced(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
+    def _sizes_at_deepest(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
         """Return the sizes of the two wheels at the distance at which a tip touches the bottom of a space."""
         from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 
@@ -272,17 +272,17 @@ class Triangular(ToothForm):
             R1, R2 = (radius.si for radius in radii)
         return TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0, ring)
 
-    def _placed(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
+    def _sizes_at_clearance(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
         """Return the sizes at the declared clearance, in m if a pitch distance is given."""
         from geartrain.teeth.triangular.clearance_window import excess_of_backlash
 
         if not sizes.has_valleys:
-            return sizes.at(self._factor(sizes))
+            return sizes.at(self._declared_excess(sizes))
         if not self._given_radii and pitch_distance is not None:
             scale = pitch_distance / sizes.deepest_distance
             sizes = replace(sizes, R1=sizes.R1 * scale, R2=sizes.R2 * scale)
         if self.clearance_factor is not None or self.excess is not None:
-            return sizes.at(self._factor(sizes))
+            return sizes.at(self._declared_excess(sizes))
         if self.window is not None:
             window = sizes_window(sizes)
             return sizes.at(window.at(float(self.window.value)))
@@ -298,7 +298,7 @@ class Triangular(ToothForm):
             return sizes.at(sizes.side * (self.centre_distance.si / sizes.deepest_distance - 1))
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
-    def _factor(self, sizes: TriangularSizes) -> float:
+    def _declared_excess(self, sizes: TriangularSizes) -> float:
         """Return the declared excess, subtracted exactly before rounding. Raises `GearTrainError` if it is not
         positive.
         """

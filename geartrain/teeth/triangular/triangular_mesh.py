@@ -32,8 +32,8 @@ _WORDS = (
     "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
     "wheel, mean sliding efficiency at constant driver torque, relative jumps of normal velocity at collisions."
 )
-_PLACE = ("pair", "drives", "clearance factor", "window", "verdict")
-_TRANSMISSION = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+_CLEARANCE_HEADER = ("pair", "drives", "clearance factor", "window", "verdict")
+_TRANSMISSION_HEADER = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
 _WINDOW = (
     *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
     *(Key("reach", "reach_factor"), "works"),
@@ -187,7 +187,10 @@ class TriangularMesh(GearMesh):
     def account(self) -> PairAccount:
         """Report the clearance, the transmission function and the collisions of the pair."""
         figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
-        tables = AccountTable(_PLACE, _place_row(self)), AccountTable(_TRANSMISSION, _transmission_row(self, figures))
+        tables = (
+            AccountTable(_CLEARANCE_HEADER, _clearance_row(self)),
+            AccountTable(_TRANSMISSION_HEADER, _transmission_row(self, figures)),
+        )
         return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
@@ -224,7 +227,7 @@ class TriangularFigures(PairFigures):
     """Energy losses of the collisions, if the operating speed of the pair is declared; else None."""
 
 
-def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
+def _clearance_row(mesh: TriangularMesh) -> tuple[str, ...]:
     transmission, window = mesh.transmission, mesh.window
     where = (
         "-"

@@ -103,7 +103,7 @@ class TriangularTransmission(TransmissionFunction):
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Return sliding and friction of the single tooth pair in contact; NaN in a dwell."""
-        return ContactRubbing(*(each[None] for each in self._map_all(S, self._rubs, 3)))
+        return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
         """Return the sliding velocity over the pitch-line velocity.
@@ -131,7 +131,7 @@ class TriangularTransmission(TransmissionFunction):
         """
         return self.friction if by is None else by(self.sliding(phase, x))
 
-    def _rubs(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
+    def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
         """Return sliding over pitch-line velocity, and the friction terms of the powers that enter and leave."""
         if interval.held is not None:
             return nan, nan, nan
@@ -192,7 +192,7 @@ class TriangularTransmission(TransmissionFunction):
                 each[chosen] = value
 
     @cached_property
-    def _driven(self) -> tuple[DriveInterval, ...]:
+    def _drive_intervals(self) -> tuple[DriveInterval, ...]:
         """Drive intervals of the real path. Raises `RangeError` for a pair without one."""
         if not self.intervals:
             fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
@@ -202,13 +202,13 @@ class TriangularTransmission(TransmissionFunction):
     @cached_property
     def _start(self) -> float:
         """Start of the first interval, as an angle within the pitch from the line of centres (rad)."""
-        first = self._driven[0]
+        first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
     @cached_property
     def _edges(self) -> Floats:
         """Driver angles from the start of the first interval to the edges of all intervals (rad)."""
-        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._driven])))
+        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._drive_intervals])))
 
     def kinks(self) -> list[float]:
         """Return the driver angles (rad) at the ends of all smooth stretches."""
@@ -242,7 +242,7 @@ class TriangularTransmission(TransmissionFunction):
         """Smooth stretches: the intervals cut at kinks, at extremes of tau, and at the line of centres."""
         return [
             (interval, high, low)
-            for interval in self._driven
+            for interval in self._drive_intervals
             for high, low in pairwise(sorted({interval.start, interval.end, *self._kinks(interval)}, reverse=True))
         ]
 
@@ -268,9 +268,9 @@ class TriangularTransmission(TransmissionFunction):
     @cached_property
     def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
         """Quadrature nodes in alpha_1 of each stretch, and weights whose sum over all stretches is 1."""
-        return [node for stretch in self.stretches for node in self._graded(self._tau, *stretch)]
+        return [node for stretch in self.stretches for node in self._adaptive_nodes(self._tau, *stretch)]
 
-    def _graded(
+    def _adaptive_nodes(
         self,
         what: Callable[[DriveInterval, Floats], Any],
         interval: DriveInterval,
@@ -290,23 +290,23 @@ class TriangularTransmission(TransmissionFunction):
         if abs(finer - whole) <= _ROUNDING * max(self.sizes.ratio, abs(finer)) or depth == _DEEPEST:
             return [(interval, x, weights)]
         ends = ((high, middle), (middle, low))
-        return [node for pair in ends for node in self._graded(what, interval, *pair, depth + 1)]
+        return [node for pair in ends for node in self._adaptive_nodes(what, interval, *pair, depth + 1)]
 
     def _gauss(self, high: float, low: float) -> tuple[Floats, Floats]:
         points, weights = _GAUSS
         return (high + low) / 2 + (high - low) / 2 * points, (high - low) / 2 / self.period * weights
 
-    def _ends(self, what: Callable[[DriveInterval, Any], Any]) -> list[float]:
+    def _end_values(self, what: Callable[[DriveInterval, Any], Any]) -> list[float]:
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and maximum of tau, which is monotonic on each stretch."""
-        ends = self._ends(self._tau)
+        ends = self._end_values(self._tau)
         return min(ends), max(ends)
 
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and maximum transmission error (rad of the driven wheel)."""
-        lags = self._ends(self._lag)
+        lags = self._end_values(self._lag)
         for interval, high, low in self.stretches:
             if interval.held is None:
                 lags += self.contact.path.extremes(interval.phase, low, high)
@@ -344,7 +344,7 @@ class TriangularTransmission(TransmissionFunction):
         Nodes are graded for `what` itself, because 1/eta is steeper than tau near the locking friction.
         """
         stretches = [stretch for stretch in self.stretches if stretch[0].held is None]
-        held = [node for stretch in stretches for node in self._graded(what, *stretch)]
+        held = [node for stretch in stretches for node in self._adaptive_nodes(what, *stretch)]
         whole = sum(float(weights.sum()) for _, _, weights in held)
         return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
 
@@ -387,7 +387,9 @@ class TriangularTransmission(TransmissionFunction):
     def jumps(self) -> list[SpeedJump]:
         """Collisions of one pitch, in order of time."""
         found = []
-        for last, new in zip(self._driven, (*self._driven[1:], self._driven[0]), strict=True):
+        for last, new in zip(
+            self._drive_intervals, (*self._drive_intervals[1:], self._drive_intervals[0]), strict=True
+        ):
             if new.held is not None:
                 continue
             before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)

@@ -644,7 +644,7 @@ def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str
     ("given", "teeth", "wheels", "words"),
     [
         ({"form": "involute"}, (2, 30), {}, "2 teeth"),
-        ({"form": "involute"}, (30, 30), {"internal": True}, "does not hold"),
+        ({"form": "involute"}, (30, 30), {"internal": True}, "cannot contain"),
         ({"form": "involute"}, (30, 60), {"internal": True, "shaft_angle": 1.0}, "parallel"),
         ({"form": "involute"}, (30, 60), {"shaft_angle": 4.0}, "shaft angle"),
         ({"form": "involute", "shift": "0.3"}, (30, 60), {"shaft_angle": RIGHT}, "sum to 0"),

@@ -154,7 +154,7 @@ def collect_torque_report(
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
     >>> data = collect_torque_report(train, [train.torques()]).to_dict()
     >>> data["states"][0]["links"]["a"]
-    {'torque': 1.5, 'power': 1.5, 'asked': True}
+    {'torque': 1.5, 'power': 1.5, 'requested': True}
     """
     states = tuple(collect_torques(train, each) for each in found)
     return TorqueReport(train.name, train.declaration.title, states, over_turn, friction_trials)

@@ -280,7 +280,7 @@ def test_what_is_cut_has_the_standards_tips(clock: GearTrain) -> None:
 # without a line for it anywhere else ---------------------------------------------------------------------------------
 
 
-def test_the_command_of_the_form_tells_what_its_transmission_does() -> None:
+def test_the_command_of_the_form_tells_what_its_law_does() -> None:
     data = json.loads(call("mesh", "circular_arc", "--teeth", "60", "8", "--friction", "0.15", "--json").output)
     transmission = FORM.transmission(60, 8, 0.15)
     low, high = transmission.error_range()

@@ -378,7 +378,7 @@ class Motion:
 
         Returns
         -------
-        CornerPositions
+        KinkPositions
             Turns from the lesser to the greater of the two, both included, in ascending order, with the pair at each.
 
         Raises

@@ -65,8 +65,7 @@ class Triangular(ToothForm):
     )
     excess: Figure | None = Field(
         None,
-        description="Difference between clearance factor and 1, above 0: clearance factor minus 1, or 1 minus "
-        "clearance factor with a ring",
+        description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor",
     )
     backlash: Length | None = Field(
         None, description="Minimum backlash over a pitch, as an arc of the second wheel's pitch circle"
@@ -94,7 +93,7 @@ class Triangular(ToothForm):
                     {
                         "angle": angle.text,
                         "within": within,
-                        "fix": "give a half aperture angle of at least 0.001 deg and below 90 deg",
+                        "fix": "give a half aperture angle between 0 and 90 deg, at least 0.001 deg",
                     },
                 )
         given = [name for name in _CLEARANCES if getattr(self, name) is not None]

@@ -94,7 +94,8 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     --------
     >>> import geartrain
     >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["pitch_deviation=2 %"]), ("moon",))
+    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
     >>> found = MonteCarloResult(run_trials(plan, trials=2, seed=1))
     >>> monte_carlo_figure(found, "convergence").axes[0].get_ylabel()
     'probability of a jam'

@@ -32,8 +32,9 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     --------
     >>> import geartrain
     >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["pitch_deviation=2 %"]), ("moon",))
-    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).lead[0]
+    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
+    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).summary[0]
     '2 trials, seed 1; intervals hold with 95 %.'
     """
     trials = found.trials

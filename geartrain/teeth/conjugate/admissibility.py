@@ -247,8 +247,8 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
                 gear,
                 (-1 if gear == 1 else 1) * arc,
                 f"gear {gear} is undercut",
-                f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules, but contact extends "
-                f"down to {lowest:.6g}",
+                f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules, but contact "
+                f"extends down to {lowest:.6g}",
                 f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}",
             )
 

@@ -168,7 +168,7 @@ class ConjugateTransmission(ExactRatio):
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at which a tooth pair enters or leaves contact or passes a kink of the path."""
+        """Return the driver angles (rad) at which a tooth pair begins or ends contact or passes a kink of its path."""
         approach, recess = self.path.approach, self.path.recess
         if self.driver == 2:
             approach, recess = recess, approach

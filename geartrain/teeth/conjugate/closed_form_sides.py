@@ -294,12 +294,12 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
     grid = np.linspace(0, far, _SCAN)[1:]
     speeds = np.array([speed(beta) for beta in grid])
-    still = np.flatnonzero(speeds <= 0)
-    if still.size == 0:
+    reversed_speeds = np.flatnonzero(speeds <= 0)
+    if reversed_speeds.size == 0:
         # at 0 itself L is |A - R|, which may be 0, and the speed is then undefined
         minimum = 1e-9 * far
         return root(speed, minimum, grid[0], speed(minimum), speeds[0]) if speed(minimum) < 0 else None
-    at = int(still[-1])
+    at = int(reversed_speeds[-1])
     return far if at == len(grid) - 1 else root(speed, grid[at], grid[at + 1], speeds[at], speeds[at + 1])
 
 

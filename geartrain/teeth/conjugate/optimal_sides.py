@@ -149,6 +149,7 @@ def _corrected_end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
         if abs(sine) >= 1:
             return (piece.end + end) / 2
         step = (float(piece.travel(np.array(end))) - X) * sqrt(1 - sine * sine)
+        # the first step is the result if later ones would leave the range of the series
         first = first or step
         if not v.start < end - step <= most:
             return piece.end - first

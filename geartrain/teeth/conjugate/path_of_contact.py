@@ -212,16 +212,16 @@ class PathSide:
                 break
         return d
 
-    def _by_piece(self, d: Floats, ask: Callable[[PathPiece, Floats], Floats]) -> Floats:
+    def _by_piece(self, d: Floats, evaluate: Callable[[PathPiece, Floats], Floats]) -> Floats:
         d = np.asarray(d, dtype=float)
         if len(self.pieces) == 1:
-            return ask(self.pieces[0], d)
+            return evaluate(self.pieces[0], d)
         found = np.empty(d.shape)
         which = np.clip(np.searchsorted(self.joints[:-1], d, side="right"), 0, len(self.pieces) - 1)
         for at, piece in enumerate(self.pieces):
             here = which == at
             if here.any():
-                found[here] = ask(piece, d[here])
+                found[here] = evaluate(piece, d[here])
         return found
 
 

@@ -61,6 +61,7 @@ class AxlePlacement:
         inside = ((radii <= most + slack) & (radii >= minimum - slack)).any(axis=0)
         if not inside.any():
             return -1.0
+        # one grid step beyond the last sample in range
         return float(b[0, inside].max() + np.pi / 720)
 
 
@@ -307,14 +308,14 @@ class FirstTouchSearch(FlankSegmentation):
         within = np.isnan(segments.v)
         v = np.where(within, self.second.guess(piece, r)[0], segments.v)
         # where the piece is stationary a single Newton step is not reliable
-        still = within & self.second.near_stall(piece, v)
-        v[still] = self.second.inverse(piece[still], r[still])
+        stationary = within & self.second.near_stall(piece, v)
+        v[stationary] = self.second.inverse(piece[stationary], r[stationary])
         radius, rise = value(self.second.radius, piece, v)
         azimuth, turn = value(self.second.azimuth, piece, v)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = turn / rise
             # elsewhere one Newton step replaces the inversion; at an end of the piece no correction is needed
-            correction = np.where(within & ~still, slant * (r - radius), 0.0)
+            correction = np.where(within & ~stationary, slant * (r - radius), 0.0)
             return segments.polar2[1] - azimuth - correction, segments.polar2[3] - slant * segments.polar2[2]
 
     # ------------------------------------------------------------------------------------------------------ exactly

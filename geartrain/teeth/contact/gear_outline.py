@@ -390,9 +390,9 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
     # just inside the piece the slope is the second derivative times the distance from the end, of sign -end
     second = -end * (powers * (powers - 1) * signs * end @ piece.coefficients)
     # azimuth times radius is a length, as the radius is
-    round_ = np.array([1.0, float(piece.coefficients[0, 0])])
-    chosen = first if np.hypot(*(first * round_)) > _STILL * np.hypot(*(second * round_)) else second
-    found: Floats = chosen * round_ / np.hypot(*(chosen * round_))
+    scale = np.array([1.0, float(piece.coefficients[0, 0])])
+    chosen = first if np.hypot(*(first * scale)) > _STILL * np.hypot(*(second * scale)) else second
+    found: Floats = chosen * scale / np.hypot(*(chosen * scale))
     return found
 
 

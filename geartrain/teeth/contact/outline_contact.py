@@ -85,6 +85,7 @@ class OutlinePair:
         In the mirror image teeth are numbered backwards.
         """
         pitch = self.first.pitch
+        # pitch deviations may shift teeth into the window from either side
         slack = 2 * max(map(abs, self.first.turns), default=0.0)
         lowest = np.ceil((self.window[0] - slack - rest) / pitch).astype(int)
         number = max(0, ceil((self.window[1] - self.window[0] + 2 * slack) / pitch) + 1)

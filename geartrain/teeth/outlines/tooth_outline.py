@@ -127,22 +127,22 @@ class ToothOutline:
         far = abs(centre)
         # avoids a division by 0
         cosine = (radius**2 + far**2 - self.fillet.radius**2) / (2 * np.maximum(radius, 1e-300) * far)
-        round_ = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
-        return np.asarray(np.where(radius * s < r[0] * s, round_, edge))
+        on_fillet = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
+        return np.asarray(np.where(radius * s < r[0] * s, on_fillet, edge))
 
     def _half(self) -> list[tuple[float, float, float]]:
         """Return vertices with bulges from root to tip, on the side of positive y."""
         fillet = self.fillet
         half = self.widening + self.flank.angle
         flank = zip((self.flank.r * np.cos(half)).tolist(), (self.flank.r * np.sin(half)).tolist(), strict=True)
-        round_ = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
+        bulge = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
         end = fillet.end
         if pi / self.z - fillet.half < _MEETING:  # two fillets meet in the middle of the space
             end = self.root * cos(pi / self.z), self.root * sin(pi / self.z)
-        return [(*end, round_), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
+        return [(*end, bulge), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
 
     def whole(self) -> Contour:
-        """Return the contour of all teeth round the axle, counter-clockwise, the first tooth about the x axis."""
+        """Return the contour of all teeth around the axle, counter-clockwise, the first tooth about the x axis."""
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
@@ -161,7 +161,7 @@ class ToothOutline:
 
 
 def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
-    """Yield the vertices of z teeth round the axle, from the vertices of one.
+    """Yield the vertices of z teeth around the axle, from the vertices of one.
 
     Parameters
     ----------
@@ -259,6 +259,7 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
     cost = np.concatenate(([0.0], np.cumsum(np.sqrt(turned * length / (8 * tolerance)))))
     # a share proportional to length gives points to straight parts also
     cost += np.linspace(0, 0.02 * cost[-1] + 1e-9, len(cost))
+    # 20 % more points than estimated, for curvature that varies within a piece
     count = max(_FEWEST, ceil(1.2 * cost[-1])) + 1
     found = np.interp(np.linspace(0, cost[-1], count), cost, X)
     return _with_inflections(found, X[_inflections(path, gear, X)])
@@ -298,18 +299,18 @@ def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> 
     middle, turned = _polar(path, gear, (X[1:] + X[:-1]) / 2)
     chord = points[1:] - points[:-1]
     # distance of the middle of a piece from its chord, away from the space
-    beside = _cross(chord, middle * np.exp(1j * turned) - points[:-1]) / np.abs(chord) * -outward
+    sagitta = _cross(chord, middle * np.exp(1j * turned) - points[:-1]) / np.abs(chord) * -outward
     det = _cross(ways[:-1], ways[1:])
-    hollow = (beside > _STRAIGHT) & (np.abs(det) > _STRAIGHT)
-    if not hollow.any():
+    concave = (sagitta > _STRAIGHT) & (np.abs(det) > _STRAIGHT)
+    if not concave.any():
         return r, angle
-    reach = _cross(chord, ways[1:]) / np.where(hollow, det, 1.0)
+    reach = _cross(chord, ways[1:]) / np.where(concave, det, 1.0)
     corners = points[:-1] + reach * ways[:-1]
     line = [points[0]]
-    for k, bent in enumerate(hollow.tolist()):
+    for k, bent in enumerate(concave.tolist()):
         # between two concave pieces the tangent point is on the line from corner to corner
         line += [corners[k]] if bent else []
-        line += [] if bent and k + 1 < len(hollow) and hollow[k + 1] else [points[k + 1]]
+        line += [] if bent and k + 1 < len(concave) and concave[k + 1] else [points[k + 1]]
     found = np.array(line)
     return np.abs(found), np.angle(found)
 
@@ -329,6 +330,6 @@ def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[
     lean = np.arctan2(x, y * up)  # angle of the radius to the contact, from the line of centres towards +x
     # unit vectors along the radius and across it towards +x; the flank runs along (-sine, cosine)
     along = -sine * np.sin(lean) + cosine * up * np.cos(lean)
-    beside = (-sine * np.cos(lean) - cosine * up * np.sin(lean)) * (1 if gear == 1 else -1)
+    across = (-sine * np.cos(lean) - cosine * up * np.sin(lean)) * (1 if gear == 1 else -1)
     rootward = np.where(along > 0, -outward, outward)
-    return rootward * along, rootward * beside
+    return rootward * along, rootward * across

@@ -91,6 +91,7 @@ def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
         if mate.ring:
             cosine = (distance**2 + far**2 - tip**2) / (2 * abs(distance) * far)
         reach = acos(min(max(cosine, -1.0), 1.0))
+    # margin for the width of the tooth itself
     reach = min(reach + 1.5 * pi / mate.z, pi)
     return np.linspace(-reach, reach, 2 * int(reach * mate.z * _STEPS / (2 * pi)) + 1)
 
@@ -271,6 +272,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
         raise _no_root(deepest)
     passages = [each.passage for each in demands]
+    # every relief is tried at the strict tolerance before the loose one
     for most, degree in ((most, degree) for most in _TOLERATED_DEPTHS for degree in _RELIEFS):
         made = _tooth_builder(deepest, root, passages, radians(degree), most)
         found = made(_FILLET if wanted is None else wanted) or _largest(made, _FILLET if wanted is None else wanted)
@@ -304,10 +306,10 @@ def _tooth_builder(
     flank, widening, z = own.flank, own.widening, own.z
 
     def made(radius: float) -> ToothOutline | None:
-        round_ = fillet(flank, widening, root, radius, z, relief)
-        if round_ is None:
+        root_fillet = fillet(flank, widening, root, radius, z, relief)
+        if root_fillet is None:
             return None
-        tooth = ToothOutline(z, flank, round_, widening, root)
+        tooth = ToothOutline(z, flank, root_fillet, widening, root)
         return tooth if all(interference_depth(tooth, mate) <= most for mate in mates) else None
 
     return made

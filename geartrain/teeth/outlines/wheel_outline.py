@@ -50,7 +50,7 @@ class BlankSizes:
     bore: float | None = None
     """Diameter of the hole in the middle [mm]; default no hole."""
     rim: float | None = None
-    """Width of the rim round the roots of a ring gear or the pins of a lantern [mm]; default two modules, or a pin."""
+    """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; default two modules, or a pin."""
     tolerance: float = 0.001
     """Maximum deviation of a chord from a flank [mm]."""
 
@@ -206,7 +206,7 @@ class _PairOutlines:
 
     def _wheel(self, gear: int, kind: str, contours: list[Contour], sizes: OutlineSizes, relief: float) -> WheelOutline:
         scale = self.cut.module
-        pitch, tip, root, thickness, round_ = (size * scale for size in sizes)
+        pitch, tip, root, thickness, fillet = (size * scale for size in sizes)
         return WheelOutline(
             gear=gear,
             z=int(self._of(gear).z),
@@ -217,7 +217,7 @@ class _PairOutlines:
             tip_radius=tip,
             root_radius=root,
             thickness=thickness,
-            fillet=round_,
+            fillet=fillet,
             relief=relief,
             clearance=self.demand.clearance * scale,
             backlash=self.pair.backlash * scale,

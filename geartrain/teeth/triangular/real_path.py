@@ -73,7 +73,7 @@ class RealPath:
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
 
-    # ---------------------------------------------------------------------------------------------------- one couple
+    # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
         """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind the mean motion (rad)."""
@@ -123,7 +123,7 @@ class RealPath:
         x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.tooth_pair.slope(phase, x), low, high)
         return [self.g(phase, x)]
 
-    # ------------------------------------------------------------------------------------------------- all couples
+    # ------------------------------------------------------------------------------------------------ all tooth pairs
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
@@ -343,6 +343,7 @@ def drag(path: RealPath) -> DraggedPath:
     envelope = path.envelope
     if not envelope:
         return DraggedPath((), 0.0, inf)
+    # start at the minimum of g, which the driven wheel reaches whatever its earlier position
     first = min(range(len(envelope)), key=lambda at: _minimum(path, envelope[at])) if len(envelope) > 1 else 0
     order = [*envelope[first:], *(_next_pitch(each) for each in envelope[:first])]
     traversal = _PitchTraversal(path, order[0])

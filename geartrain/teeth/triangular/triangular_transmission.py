@@ -178,6 +178,7 @@ class TriangularTransmission(TransmissionFunction):
         edges, gone = self._edges, np.empty_like(S)
         behind(S if self.direction > 0 else -S, self.period, gone, np.empty_like(S))
         gone += self._start
+        # both terms are within one period, so one subtraction is sufficient
         gone -= np.where(gone < self.period, 0.0, self.period)
         if len(self.intervals) == 1:
             values = what(self.intervals[0], self.intervals[0].start - gone)

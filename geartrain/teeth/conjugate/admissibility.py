@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair
 
 Halves = tuple[float, float]
-"""Half the tooth thickness of each gear on its pitch surface, as X; infinite for pins, which cannot become pointed."""
+"""Half the tooth thickness of each gear on its pitch surface, as pitch-line displacement X; infinite for pins."""
 
 _SCAN = 257  # contacts sampled on a side; a speed below 0 only between two samples is not detected
 _LEAVES = 12.5  # tooth number below which clockmakers cut cycloids

@@ -195,7 +195,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
 
 
 def pin_arc(R: float, A: float, B: float, d: float) -> float:
-    """Return the arc (X) from the pitch point to the distance d on the mate's addendum."""
+    """Return the arc (pitch-line displacement X) from the pitch point to the distance d on the mate's addendum."""
     return float(PinPiece(R, A, B, d).travel(np.array(d)))
 
 

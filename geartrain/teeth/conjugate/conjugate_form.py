@@ -348,7 +348,10 @@ class ConjugateToothForm(ToothForm):
         return ConjugatePair(path, (half, half))
 
     def _backlash(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
-        """Return the declared backlash as X; for a bevel pair one module is p / pi on the unit sphere."""
+        """Return the declared backlash as pitch-line displacement X.
+
+        For a bevel pair one module is p / pi on the unit sphere.
+        """
         return wheels.modules(self.backlash, "backlash") * pitch.p / pi
 
 

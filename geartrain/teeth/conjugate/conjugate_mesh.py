@@ -250,7 +250,7 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
 
 
 def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
-    """Return the arcs of approach and recess (X) with respect to the driver."""
+    """Return the arcs of approach and recess with respect to the driver, as pitch-line displacements X."""
     approach, recess = transmission.path.arcs
     return (approach, recess) if transmission.driver == 1 else (recess, approach)
 

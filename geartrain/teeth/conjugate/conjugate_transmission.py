@@ -47,7 +47,7 @@ class ConjugatePair:
     extra: tuple[ToothFault, ...] = ()
     """Faults in addition to those that follow from path and thickness."""
     solid: tuple[bool, bool] = (True, True)
-    """False for a gear whose teeth are round pins."""
+    """Flags of both gears: False if the teeth are round pins."""
 
     @cached_property
     def faults(self) -> tuple[ToothFault, ...]:
@@ -59,12 +59,12 @@ class ConjugatePair:
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Actual arcs of approach and recess (X); one may be negative."""
+        """Actual arcs of approach and recess, as pitch-line displacements X; one may be negative."""
         return self.path.arcs
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface, as X; 0 if it is within rounding."""
+        """Circumferential backlash on the pitch surface, as pitch-line displacement X; 0 if it is within rounding."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -139,7 +139,7 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess (X) with respect to the driver."""
+        """Arcs of approach and recess with respect to the driver, as pitch-line displacements X."""
         approach, recess = self.pair.arcs
         return (approach, recess) if self.driver == 1 else (recess, approach)
 

@@ -61,11 +61,11 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
     return found
 
 
-def kink_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the rotations of both gears (as X) while the tip of `gear` touches given points of its mate's flank.
+def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
+    """Return the rotations of both gears while the tip of `gear` touches given points of its mate's flank.
 
-    The points are polar in the mate's X = 0 position. The tip of gear 1 touches beyond the recess, the tip of gear 2
-    before the approach.
+    Rotations are given as pitch-line displacements X. The points are polar in the mate's X = 0 position. The tip of gear 1
+    touches beyond the recess, the tip of gear 2 before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)
@@ -110,7 +110,7 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
-class KinkLag:
+class CornerLag:
     """Lag (rad) of the driven wheel while a tip touches beyond an end of the path, tabulated at even steps."""
 
     step: float
@@ -172,9 +172,9 @@ class DisplacedContact:
     """Lag for a larger centre distance or shaft angle."""
     normal: Floats
     """Lag for a flank lower by 1 along its normal: the reciprocal of the moment arm."""
-    entering: KinkLag
+    entering: CornerLag
     """Lag while a tip touches before the start of the path."""
-    leaving: KinkLag
+    leaving: CornerLag
     """Lag while a tip touches beyond the end of the path."""
     longer: tuple[float, float]
     """Shift (rad of the driver) of the end (driver's tip) and of the start (driven tip) for a tip higher by 1."""
@@ -233,8 +233,8 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
         tilt=_for_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
         apart=-radial if ring else radial,
         normal=normal,
-        entering=_kink_lag(pair, 3 - driver, driver),
-        leaving=_kink_lag(pair, driver, driver),
+        entering=_corner_lag(pair, 3 - driver, driver),
+        leaving=_corner_lag(pair, driver, driver),
         longer=_for_both(gears, lambda gear: _end_shift(path, gear) / own),
         backlash=pair.backlash / other,
         stands=sum(pair.halves) / other,
@@ -249,14 +249,14 @@ def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Va
     return value(gears[0]), value(gears[1])
 
 
-def _kink_lag(pair: ConjugatePair, gear: int, driver: int) -> KinkLag:
+def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
     """Return the lag of the driven gear while the tip of one gear touches beyond the path.
 
     The driver's tip touches as the teeth leave contact, the driven tip as they enter it.
     """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)
-    turned = kink_contact(path, gear, *_touched_flank(pair, gear))
+    turned = corner_contact(path, gear, *_touched_flank(pair, gear))
     lag = (turned[0] - turned[1]) / pitch.reach_of(3 - driver)
     beyond = (turned[driver - 1] - first) / pitch.reach_of(driver) * (1.0 if gear == 1 else -1.0)
     good = np.isfinite(beyond) & np.isfinite(lag) & (beyond >= 0)
@@ -267,11 +267,11 @@ def _kink_lag(pair: ConjugatePair, gear: int, driver: int) -> KinkLag:
     beyond, lag = beyond[:stop], np.maximum.accumulate(lag[:stop])
     most = max(float(beyond[-1]), _SMALL)
     even = np.linspace(0.0, most, _NODES)
-    return KinkLag(most / (_NODES - 1), np.interp(even, beyond, lag))
+    return CornerLag(most / (_NODES - 1), np.interp(even, beyond, lag))
 
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
-    """Return the increase of contact length (X) for a tip higher by 1."""
+    """Return the increase of contact length (pitch-line displacement X) for a tip higher by 1."""
     foot, tip = path.ends(gear)
     step = _END_STEP * (foot - tip)
     radius, _ = path.pitch.polar(gear, path.flank(gear, np.array([tip, tip + step])))

@@ -85,10 +85,10 @@ class InvoluteWheel:
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
         X = -u * tan(psi) - sqrt(radius**2 - below**2)
-        kink = atan2(u * tan(psi) + X, below) - X / r
+        corner = atan2(u * tan(psi) + X, below) - X / r
         roll = (sqrt(radius**2 - self.base**2) - r * sin(psi)) / cos(psi)
         P = roll * cos(psi)
-        return kink - (atan2(P * cos(psi), r + P * sin(psi)) - roll / r)
+        return corner - (atan2(P * cos(psi), r + P * sin(psi)) - roll / r)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,7 @@ class InvolutePair:
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Reduction of tooth thickness from a rack cut without backlash, summed over both wheels, as X."""
+    """Total thinning of the teeth of both wheels from a cut without backlash, as pitch-line displacement X."""
 
     @property
     def psi(self) -> float:
@@ -116,19 +116,19 @@ class InvolutePair:
 
     @property
     def halves(self) -> tuple[float, float]:
-        """Half the tooth thickness of each wheel on the operating pitch circles, as X."""
+        """Half the tooth thickness of each wheel on the operating pitch circles, as pitch-line displacement X."""
         pitch, psi = self.pitch, self.psi
         first, second = self.first.half(psi) * pitch.R1, self.second.half(psi) * abs(pitch.R2)
         return first - self.thinned / 4, second - self.thinned / 4
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the operating pitch circle, as X; negative if the teeth jam."""
+        """Backlash on the operating pitch circle, as pitch-line displacement X; negative if the teeth jam."""
         return self.pitch.p - 2 * sum(self.halves)
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess (X), from the tip circles.
+        """Arcs of approach and recess from the tip circles, as pitch-line displacements X.
 
         One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one
         side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
@@ -186,7 +186,7 @@ def base_cone(R: float, psi: float) -> float:
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:
-    """Return the arc (X) over which a spherical involute of pitch cone R reaches its `tip` cone (rad).
+    """Return the arc, as pitch-line displacement X, from pitch cone R to the `tip` cone (rad) of a spherical involute.
 
     It is negative if the tip cone is inside the pitch cone. cos tip = cos d cos R - sin d sin psi sin R, where
     cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).

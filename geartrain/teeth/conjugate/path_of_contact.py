@@ -306,14 +306,14 @@ class PathOfContact:
     recess: PathSide
     """The side after the pitch point."""
     real: tuple[float, float] | None = None
-    """Arcs of approach and recess (X) in which the teeth touch, if they are shorter than the sides.
+    """Arcs of approach and recess (pitch-line displacements X) of actual contact, if shorter than the sides.
 
     One is negative if contact begins or ends beyond the pitch point. None for the arcs of the sides.
     """
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Actual arcs of approach and recess (X); one may be negative."""
+        """Actual arcs of approach and recess, as pitch-line displacements X; one may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:

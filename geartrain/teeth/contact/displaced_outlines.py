@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.polynomial_pieces import value
-from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, DisplacedWheelSizes, KinkLag
+from geartrain.teeth.conjugate.displaced_contact import CornerLag, DisplacedContact, DisplacedWheelSizes
 from geartrain.teeth.contact.first_touch import CandidatePairs
 from geartrain.teeth.contact.outline_contact import OutlinePair
 
@@ -94,7 +94,7 @@ class ToothPairSearch:
         for at, (table, piece, end) in enumerate(
             ((touch_search.first, piece1, u), (touch_search.second, piece2, v)), 1
         ):
-            found += at * ((end == -1) & table.kinks[0][piece] | (end == 1) & table.kinks[1][piece])
+            found += at * ((end == -1) & table.corners[0][piece] | (end == 1) & table.corners[1][piece])
         return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
@@ -113,7 +113,7 @@ class ToothPairSearch:
 
 @lru_cache(maxsize=256)
 def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
-    """Return the contact of two outlines at their distance, and the effects of displaced flanks.
+    """Return the contact of two outlines at their distance, with the effects of displaced flanks.
 
     Raises `RangeError` if the teeth do not touch for a whole pitch.
     """
@@ -181,12 +181,12 @@ def _around(held: Bools, at: int) -> Bools:
     return found
 
 
-def _corner(search: ToothPairSearch, end: float, last: float) -> KinkLag:
+def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
     """Return the additional lag of the driven wheel while a tip touches beyond an end of the contact."""
     if abs(last - end) < _NO_CORNER:
-        return KinkLag(_NO_CORNER, np.zeros(2))
+        return CornerLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
-    return KinkLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
+    return CornerLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
 
 
 def _leading_places(found: ToothPairContact, pitch: float) -> Indices:

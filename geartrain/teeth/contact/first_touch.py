@@ -358,18 +358,18 @@ class FirstTouchSearch(FlankSegmentation):
         """Return the touch at parameter u; v is not NaN if an end of the driven piece is met there."""
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
-        kink = ~np.isnan(v)
+        at_end = ~np.isnan(v)
         low, high = self.second.ends[:, piece2]
-        v = np.where(kink, v, self.second.inverse(piece2, np.clip(view.radius, low, high)))
+        v = np.where(at_end, v, self.second.inverse(piece2, np.clip(view.radius, low, high)))
         r, rise = value(self.second.radius, piece2, v)
         a, turn = value(self.second.azimuth, piece2, v)
         change, swing = view.moved(dr, da)
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
-            slant = np.where(kink, swing / change, turn / rise)  # derivative of azimuth by radius on the smooth side
+            slant = np.where(at_end, swing / change, turn / rise)  # derivative of azimuth by radius on the smooth side
             off = view.radius - r
             # a larger correction occurs only where the smooth side is stationary and `slant` is noise
-            trusted = np.abs(off / np.where(kink, change, rise)) <= _LEFT
+            trusted = np.abs(off / np.where(at_end, change, rise)) <= _LEFT
             correction = np.where(trusted, slant * off, 0.0)
             speed = ahead - slant * drift
         # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding

@@ -29,7 +29,7 @@ class FlankTable:
     """Coefficients of the radius by powers of u, (COUNT, pieces)."""
     azimuth: Floats
     """Coefficients of the azimuth by powers of u, (COUNT, pieces)."""
-    kinks: Bools
+    corners: Bools
     """Flags, (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
     flat: Bools
     """Flags, (pieces,): True for circular arcs about the axle."""

@@ -352,14 +352,14 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
     rise = radius[1::2].sum(axis=0)  # half the difference of the radii at u = 1 and u = -1
     flat = np.abs(rise) < _FLAT * radius[0]
     falls = rise < 0
-    kinks = np.array([[begins, ends] for _, begins, ends in pieces]).T
+    corners = np.array([[begins, ends] for _, begins, ends in pieces]).T
     # reversing u changes the sign of odd powers
     for each in (radius, azimuth):
         each[1::2, falls] *= -1
-    kinks[:, falls] = kinks[::-1, falls]
+    corners[:, falls] = corners[::-1, falls]
     errors = np.stack([piece.error for piece, _, _ in pieces]).max(axis=0)
     return FlankTable(
-        radius, azimuth, kinks, flat, np.array(first), np.array(curves), (float(errors[0]), float(errors[1]))
+        radius, azimuth, corners, flat, np.array(first), np.array(curves), (float(errors[0]), float(errors[1]))
     )
 
 
@@ -369,14 +369,14 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
         for curve in side
     ]
-    kink = [True, *(_is_kink(a[-1], b[0]) for a, b in pairwise(found)), True]
+    corner = [True, *(_is_corner(a[-1], b[0]) for a, b in pairwise(found)), True]
     return [
-        [(piece, at == 0 and kink[i], at == len(pieces) - 1 and kink[i + 1]) for at, piece in enumerate(pieces)]
+        [(piece, at == 0 and corner[i], at == len(pieces) - 1 and corner[i + 1]) for at, piece in enumerate(pieces)]
         for i, pieces in enumerate(found)
     ]
 
 
-def _is_kink(last: PolynomialPiece, new: PolynomialPiece) -> bool:
+def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
     """Return whether two consecutive curves have different directions at their common point."""
     before, after = _direction(last, 1), _direction(new, -1)
     return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)

@@ -138,7 +138,7 @@ class OutlinePair:
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
         ):
-            kind += (1 + at) * ((u == -1) & table.kinks[0][piece] | (u == 1) & table.kinks[1][piece])
+            kind += (1 + at) * ((u == -1) & table.corners[0][piece] | (u == 1) & table.corners[1][piece])
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:

@@ -241,7 +241,10 @@ class ToothPair:
         return self.approach_slope(x, m) if phase == APPROACH else self.recess_slope(x, m)
 
     def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return side and tangents of the efficiency eta = (1 - f side tan2) / (1 - f side tan1)."""
+        """Return the side of the line of centres (1 or -1) and the tangents tan2, tan1 of the friction efficiency.
+
+        eta = (1 - f side tan2) / (1 - f side tan1) at friction coefficient f.
+        """
         return self.approach_friction(x, m) if phase == APPROACH else self.recess_friction(x, m)
 
     def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:

@@ -72,12 +72,12 @@ class TriangularTooth(WheelRequirement):
         del others
         tip, half = self.tip_radius, pi / self.z
         root = tip * (1 - depth(-self.z if self.ring else self.z, self.half_angle))
-        kinks = ((root, -half), (tip, 0.0), (root, half))
+        vertices = ((root, -half), (tip, 0.0), (root, half))
         return CutTooth(
             "ring" if self.ring else "external",
             tip,
             root,
-            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in kinks),
+            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in vertices),
         )
 
 

@@ -64,8 +64,8 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
     """Return the rotations of both gears while the tip of `gear` touches given points of its mate's flank.
 
-    Rotations are given as pitch-line displacements X. The points are polar in the mate's X = 0 position. The tip of gear 1
-    touches beyond the recess, the tip of gear 2 before the approach.
+    Rotations are given as pitch-line displacements X. The points are polar in the mate's X = 0 position. The tip of
+    gear 1 touches beyond the recess, the tip of gear 2 before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)

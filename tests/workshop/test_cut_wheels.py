@@ -393,7 +393,7 @@ def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
     for form, said in ((triangular, "triangular teeth of pair 'G1'"), ("{form: involute, backlash: 0.1}", "pair 'G1'")):
         with pytest.raises(GearTrainError, match=said) as caught:
             _ = SolidModel(declared(form), ManufacturingSizes(backlash=0.1)).blanks
-        assert caught.value.problems[0].fix.startswith("leave --backlash out, or ")
+        assert caught.value.problems[0].fix.startswith("omit --backlash, or ")
 
 
 @pytest.mark.parametrize(("said", "made", "backlashes"), [

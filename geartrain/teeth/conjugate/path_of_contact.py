@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.chebyshev import ChebyshevSeries
+from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 if TYPE_CHECKING:
@@ -234,7 +235,7 @@ def none(psi: float) -> PathSide:
 
 
 @dataclass(frozen=True)
-class PathContact:
+class PathContact(Shown):
     """Contact quantities at pitch-line displacements X, as arrays of one shape: approach at X < 0, recess at X > 0.
 
     See Also
@@ -283,7 +284,7 @@ class PathContact:
 
 
 @dataclass(frozen=True)
-class PathOfContact:
+class PathOfContact(Shown):
     """Path of contact of a pair: an approach side and a recess side. Lengths in modules; rad for bevels.
 
     See Also

@@ -13,6 +13,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.polynomial_pieces import COUNT, PolynomialPiece, fitted
+from geartrain.numerics.results import Shown
 from geartrain.teeth.contact.flank_table import FlankTable
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ _STILL = 1e-3  # of its second derivative: a smaller slope does not determine th
 
 
 @dataclass(frozen=True)
-class OutlineCurve:
+class OutlineCurve(Shown):
     """Smooth curve of a tooth, from parameter `start` to `end`.
 
     See Also
@@ -138,7 +139,7 @@ def _rotation(angle: float) -> Callable[[Floats], Floats]:
 
 
 @dataclass(frozen=True)
-class ToothFlanks:
+class ToothFlanks(Shown):
     """Sides of a tooth, each a chain of curves from root to tip or from tip to root.
 
     Tip lands and bottoms need not be given, because an arc about the axle never touches before its ends do.
@@ -205,7 +206,7 @@ class ToothFlanks:
 
 
 @dataclass(frozen=True)
-class GearOutline:
+class GearOutline(Shown):
     """Wheel of z teeth about its axle, tooth k rotated forward by k pitches.
 
     Raises

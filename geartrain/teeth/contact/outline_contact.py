@@ -14,6 +14,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.arrays import some
+from geartrain.numerics.results import Shown
 from geartrain.teeth.contact.first_touch import AxlePlacement, CandidatePairs, FirstTouches, FirstTouchSearch
 
 if TYPE_CHECKING:
@@ -194,7 +195,7 @@ def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> Non
 
 
 @dataclass(frozen=True, slots=True)
-class FlankContact:
+class FlankContact(Shown):
     """Position of the driven wheel against one side of the driver's teeth; arrays of the shape of the driver's angles.
 
     See Also
@@ -227,7 +228,7 @@ class FlankContact:
 
 
 @dataclass(frozen=True, slots=True)
-class TwoFlankContact:
+class TwoFlankContact(Shown):
     """Contact of both sides: `front` pushes the driven wheel forward, `back` prevents it from running ahead.
 
     See Also

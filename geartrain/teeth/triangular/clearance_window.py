@@ -9,6 +9,7 @@ from itertools import pairwise
 from math import degrees, inf
 from typing import Literal
 
+from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import bracketed_root, root
 from geartrain.teeth.pair_results import PairVerdict
 from geartrain.teeth.tooth_form import refused
@@ -212,7 +213,7 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class ClearanceWindow:
+class ClearanceWindow(Shown):
     """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, each as excess.
 
     It is false if `run` is below `jam`, so that no clearance works. If a pair runs in several ranges of clearance, this

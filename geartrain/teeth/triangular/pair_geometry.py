@@ -13,6 +13,7 @@ from math import asin, copysign, cos, inf, pi, sin, sqrt
 from typing import Literal
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.results import Shown
 
 _MINIMUM = 1e-40  # in any unit: the fourth power of a radius must not underflow
 _GRAZING = 1 - 1e-12  # sine of the angle between flank and driven radius: at 1 the speed ratio is infinite
@@ -52,7 +53,7 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class TriangularSizes:
+class TriangularSizes(Shown):
     """Geometry of a pair of wheels with triangular teeth, the first driving. All lengths are in the same arbitrary
     unit.
 

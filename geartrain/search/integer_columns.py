@@ -1,4 +1,4 @@
-"""Columns of whole numbers: ranges written out, all at once or block by block, and the distinct quotients of two."""
+"""Ranges of integers as arrays, all at once or block by block, and distinct quotients of two integer arrays."""
 
 from __future__ import annotations
 
@@ -12,11 +12,14 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Ints
 
 Integers = NDArray[Any]
-"""int64, or Python's integers where they may be longer."""
+"""Array of int64, or of Python integers (dtype object) where values may exceed int64."""
 
 
 def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
-    """All whole numbers of some half-open ranges, none of which ends before it starts: (which range, number)."""
+    """Return all integers of some half-open ranges as two arrays: the index of the range, and the integer.
+
+    No range may end before it starts.
+    """
     sizes = ends - starts
     owner = np.repeat(np.arange(len(sizes)), sizes)
     before = np.cumsum(sizes) - sizes
@@ -24,7 +27,7 @@ def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
 
 
 def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints, Ints]]:
-    """As `spread`, at most so many numbers at a time."""
+    """Yield the arrays of `spread` in blocks of at most `most` integers."""
     upto = np.cumsum(ends - starts)
     total = int(upto[-1]) if len(upto) else 0
     for begin in range(0, total, most):
@@ -40,7 +43,10 @@ def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints
 
 
 def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction], Ints]:
-    """The different values of some quotients, none of them over 0, and for each quotient which of them it is."""
+    """Return the distinct values of the quotients above / below, and for each quotient the index of its value.
+
+    No element of `below` may be 0.
+    """
     if above.dtype != below.dtype:
         above, below = above.astype(object), below.astype(object)
     # in lowest terms with the sign above, equal quotients are equal pairs

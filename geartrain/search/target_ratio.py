@@ -1,4 +1,5 @@
-"""What ratio is wanted: from a number, a fraction, a pair of counts, a quotient of periods or a name of the table."""
+"""Parser of a requested ratio: a number, a fraction, a pair of counts, a quotient of periods, or the name of a period.
+"""
 
 from __future__ import annotations
 
@@ -37,12 +38,12 @@ _WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.5305
 
 @dataclass(frozen=True, slots=True)
 class TargetRatio(Result):
-    """A ratio that tooth numbers are to make; `read_ratio` reads it from a text.
+    """Requested ratio of a gear train. `read_ratio` parses it from a text.
 
     Raises
     ------
     QuestionError
-        If the value is not above 0.
+        If the value is not positive.
 
     Examples
     --------
@@ -53,13 +54,13 @@ class TargetRatio(Result):
     KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
 
     value: Fraction
-    """Its magnitude, exact, above 0: teeth on top over teeth beneath."""
+    """Magnitude of the ratio, exact and positive: teeth of the numerator over teeth of the denominator."""
     sense: Literal[-1, 0, 1] = 0
-    """1 for an output that turns with the input, -1 against it, 0 where that is not asked."""
+    """Sense of rotation of the output: 1 if equal to the input, -1 if opposite, 0 if not requested."""
     label: str = ""
-    """The ratio as it was asked for."""
+    """Text of the ratio as it was given."""
     note: str = ""
-    """Where the number comes from, with its source."""
+    """Origin of the number, with its source."""
 
     def __post_init__(self) -> None:
         if self.value <= 0:
@@ -78,7 +79,7 @@ class TargetRatio(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """One side of a quotient, or all there is: its kind, its exact value (times in days), its unit's word, its note."""
+    """One side of a quotient or a single term: kind, exact value (times in days), word of the unit, note."""
 
     kind: TargetKind
     value: Fraction
@@ -87,39 +88,39 @@ class _Term:
 
 
 def read_ratio(text: str, per: str | None = None) -> TargetRatio:
-    """The wanted ratio that a text tells, exactly as it is written.
+    """Parse a requested ratio; the value is exact.
 
     Parameters
     ----------
     text : str
-        A number, a fraction, a pair of counts, a quotient of two periods, or a name of `geartrain periods`; see Notes.
-        A sign in front asks for a sense of rotation: + the same, - the opposite; without one the sense is free.
+        A number, a fraction, a pair of counts, a quotient of two periods, or a name listed by `geartrain periods`; see
+        Notes. A leading sign requests a sense of rotation: + the same, - the opposite. Without a sign either is accepted.
     per : str, optional
-        A period, where `text` is a lone period too: the ratio is how often that turns in one of `per`.
+        A second period if `text` is a single period. The ratio is the number of revolutions in one period `per`.
 
     Returns
     -------
     TargetRatio
-        Its magnitude, its sense, and where the number comes from.
+        Magnitude, sense of rotation and origin of the ratio.
 
     Raises
     ------
     QuestionError
-        For what has no meaning, or more than one.
+        If the text cannot be parsed or is ambiguous.
 
     Notes
     -----
     "13.368267", "235/19", "1:30"      the number, exactly as written
-    "235 months / 19 years"            a pair of counts: in the time of 19 turns of the one (years) the other (months)
-                                       makes 235, so its pointer turns 235/19 times as fast
-    "365.2422 d / 29.53059 d"          a quotient of two periods: how often the second turns in one turn of the first,
-    "year_julian / month_metonic"      so the ratio is the speed of what has the second period over the speed of what
-                                       has the first; any time or name of the table of periods may stand on each side
-    "metonic_months_per_year"          a name of that table: a speed (turns per year) or a count is its own value
-    "month_synodic_J2000" and `per`    a lone period, where `per` is a period too: how often it turns in one of `per`
+    "235 months / 19 years"            a pair of counts: while the second (years) makes 19 revolutions, the first (months)
+                                       makes 235, so its pointer is 235/19 times as fast
+    "365.2422 d / 29.53059 d"          a quotient of two periods: the number of revolutions of the second during one
+    "year_julian / month_metonic"      revolution of the first, so the ratio is the speed with the second period over the
+                                       speed with the first. Each side is a time or a name from the table of periods.
+    "metonic_months_per_year"          a name from that table whose row is a speed (revolutions per year) or a count
+    "month_synodic_J2000" and `per`    a single period: its number of revolutions in one period `per`
 
-    Times are d, h, min, s and such; any other words are counted things. Speeds of the table that are retrograde count
-    by magnitude.
+    Units of time are d, h, min, s and the like. Any other word names counted objects. Retrograde speeds of the table are
+    taken by their magnitude.
 
     Examples
     --------
@@ -142,7 +143,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 
 def _parts(text: str, label: str) -> list[str]:
-    """The one or two sides of a division; with blanks round one sign, that one divides."""
+    """Split a text at its division sign into one or two parts; a sign between blanks takes precedence."""
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)
         if len(parts) == 2:
@@ -175,7 +176,7 @@ def _term(text: str, label: str) -> _Term:
 
 
 def _with_word(number: str, word: str) -> _Term:
-    """A time, or a count of things."""
+    """Parse a number with a word: a time, or a count of objects."""
     shown = f"{number} {word}"
     if word in period_table():
         raise _problem(
@@ -244,7 +245,7 @@ def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
 
 
 def _in_one(per: str, term: _Term) -> tuple[Fraction, str]:
-    """How often a period fits into one of `per`."""
+    """Return the number of revolutions of a period during one period `per`, and its note."""
     whole = _term(" ".join(per.split()), per)
     if whole.kind != "time":
         raise _problem(
@@ -276,7 +277,7 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
 
 
 def _counted(term: _Term) -> bool:
-    """True if the words may count turns: '27759 days / 940 months'."""
+    """Return whether the word of a term may name counted objects, as in '27759 days / 940 months'."""
     return term.kind == "things" or term.word in _COUNTED_TIMES
 
 

@@ -1,7 +1,7 @@
-"""`geartrain teeth`: tooth numbers for a ratio, for the free wheels of a train, for an epicyclic set, for an orrery.
+"""Command `geartrain teeth`: tooth counts for a ratio, for free wheels of a train, for an epicyclic set, for an orrery.
 
-Each search is a command of its own, in the module that `SearchGroup` names; the options and the forms of answers that
-they share are here.
+Each search is a command in a module that `SearchGroup` names. This module has the options and output formats that they
+share.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 class SearchGroup(LazyGroup):
-    """What tooth numbers can be searched for."""
+    """Group of the commands that search for tooth counts."""
 
     verbs = Verbs(
         {
@@ -49,7 +49,7 @@ class SearchGroup(LazyGroup):
     )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """The search that was asked for; for a question without its word, as it was asked once, the word is told."""
+        """Return the command of the search; if its name is missing, exit with a message that suggests it."""
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
             requested = shlex.join(["geartrain", "teeth", word, *rest])
@@ -58,7 +58,7 @@ class SearchGroup(LazyGroup):
 
 
 def _word(args: list[str]) -> tuple[str, list[str]]:
-    """The search that a question without its word is meant for, and the question as that search takes it."""
+    """Guess the search that is meant if its name is missing, and return its name and arguments."""
     from geartrain.train.declaration_files import shipped
 
     if "--kind" in args:
@@ -100,21 +100,21 @@ Csv = Annotated[bool, typer.Option("--csv", help="Print the solutions as CSV.")]
 
 ANY_COUNT = "12:120"
 NEGATIVE_NUMBERS = {"ignore_unknown_options": True}
-"""Settings of a command whose argument may be a negative number, which is no option."""
+"""Settings of a command whose argument may be a negative number, which must not be parsed as an option."""
 _YAML = (".yaml", ".yml")
 _FORMS = (".md", ".html", ".json", ".csv", *_YAML)
 _WIDEST = 10**12
 
 
 def check_number(ctx: typer.Context, text: str) -> str:
-    """A text that begins with a minus is a negative number, or else an option that there is not."""
+    """Raise `typer.BadParameter` if a text that begins with a minus sign is not a negative number."""
     if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
         raise typer.BadParameter(f"there is no option '{text}'; {ctx.command_path} -h lists them")
     return text
 
 
 def read_tolerance(text: str | None) -> Fraction | None:
-    """The greatest relative error."""
+    """Parse the maximum relative error; None if there is no text."""
     if text is None:
         return None
     found = read_share(text, "--tolerance")
@@ -125,19 +125,19 @@ def read_tolerance(text: str | None) -> Fraction | None:
 
 @dataclass(frozen=True)
 class SearchAnswer:
-    """Where the solutions of a search go, and in which form."""
+    """Destination and format of the solutions of a search."""
 
     csv: bool
-    """What is printed."""
+    """True to print CSV."""
     json: bool
-    """What is printed."""
+    """True to print JSON."""
     out: Sink
     pick: int = 1
-    """Which solution is written as a declaration, from 1."""
+    """Number of the solution that is written as a declaration, from 1."""
 
     @classmethod
     def of(cls, csv: bool, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
-        """From the options; a file that may not be written is refused before the search."""
+        """Build the destination from the options; a file that may not be written is rejected before the search."""
         return cls(csv, json, sink(out, force, _FORMS), pick)
 
     def give(
@@ -147,10 +147,10 @@ class SearchAnswer:
         describe: Callable[[Any], Document],
         declared: Callable[[int], Mapping[str, Any]] | None = None,
     ) -> None:
-        """Print or write an answer in the form asked for; exit 0 if something was found, 1 if not, 130 if cut.
+        """Print or write the solutions and exit: 0 if there are solutions, 1 if there are none, 130 if interrupted.
 
         rows       the solutions as a flat table
-        declared   number of a solution, from 0 -> its declaration
+        declared   function from the index of a solution to its declaration
         """
         suffix = self.out.suffix
         if suffix in _YAML:

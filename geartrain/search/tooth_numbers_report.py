@@ -1,4 +1,4 @@
-"""Tooth numbers that were found, as pages and as flat tables: of a ratio, a train, an epicyclic set, an orrery."""
+"""Documents and flat tables of tooth counts for a ratio, a train, an epicyclic set and an orrery."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ _MANY = 3  # outputs beyond which a table of assignments tells only the greatest
 
 
 def error_text(value: Fraction) -> str:
-    """A relative error: in parts per million where it is small, in per cent where it is not, 0 where it is exactly."""
+    """Format a relative error: in ppm below 0.1 %, in per cent above, "0" if exactly zero."""
     if abs(value) < Fraction(1, 1000):
         return "0" if not value else f"{float(value) * 1e6:+.6g} ppm"
     return f"{float(value) * 100:+.6g} %"
 
 
 def stage_rows(found: StageFindings) -> list[dict[str, Any]]:
-    """The solutions as a flat table."""
+    """Return the solutions of a ratio as a flat table."""
     return [
         {
             "top": _product(one.top),
@@ -50,7 +50,7 @@ def _product(counts: Sequence[int]) -> str:
 
 
 def describe_stages(found: StageFindings) -> Document:
-    """Solutions of a ratio by stages."""
+    """Build the document of the solutions of a ratio by stages."""
     summary = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
     if found.tolerance is not None:
         whole = "every one was looked at" if found.complete else "not all of them were looked at"
@@ -83,7 +83,7 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
 
 
 def describe_approximants(found: Approximants) -> Document:
-    """The fractions on the way to a ratio."""
+    """Build the document of the fractions that approximate a ratio."""
     wanted = found.wanted
     rows = [(exact(one.value), figure(one.value, 12), one.kind, error_text(one.error)) for one in found.solutions]
     table = Table(("fraction", "decimal", "kind", "error"), cut(rows))
@@ -92,7 +92,9 @@ def describe_approximants(found: Approximants) -> Document:
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
-    """Where the others went; what was nearest, and what to relax."""
+    """Return the section of rejected candidates, nearest miss and suggestions; an empty list if there is nothing to
+    report.
+    """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"To relax: {shortfall.advice}."] if shortfall.advice else []
     removed = {reason: count for reason, count in (shortfall.removed or {}).items() if count}
@@ -106,7 +108,7 @@ def _shortfall(shortfall: Shortfall) -> list[Section]:
 
 
 def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
-    """The solutions of the whole train as a flat table."""
+    """Return the solutions of the whole train as a flat table."""
     return [
         {**one.teeth, **{f"error of {name}": float(each.error) for name, each in one.outputs.items()}}
         for one in found.solutions
@@ -114,7 +116,7 @@ def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
 
 
 def describe_assignments(found: TrainFindings) -> Document:
-    """What was found for the free wheels of a train, part by part."""
+    """Build the document of the tooth counts of a train, part by part."""
     summary = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} meet everything."]
     summary += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
@@ -124,7 +126,7 @@ def describe_assignments(found: TrainFindings) -> Document:
 
 
 def _part(part: PartFindings) -> list[Section]:
-    """One independent part: what is asked, how many there are, the best of them."""
+    """Return the sections of one independent part: its requirements, the number of solutions, and the best."""
     requested = "; ".join([*part.demands, *part.rules])
     lines = [f"Asked: {requested}." if requested else "Nothing is asked."]
     within = "" if part.tolerance is None else f" within {figure(float(part.tolerance), 4)}"
@@ -174,7 +176,7 @@ def _standings(standings: Sequence[Standing]) -> Section:
 
 
 def set_rows(found: SetFindings) -> list[dict[str, Any]]:
-    """The sets as a flat table."""
+    """Return the epicyclic sets as a flat table."""
     return [
         {
             "mode": one.mode.key,
@@ -189,7 +191,7 @@ def set_rows(found: SetFindings) -> list[dict[str, Any]]:
 
 
 def describe_sets(found: SetFindings) -> Document:
-    """Epicyclic sets for a ratio."""
+    """Build the document of the epicyclic sets for a ratio."""
     summary = [
         f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in any sense unless asked.",
         f"{found.count} sets in their modes run"
@@ -214,7 +216,7 @@ def describe_sets(found: SetFindings) -> Document:
 
 
 def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
-    """The kinds of epicyclic sets."""
+    """Build the document of the types of epicyclic sets."""
     rows = [
         (kind.name, kind.title, ", ".join(kind.wheels), str(len(kind.modes)), kind.modes[0].key)
         for kind in kinds.values()
@@ -227,12 +229,12 @@ def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
 
 
 def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
-    """The pairs of an orrery as a flat table."""
+    """Return the gear pairs of an orrery as a flat table."""
     return [pair.to_dict() for pair in found.pairs]
 
 
 def describe_orrery(found: Orrery) -> Document:
-    """An orrery: its pairs, what each arbor shows, what is proved."""
+    """Build the document of an orrery: its pairs, the period of each arbor, and the proved bounds."""
     proof = "proved to be the fewest" if found.complete else f"at least {found.minimum_wheels} are needed"
     ended = "an interrupt" if found.ended == "interrupted" else found.ended
     summary = [

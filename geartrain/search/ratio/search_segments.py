@@ -1,7 +1,7 @@
-"""One piece of a search: all products beneath in a segment of value, against the products on top that they need.
+"""Search of one segment of the denominator products against the numerator products that may match them.
 
-`lay_out` cuts a search into pieces of about equal work. The pieces are independent, their questions and results are
-plain JSON data, and how they are cut changes no answer.
+`lay_out` divides a search into segments of about equal work. Segments are independent, their problems and results are
+plain JSON data, and the division has no influence on the result.
 """
 
 from __future__ import annotations
@@ -44,28 +44,30 @@ _BINS = 256  # of the logarithms of counts
 
 @dataclass(frozen=True, slots=True)
 class SegmentPlan:
-    """Segments of the products beneath, and the density of pairs of sets."""
+    """Segments of the denominator products, and the density of pairs of multisets."""
 
     bounds: tuple[int, ...]
-    """Products beneath, ascending: segment n is [bounds[n], bounds[n + 1])."""
+    """Bounds of the denominator products, ascending. Segment n is [bounds[n], bounds[n + 1])."""
     densest: int
-    """The segment in which most pairs are near the wanted ratio."""
+    """Index of the segment with the most pairs near the requested ratio."""
     density: float
-    """Pairs of sets for each unit of |error|, over all segments; an estimate."""
+    """Estimated number of pairs of multisets per unit of absolute relative error, over all segments."""
 
     @property
     def segments(self) -> tuple[tuple[int, int], ...]:
-        """The segments, half-open."""
+        """Bounds of the segments, half-open."""
         return tuple(zip(self.bounds, self.bounds[1:], strict=False))
 
     def tolerance_for(self, number: float) -> Fraction:
-        """An |error| within which about so many pairs of sets lie."""
+        """Return an absolute relative error within which about `number` pairs of multisets are expected."""
         # without a density to go by a search begins narrow, and is widened
         return Fraction(number / self.density) if self.density * 1e18 > number else Fraction(1, 10**18)
 
 
 def lay_out(question: StageProblem) -> SegmentPlan:
-    """Segments of about two blocks of products each, those beneath and those on top that go with them."""
+    """Divide the search into segments with about two blocks of products each, denominators and matching numerators
+    together.
+    """
     size, value = question.stages, question.value
     spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
     # a single count spans nothing
@@ -92,7 +94,8 @@ def lay_out(question: StageProblem) -> SegmentPlan:
 
 
 def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
-    """Number of unordered sets by the logarithm of their product, in bins of `width` from the least."""
+    """Return the number of multisets by the logarithm of their product, in bins of `width` from the smallest product.
+    """
     places = np.array([log(count / counts[0]) / width for count in counts])
     one = np.bincount(places.astype(np.int64)).astype(np.float64)
     found = np.ones(1)
@@ -103,9 +106,9 @@ def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
 
 
 BLOCK = 1 << 21
-"""Products of one side held at once: what bounds the memory."""
+"""Maximum number of products of one side in memory."""
 PER_ROW = 3
-"""A window costs a search in every row of the tables: it should bring some products for each."""
+"""Minimum number of products per row of the tables in a block. A window costs a binary search in every row."""
 _FEW = 1000  # solutions that may be made one by one from their products
 
 Range = tuple[int, int]
@@ -114,21 +117,21 @@ Range = tuple[int, int]
 def task_of(
     question: StageProblem, low: int, high: int, hint: Fraction, bound: tuple[int, Fraction, int] | None = None
 ) -> dict[str, Any]:
-    """The plain data of one piece.
+    """Return the plain data of one segment.
 
-    low, high  products beneath, half-open
-    hint       a tolerance within which some of the best may be expected
-    bound      first, |error| and sum of a solution that is surely no better than the last one kept
+    low, high  range of the denominator products, half-open
+    hint       a tolerance within which some of the best solutions are expected
+    bound      rank value, absolute error and sum of a solution that is not better than the last one kept
     """
     plain = [bound[0], str(bound[1]), bound[2]] if bound else None
     return {"question": question.plain(), "low": low, "high": high, "hint": str(hint), "bound": plain}
 
 
 def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
-    """Count the solutions of a piece, exactly, and give its best.
+    """Count the solutions of a segment, exactly, and return its best.
 
-    Result: `count`; `removed`, reason -> pairs of sets within the tolerance that are no solutions; `rows`, the best as
-    [what the order asks for, counts on top, counts beneath].
+    The result has the keys `count`; `removed`, reason -> number of pairs of multisets within the tolerance that are not
+    solutions; and `rows`, the best as [rank value, numerator counts, denominator counts].
     """
     question = stage_problem_of(task["question"])
     plain = task["bound"]
@@ -141,18 +144,18 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def listed_by_value(question: StageProblem) -> bool:
-    """True if solutions need not be looked at one by one: what is asked can be seen from their products."""
+    """Return whether solutions can be ranked by their products, without an inspection of each."""
     return question.by == "error" and question.loose and question.best <= _FEW
 
 
 def block_of(question: StageProblem) -> int:
-    """Products of one side that are held at once: `BLOCK`, or more where even the tables are longer."""
+    """Return the number of products of one side in a block: `BLOCK`, or more if the tables are longer."""
     numbers = max(len(question.top), len(question.beneath))
     return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
 
 
 def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
-    """Ranges of products beneath and on top that cover every pair within the tolerance once, none too long."""
+    """Yield ranges of denominator and numerator products that cover every pair within the tolerance exactly once."""
     if not question.reachable:
         return
     most = block_of(question)
@@ -162,7 +165,7 @@ def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range,
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
-    """[low, high) in parts of no more than `most` products each, ascending; nothing where there are none."""
+    """Split [low, high) into ascending ranges of at most `most` products each; empty ranges are omitted."""
     low, high = max(low, products.minimum), min(high, products.most + 1)
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
@@ -182,7 +185,8 @@ _CLOSE = Fraction(1, 10**40)  # so near, only pairs of one and the same ratio ar
 
 
 class ValueFinder:
-    """Counts every solution by runs of equal products, and keeps the best by |error|, sum, largest and counts."""
+    """Count of all solutions by runs of equal products, and list of the best by error, sum, largest count and counts.
+    """
 
     def __init__(self, question: StageProblem, hint: Fraction, bound: tuple[int, Fraction, int] | None) -> None:
         self.question, self.hint = question, hint
@@ -191,12 +195,12 @@ class ValueFinder:
         self.keys: list[StageRank] = []
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segment`."""
+        """Return the result as plain data, in the format of `search_segment`."""
         rows = [[0, list(key[4]), list(key[5])] for key in self.keys]
         return {"count": self.count, "removed": {}, "rows": rows}
 
     def look(self, beneath: Range, top: Range) -> None:
-        """Consider all pairs of products of two ranges."""
+        """Process all pairs of products of two ranges."""
         under, over = distinct(self.question.under.values(*beneath)), distinct(self.question.over.values(*top))
         low, high = self.question.edges
         whole = cuts(over[0], under[0], low, high)
@@ -206,7 +210,9 @@ class ValueFinder:
             self._keep(*self._nearest(under, over, whole))
 
     def _nearest(self, under: Span, over: Span, whole: Span) -> tuple[Ints, Ints, Ints]:
-        """Products on top, beneath, and sets that make them, of pairs among which the block's best are."""
+        """Return the pairs of products that include the best of the block: numerators, denominators, numbers of
+        multiset pairs.
+        """
         best, limit = self.question.best, self.question.tolerance
         if self.most:
             limit = min(limit, self.most[0])
@@ -230,7 +236,7 @@ class ValueFinder:
         return over[0][j], under[0][i], sets
 
     def _span(self, under: Span, over: Span, whole: Span, tolerance: Fraction) -> Span:
-        """For each product beneath, the products on top within a narrower tolerance."""
+        """Return, for each denominator product, the range of numerator products within a narrower tolerance."""
         value, (low, high) = self.question.value, self.question.edges
         if tolerance >= self.question.tolerance:
             return whole
@@ -238,7 +244,7 @@ class ValueFinder:
         return cuts(over[0], under[0], low, high) if low <= high else (whole[0], whole[0])
 
     def _keep(self, over: Ints, under: Ints, sets: Ints) -> None:
-        """Take the best of these pairs of products into the list."""
+        """Merge the best of these pairs of products into the list."""
         value, size, best = self.question.value, self.question.stages, self.question.best
         error = np.abs(errors(over, under, value))
         order = np.argsort(error, kind="stable")
@@ -264,7 +270,7 @@ class ValueFinder:
         self.keys = merged([*self.keys, *fresh], best)
 
     def _too_late(self, miss: Fraction, total: float) -> bool:
-        """True if neither this pair nor any after it can be among the best."""
+        """Return whether neither this pair nor any later one can be among the best."""
         if self.most and miss > self.most[0]:
             return True
         if len(self.keys) < self.question.best:
@@ -273,7 +279,9 @@ class ValueFinder:
 
 
 def distinct(values: Ints) -> Span:
-    """The different ones of ascending values, (n,), and how many values stand before each and after all, (n + 1,)."""
+    """Return the distinct values of an ascending array, (n,), and the index of their first occurrences and the end, (n
+    + 1,).
+    """
     fresh = np.ones(len(values), dtype=bool)
     fresh[1:] = values[1:] != values[:-1]
     at = np.flatnonzero(fresh)
@@ -281,17 +289,18 @@ def distinct(values: Ints) -> Span:
 
 
 def weight(under: Span, over: Span, span: Span) -> int:
-    """Number of pairs of sets: for each product beneath, the sets of those on top in its span."""
+    """Count the pairs of multisets: for each denominator product, the multisets of the numerator products in its range.
+    """
     return int(((over[1][span[1]] - over[1][span[0]]) * (under[1][1:] - under[1][:-1])).sum())
 
 
 def _pairs(span: Span) -> int:
-    """Number of pairs of products."""
+    """Return the number of pairs of products."""
     return int((span[1] - span[0]).sum())
 
 
 def _minimum_sums(over: Ints, under: Ints, size: int) -> Floats:
-    """A lower bound of the sum of all counts: no sum is less than with equal counts."""
+    """Return a lower bound of the sum of all counts. By the AM-GM inequality equal counts have the minimum sum."""
     root = 1.0 / size
     sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
     # less what roots are rounded by: a lower bound must not be too great
@@ -302,11 +311,11 @@ def _minimum_sums(over: Ints, under: Ints, size: int) -> Floats:
 
 
 CHUNK = 1 << 16
-"""Pairs looked at together."""
+"""Number of pairs processed in one vectorised step."""
 
 
 class RowFinder:
-    """Looks at every pair of sets within the tolerance."""
+    """Search that inspects every pair of multisets within the tolerance."""
 
     def __init__(self, question: StageProblem, bound: tuple[int, Fraction, int] | None) -> None:
         self.question = question
@@ -315,12 +324,12 @@ class RowFinder:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segment`."""
+        """Return the result as plain data, in the format of `search_segment`."""
         found = self.judge.result()
         return {**found, "count": self.count} if self.loose else found
 
     def look(self, beneath: Range, top: Range) -> None:
-        """Consider all pairs of sets with products in two ranges."""
+        """Process all pairs of multisets with products in two ranges."""
         question, (low, high) = self.question, self.question.edges
         below, above = distinct(question.under.values(*beneath)), distinct(question.over.values(*top))
         span = cuts(above[0], below[0], low, high)
@@ -339,7 +348,7 @@ class RowFinder:
                 self.judge.see(over, under, j, i)
 
     def _useful(self, sets: CountSets, minimum: int) -> CountSets:
-        """Without the sets that can be in no solution better than what is there; only where every pair is one."""
+        """Remove the multisets that cannot be in a solution better than the list; only if every pair is a solution."""
         bound, by = self.judge.best.bound, self.question.by
         if not self.loose or bound is None or by not in ("total", "largest"):
             return sets
@@ -349,7 +358,7 @@ class RowFinder:
 
 @dataclass(frozen=True, slots=True)
 class CountSets:
-    """Unordered sets of counts on one side: products, counts (n, k), sums and largest of these."""
+    """Multisets of counts of one side: products (n,), counts (n, k), sums (n,) and largest counts (n,)."""
 
     products: Ints
     counts: Ints
@@ -357,18 +366,18 @@ class CountSets:
     largest: Ints
 
     def taken(self, at: Ints) -> CountSets:
-        """Some of them."""
+        """Return the multisets at the given indices."""
         return CountSets(self.products[at], self.counts[at], self.sums[at], self.largest[at])
 
 
 def sets_of(products: Ints, counts: Ints) -> CountSets:
-    """Sets with these products and counts (ascending in each row)."""
+    """Build multisets from products and counts (ascending in each row)."""
     counts = counts.astype(np.int64)
     return CountSets(products, counts, counts.sum(axis=1), counts[:, -1])
 
 
 class StageFilter:
-    """Sorts pairs of sets within the tolerance into solutions and others, and keeps the best."""
+    """Filter of pairs of multisets by the constraints; counts the solutions and keeps the best."""
 
     def __init__(self, question: StageProblem, bound: tuple[int, float] | None = None) -> None:
         self.question, self.fit = question, question.fit
@@ -378,13 +387,13 @@ class StageFilter:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segment`."""
+        """Return the result as plain data, in the format of `search_segment`."""
         rows = self.best.rows()
         plain = zip(rows.first.tolist(), rows.top.tolist(), rows.beneath.tolist(), strict=True) if rows else ()
         return {"count": self.count, "removed": self.removed, "rows": [list(row) for row in plain]}
 
     def see(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> None:
-        """Judge the pairs of set j on top and set i beneath."""
+        """Process the pairs of numerator multisets j and denominator multisets i."""
         bound = self.best.bound
         if self.quick and bound:
             # what is certainly not among the best needs no look at its counts
@@ -397,7 +406,7 @@ class StageFilter:
             self._rank(over, under, j[good], i[good], found)
 
     def _first(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> Ints:
-        """What the order asks for, from sums and largest counts alone."""
+        """Return the primary rank values, from the sums and largest counts only."""
         if self.question.by == "total":
             return np.asarray(over.sums[j] + under.sums[i])
         if self.question.by == "largest":
@@ -405,7 +414,7 @@ class StageFilter:
         return np.zeros(len(j), dtype=np.int64)
 
     def _rank(self, over: CountSets, under: CountSets, j: Ints, i: Ints, found: FeasiblePairings | None) -> None:
-        """Keep the best of these solutions."""
+        """Add these solutions to the list of the best."""
         top, beneath = over.counts[j], under.counts[i]
         first = first_of(self.question.by, top, beneath, self.fit, found)
         p, q = over.products[j], under.products[i]
@@ -417,7 +426,8 @@ class StageFilter:
             self.best.add(rows)
 
     def _suits(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
-        """Which pairs satisfy the fit, and what their pairings have; the others are counted by reason."""
+        """Return the indices of the pairs that satisfy the constraints, and their pairings; count the others by reason.
+        """
         fit, at = self.fit, np.arange(len(j))
         top, beneath = over.counts[j], under.counts[i]
         if fit.different:
@@ -436,7 +446,7 @@ class StageFilter:
         return at, found.taken(good)
 
     def _left(self, at: Ints, good: Bools, reason: str) -> Ints:
-        """Those that are good; the others are charged to the reason."""
+        """Return the indices for which `good` is true, and count the others under the reason."""
         gone = len(at) - int(good.sum())
         if gone:
             self.removed[reason] = self.removed.get(reason, 0) + gone
@@ -444,7 +454,7 @@ class StageFilter:
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """What no pairing of the sets has."""
+    """Return the reason for which pairs of multisets without a feasible pairing are rejected."""
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),

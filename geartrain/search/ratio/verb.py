@@ -1,4 +1,4 @@
-"""`geartrain teeth ratio RATIO`: stages of gear pairs."""
+"""Command `geartrain teeth ratio RATIO`: search for stages of gear pairs."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Stages of gear pairs with a wanted ratio: every solution within a tolerance counted, the best proved."""
+    """Find gear pairs in series for a ratio: count all solutions within a tolerance and prove the best."""
     from geartrain.search.ratio.stage_problem import StageConstraints
     from geartrain.search.ratio.stage_search import find_stages
     from geartrain.search.target_ratio import read_ratio

@@ -1,7 +1,8 @@
-"""Error against run time of the methods on one train: speeds, transmission functions, motion, torques.
+"""Error and run time of the methods on one train: speeds, transmission functions, motion, torques.
 
-Each method is held against the best of its stage: exact speeds, transmission functions evaluated directly, motion
-composed from them, torque over a turn at many positions. docs/scripts/studies/ measures whole families of trains.
+Each method is compared with the most accurate method of its stage: exact speeds, transmission functions evaluated
+directly, motion composed from them, torque over a revolution at many positions. The scripts in docs/scripts/studies/
+measure whole families of trains.
 """
 
 from __future__ import annotations
@@ -39,11 +40,11 @@ class MethodAccuracy:
 
     See Also
     --------
-    find_accuracy : Measures it.
+    find_accuracy : Measures them.
     """
 
     stage: Stage
-    """What is computed."""
+    """Stage of the computation."""
     method: str
     """Name of the method."""
     seconds: float
@@ -53,11 +54,11 @@ class MethodAccuracy:
     unit: Literal["relative", "pitches", "deg"]
     """Unit of the error."""
     reference: str
-    """What the error is the difference from."""
+    """Values with which the method is compared."""
     prepared: float | None = None
-    """Time of what is done once before the run, such as making tables [s]."""
+    """Time of the preparation before the run, such as the computation of tables [s]."""
     ratio: float = 1.0
-    """`seconds` divided by that of the fastest method of the stage."""
+    """Quotient of `seconds` and the run time of the fastest method of the stage."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,17 +67,17 @@ class TrainAccuracy(Result):
 
     See Also
     --------
-    find_accuracy : Gives it.
+    find_accuracy : Returns it.
     """
 
     state: str | None
-    """The state."""
+    """Name of the state."""
     positions: int
-    """Angles of each pair, and positions of the input."""
+    """Number of angles of each pair, and of positions of the input."""
     methods: tuple[MethodAccuracy, ...]
-    """In the order of the stages."""
+    """Methods in the order of the stages."""
     left_out: dict[str, str]
-    """Reason for each stage that the train does not have."""
+    """Stage -> reason for which it does not apply to the train."""
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
@@ -89,12 +90,12 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     state : str, optional
         One of its states.
     positions : int
-        Angles of each pair, and positions of the input.
+        Number of angles of each pair, and of positions of the input.
 
     Returns
     -------
     TrainAccuracy
-        All methods; exact speeds and composed motion are what others are compared with.
+        All methods. The references are exact speeds and composed motion.
 
     Examples
     --------
@@ -123,7 +124,10 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
-    """The minimum time of a task, and what it returned; the first run may have had to load a library."""
+    """Return the minimum run time of several runs of a task [s], and its result.
+
+    The minimum excludes the time that the first run needs to import libraries.
+    """
     times: list[float] = []
     while not times or sum(times) < _ENOUGH or (len(times) < 2 and sum(times) < _LONG):
         start = time.perf_counter()
@@ -133,7 +137,7 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Exact elimination and sparse LU, from the declaration to the speeds of all links."""
+    """Yield the methods for speeds: exact elimination and sparse LU factorisation, each from the declaration on."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -157,7 +161,7 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Every pair's transmission function evaluated directly, and interpolated in tables."""
+    """Yield the methods for transmission functions: direct evaluation and interpolation in tables."""
     transmissions = {mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
     transmissions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
     if not transmissions:
@@ -197,7 +201,7 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Errors composed in the solved order (by numpy, compiled, from tables), and superposed to first order."""
+    """Yield the methods for motion: composition (by numpy, compiled, from tables) and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -238,7 +242,8 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """The exact balance with losses, and the mean torque over a turn by its samples."""
+    """Yield the methods for torques: the exact balance with losses, and the mean torque over a revolution by samples.
+    """
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     seconds, found = _best_of(lambda: GearTrain(train.declaration).torques(state))

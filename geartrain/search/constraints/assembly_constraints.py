@@ -1,7 +1,7 @@
-"""Constraints on the tooth counts of a declared train besides ratios: assembly, positions of axes, interference.
+"""Constraints on the tooth counts of a declared train: assembly, positions of axes, interference.
 
-`find_constraints` makes them out of a train and of `ConstraintOptions`. There are two kinds: a `CountEquation`, which
-can be solved for a wheel, and a `Condition`, which only tells. Both judge many candidates at once.
+`find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
+solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
 """
 
 from __future__ import annotations
@@ -60,18 +60,19 @@ if TYPE_CHECKING:
 
 
 BACKLASH = 0.05
-"""Half modules by which positions may be off: they are rounded, and teeth have play."""
+"""Tolerance of a distance between declared positions [half modules]: positions are rounded, and teeth have backlash."""
 
 
 def find_constraints(
     train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
 ) -> tuple[CountConstraint, ...]:
-    """The rules that the free wheels of a train must keep, the cheapest first.
+    """Return the constraints on the free wheels of a train, those with the lowest cost first.
 
-    free   wheel -> counts it may have; all other wheels have their declared counts
-    Order: limits of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops. Rules
-    without a free wheel are left out, for the search cannot change what they say. `QuestionError` where one that is
-    asked cannot be judged in this train, or no counts can meet it.
+    free   wheel -> admissible counts; all other wheels have their declared counts
+
+    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops.
+    Constraints without a free wheel are omitted, because the search cannot change them. `QuestionError` is raised if a
+    requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
     """
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
@@ -81,14 +82,14 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _Requesting:
-    """The rules of one train; in `fitting` its free wheels have stand-in counts."""
+    """Builder of the constraints of one train; in `fitting` its free wheels have placeholder counts."""
 
     declared: Train
     fitting: TrainAssembly
     requested: ConstraintOptions
 
     def rules(self) -> Iterator[CountConstraint]:
-        """All of them, in order."""
+        """Yield all constraints in order."""
         yield from self._limits()
         linear = [*self._coaxial(), *self._equal()]
         yield from sorted(linear, key=lambda rule: not isinstance(rule, CountEquation))
@@ -123,7 +124,7 @@ class _Requesting:
                 yield Condition(what, (name,), CountBounds(name, minimum=rack))
 
     def _most(self, wheel: str, radius: Quantity) -> int:
-        """The largest count whose pitch radius, m z/2, is within bounds."""
+        """Return the maximum count for which the pitch radius, m z/2, is within the bound."""
         measure, module = self.fitting.module(wheel)
         if (measure == "m") != (radius.unit is not None) or module is None:
             declared = "a length" if measure == "m" else "a plain number" if measure else "not declared"
@@ -139,7 +140,8 @@ class _Requesting:
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Meshes between the same two axes, of one measure: each has the centre distance of the first."""
+        """Yield the equality of centre distance for meshes between the same two axes with modules of the same measure.
+        """
         if self.requested.coaxial is False:
             return
         first: dict[object, AssemblyMesh] = {}
@@ -166,7 +168,10 @@ class _Requesting:
         yield Condition(words, scaled.wheels, NearZero(scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """True if the declared counts do not meet the rule, and it is not asked for: modules differ, or are shifted."""
+        """Return whether the declared counts violate a constraint that was not requested explicitly.
+
+        Modules then differ, or profiles are shifted.
+        """
         counts = {wheel: self._evident(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
         return (
@@ -174,7 +179,9 @@ class _Requesting:
         )
 
     def _evident(self, wheel: str) -> int | None:
-        """The declared count; None where it is to be searched for, and a value beside that only stands in."""
+        """Return the declared count, or None if it is to be searched for, in which case its value is only a
+        placeholder.
+        """
         teeth = self.declared.wheels[wheel][1].teeth
         if isinstance(teeth, int):
             return teeth
@@ -201,7 +208,7 @@ class _Requesting:
         return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Of each free wheel and all fixed counts, then of each two free wheels."""
+        """Yield the conditions between each free wheel and all fixed counts, then between each two free wheels."""
         words = "different counts: two wheels have the same"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
         groups = joined_groups(self.fitting.train.wheels, copied)
@@ -224,7 +231,7 @@ class _Requesting:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _numbered(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Sets of planets and how many there are of each: as asked, else by `copies`."""
+        """Yield each set of planets with its number of equal planets: the requested number, or that of `copies`."""
         requested = self.requested.planets
         if requested is None:
             for one in self.fitting.sets:
@@ -245,11 +252,11 @@ class _Requesting:
             yield one, number
 
     def _declared(self, one: PlanetSet) -> int:
-        """Equal sets that are declared, by `copies` or one by one."""
+        """Return the number of equal sets that are declared, by `copies` or individually."""
         return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
 
     def _equal(self) -> Iterator[CountConstraint]:
-        """Planets declared one by one have the same counts."""
+        """Yield the equations that give individually declared equal planets the same counts."""
         for one, _ in self._numbered():
             for first, other in self._copied(one):
                 found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
@@ -313,7 +320,9 @@ def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
 
 @dataclass(frozen=True, slots=True)
 class CentreDistanceMatch:
-    """A sum of teeth as near as `most` to a multiple of another: centre distances in the proportion of positions."""
+    """Condition that a sum of teeth is within `most` of a multiple of another: centre distances are proportional to the
+    distances between positions.
+    """
 
     teeth: WholeSum
     other: WholeSum
@@ -321,49 +330,50 @@ class CentreDistanceMatch:
     most: float
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it is, (candidates,)."""
+        """Return the candidates for which the distances match, (candidates,)."""
         return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
 
 
 @dataclass(frozen=True)
 class LoopPhasing:
-    """Loops whose teeth meet, judged for every candidate on its own (about a millisecond each)."""
+    """Condition that the teeth of all loops mesh, evaluated for each candidate separately (about a millisecond each).
+    """
 
     train: Train
-    """With some counts; those of `wheels` are put in."""
+    """Train with placeholder counts; those of `wheels` are replaced."""
     tree: Tree
-    """With some counts; those of `wheels` are put in."""
+    """Tree with placeholder counts; those of `wheels` are replaced."""
     circuits: tuple[Circuit, ...]
-    """With some counts; those of `wheels` are put in."""
+    """Circuits with placeholder counts; those of `wheels` are replaced."""
     wheels: tuple[str, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where no loop misses or cannot be told, (candidates,)."""
+        """Return the candidates for which no loop fails or is undecided, (candidates,)."""
         rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
         each, back = np.unique(rows, axis=0, return_inverse=True)
         found = [self.holds(dict(zip(self.wheels, row, strict=True))) for row in each.tolist()]
         return np.array(found, dtype=bool)[back.reshape(-1)]
 
     def holds(self, counts: Mapping[str, int]) -> bool:
-        """True if the loops close with these counts."""
+        """Return whether all loops close with these counts."""
         return bool(find_phasing(self.train, self.tree, [circuit.with_counts(counts) for circuit in self.circuits]))
 
 
 @dataclass(frozen=True)
 class DeclaredPositions:
-    """The declared positions of a train, as facts: wheels must reach each other there, and teeth meet."""
+    """Constraints from the declared positions of axes: wheels must reach each other, and their teeth must mesh."""
 
     fitting: TrainAssembly
     shift: int = 0
-    """Half modules that profile shift bridges."""
+    """Deviation of a centre distance that profile shift compensates [half modules]."""
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Phase closure with the stand-in counts."""
+        """Phase closure with the placeholder counts."""
         return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
 
     def conditions(self) -> Iterator[Condition]:
-        """Distances first, loops last. `QuestionError` where no loop has known places."""
+        """Yield the conditions on distances, then on loops; `QuestionError` if the positions of no loop are known."""
         found = self.closure
         if found.kind == "open" and not found.rigid:
             raise QuestionError(_no_places(self.fitting.train))
@@ -371,7 +381,9 @@ class DeclaredPositions:
         yield from self._meeting()
 
     def _reaching(self) -> Iterator[Condition]:
-        """Meshes that share a wheel, or have modules of one measure, share a unit: distances are as their teeth."""
+        """Yield the conditions on distances. Meshes that share a wheel or the measure of their modules share a unit of
+        length.
+        """
         groups: dict[int, list[AssemblyMesh]] = {}
         for mesh in self.fitting.meshes:
             if mesh.spur and self._length(mesh):
@@ -393,7 +405,7 @@ class DeclaredPositions:
                 yield from self._as(mesh, teeth_of(first), self._length(mesh) / self._length(first), f"'{first.name}'")
 
     def _is_sized(self, mesh: AssemblyMesh) -> bool:
-        """True if the module of a mesh and the positions of its axes are in one measure."""
+        """Return whether the module of a mesh and the positions of its axes have the same measure."""
         if not mesh.measure or mesh.module is None:
             return False
         places = [self.fitting.train.axes[label].position for label in mesh.axes]
@@ -409,7 +421,7 @@ class DeclaredPositions:
             yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, BACKLASH + self.shift))
 
     def _length(self, mesh: AssemblyMesh) -> float:
-        """Distance of the two axes of a mesh (m, or plain); 0 where a position is not declared."""
+        """Return the distance between the two axes of a mesh [m, or plain]; 0 if a position is not declared."""
         axes = self.fitting.train.axes
         ends = [axes[label].position for label in mesh.axes if label in axes]
         if len(ends) < 2 or ends[0] is None or ends[1] is None:
@@ -420,7 +432,8 @@ class DeclaredPositions:
         return sqrt(max(sum(x * x for x in arm) - along, 0.0))
 
     def _meeting(self) -> Iterator[Condition]:
-        """One condition on all loops: by their rule where it is known, else candidate by candidate."""
+        """Yield one condition on all loops: their divisibility rule if it is known, otherwise a test of each candidate.
+        """
         wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
         if not wheels:
             return
@@ -443,7 +456,7 @@ class DeclaredPositions:
         return total
 
     def _in_loops(self) -> Sequence[str]:
-        """The wheels of all pairs in loops, closing and rigid ones."""
+        """Return the wheels of all pairs in loops, both closing and rigid ones."""
         problem = self.closure.problem
         meshes = {mesh for condition in problem.conditions for mesh in condition.row}
         pairs = {problem.circuits[mesh].id for mesh in meshes}
@@ -465,11 +478,13 @@ def _no_places(train: Train) -> Problem:
 
 
 def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
-    """Least teeth of a spur wheel that a rack does not undercut: z >= 2 h / sin(alpha)^2, rounded up.
+    """Return the minimum tooth count of a spur wheel without undercut by a rack: z >= 2 h / sin(alpha)^2, rounded up.
 
-    pressure   alpha, turns (0 to 1/4); addendum h of the rack, modules. 18 at 20 degrees (17.1), 32 at 14.5
-    The rack's tip reaches h below the pitch line; the involute ends where the line of action leaves the base circle,
-    r sin(alpha)^2 below it.
+    pressure   pressure angle alpha [turns], 0 to 1/4
+    addendum   addendum h of the rack [modules]
+
+    Examples with h = 1: 18 teeth at 20 degrees (17.1), 32 at 14.5. The tip line of the rack lies h below the pitch line;
+    the involute ends at the point where the line of action touches the base circle, r sin(alpha)^2 below it.
     """
     with localcontext(prec=50):
         limit = decimal(2 * addendum) / sine(pressure) ** 2
@@ -478,28 +493,28 @@ def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
 
 
 def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h): 0 or more if the tip of 2 stays on the involute of 1.
+    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), which is >= 0 without interference of tip 2 at wheel 1.
 
-    The tip circle of 2 must cut the line of action before the point where that touches the base circle of 1:
+    The tip circle of 2 must intersect the line of action before the point where that touches the base circle of 1:
     r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares of z2
-    cancel. For z2 without end it is z1 sin(alpha)^2 >= 2 h, the rack. Solved for z1 it is the least pinion that
-    textbooks of machine elements print (Shigley, at 20 degrees: 13 teeth go with 16 at most, 14 with 26, 15 with 45).
+    cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1 it gives the
+    minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15 with 45).
     """
     return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
 
 
 def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h): 0 or more if the ring's tip stays on the involute of 1.
+    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 without interference of the ring's tip.
 
-    h is the ring's addendum. As for an external pair with z2 and h negative; derived apart: the ring's tip circle must
-    cut the line of action beyond the point where that touches the base circle of 1, counted from the ring's own,
-    r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
+    h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
+    independently: the ring's tip circle must intersect the line of action beyond the point where that touches the base
+    circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
     """
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 
 
 def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """`tip_room` of each candidate (rad); arguments as there, tooth counts as arrays of one shape."""
+    """Return the clearance `tip_room` of each candidate [rad]; tooth counts are arrays that broadcast to one shape."""
     planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
     # many candidates share a few pairs of counts
     pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
@@ -509,7 +524,7 @@ def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats
 
 @dataclass(frozen=True, slots=True)
 class OnInvolute:
-    """Tips of an external pair stay on each other's involute, exactly."""
+    """Condition that the tips of an external pair do not interfere: each meets the involute of its mate; exact."""
 
     first: CountRef
     second: CountRef
@@ -517,7 +532,7 @@ class OnInvolute:
     addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they do, (candidates,)."""
+        """Return the candidates without interference, (candidates,)."""
         z1, z2 = counts_of(columns, self.first), counts_of(columns, self.second)
         constants = _square(self.pressure), decimal(self.addendum)
         one = is_positive(external_terms, [z1, z2], constants, False)
@@ -526,7 +541,10 @@ class OnInvolute:
 
 @dataclass(frozen=True, slots=True)
 class InRing:
-    """Tips of a planet and a ring keep clear of each other's flanks. Tips that pass by less than 1e-9 rad meet."""
+    """Condition that the tips of a planet and a ring do not interfere with each other's flanks or tips.
+
+    Tips that pass each other with a clearance of less than 1e-9 rad count as interfering.
+    """
 
     planet: CountRef
     ring: CountRef
@@ -535,7 +553,7 @@ class InRing:
     ring_addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they do, (candidates,)."""
+        """Return the candidates without interference, (candidates,)."""
         z1, z2 = counts_of(columns, self.planet), counts_of(columns, self.ring)
         fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
         fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
@@ -551,7 +569,8 @@ def _square(pressure: Fraction) -> Decimal:
 def interference(
     mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
 ) -> Iterator[Condition]:
-    """The condition on a spur pair with a free count. Angles in turns, addenda in modules."""
+    """Yield the interference condition of a spur pair with a free count; pressure angle in turns, addenda in modules.
+    """
     wheels = free_of(*mesh.parts)
     if not wheels or not mesh.spur:
         return

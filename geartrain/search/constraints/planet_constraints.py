@@ -1,4 +1,4 @@
-"""Equal planets on a carrier: which tooth counts let all be put in, and leave room between neighbours."""
+"""Assembly of equal planets on a carrier: phase conditions on tooth counts, and clearance between neighbours."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class EqualPlanets:
-    """n equal sets of planets, each a turn over n from the one before, can mesh with the same central wheels.
+    """Condition that n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
-    They can if n divides every number of `phase_numbers`, which has the derivation.
+    The condition is that n divides every number of `phase_numbers`, where it is derived.
     """
 
     number: int
     first: PlanetArm
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they can, (candidates,)."""
+        """Return the candidates for which the planets can be assembled, (candidates,)."""
         n = self.number
         # b matters modulo n only: reduced, so that products of counts stay within int64
         kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda number: number % n)
@@ -63,7 +63,8 @@ class EqualPlanets:
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
-    """Greatest common divisors g of arrays of numbers from 0, and u, v with u a + v b = g (Euclid's algorithm)."""
+    """Return the greatest common divisors g of arrays of numbers >= 0, and u, v with u a + v b = g (extended Euclid).
+    """
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
         done = r2 == 0
@@ -77,7 +78,7 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
-    """The condition on a set of planets; None where no count in it is free, or it constrains nothing."""
+    """Return the assembly condition of a set of planets; None if it has no free count or constrains nothing."""
     assert found.planets is not None
     first = planet_arm(found.planets)
     if sum(len(planet.central) for planet in found.planets.walk()) < 2:
@@ -87,7 +88,7 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
 
 
 def reason(found: PlanetSet, number: int) -> str:
-    """The rule in words, with the formula where it is a short one."""
+    """Describe the assembly condition, with its formula if that is short."""
     head = f"{number} equal planets on '{found.carrier}'"
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
@@ -104,21 +105,26 @@ def reason(found: PlanetSet, number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class NeighbourClearance:
-    """Tip circles of neighbouring planets with more room than is asked, exactly; arguments as in `neighbour_terms`."""
+    """Condition that the clearance of the tip circles of neighbouring planets exceeds the required one, exactly.
+
+    The arguments are those of `neighbour_terms`.
+    """
 
     number: int
     reach: WholeSum
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they have, (candidates,)."""
+        """Return the candidates with sufficient clearance, (candidates,)."""
         chord = sine(Fraction(1, 2 * self.number))
         return is_positive(neighbour_terms, [self.reach.of(columns), self.tips.of(columns)], [chord], True)
 
 
 @dataclass(frozen=True, slots=True)
 class PassingClearance:
-    """Two planets that mesh can stand on their circles, and each clears those that mesh with its neighbours."""
+    """Condition that two meshing planets can be placed on their circles, and that each clears the mates of its
+    neighbours.
+    """
 
     number: int
     A: WholeSum
@@ -127,7 +133,7 @@ class PassingClearance:
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they can and do, (candidates,); arguments as in `passing_terms`."""
+        """Return the candidates that satisfy both, (candidates,); the arguments are those of `passing_terms`."""
         A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
         # the triangle of the central axis and the two planets must close
         found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
@@ -139,18 +145,20 @@ class PassingClearance:
 
 @dataclass(frozen=True, slots=True)
 class PositiveRoom:
-    """A sum above 0."""
+    """Condition that a sum is positive."""
 
     room: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it is, (candidates,)."""
+        """Return the candidates whose sum is positive, (candidates,)."""
         return np.asarray(self.room.of(columns) > 0)
 
 
 @dataclass(frozen=True, slots=True)
 class PlanetRoom:
-    """The room required between planets: addenda of wheels and rings, and what is to be left (modules)."""
+    """Required clearance between planets: number of planets, addenda of wheels and rings, and minimum clearance
+    [modules].
+    """
 
     number: int
     addendum: Fraction
@@ -158,10 +166,10 @@ class PlanetRoom:
     clearance: Fraction
 
     def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
-        """Of one set of planets: tips of wheels that neighbours have in common, then of those that mesh.
+        """Yield the conditions of one set of planets: tips of neighbouring equal wheels, then of planets that mesh.
 
-        Wheels of planets are as wide apart as their axes; central wheels of a set of two planets, one meeting only
-        external wheels and the other only rings, are taken to stand in one plane with both.
+        Wheels of planets are as far apart as their axes. In a set of two planets, if one meshes only with external central
+        wheels and the other only with rings, these are assumed to lie in one plane with both planets.
         """
         assert found.planets is not None
         _check(found)
@@ -194,14 +202,18 @@ class PlanetRoom:
                 yield from self._between(inner, outer)
 
     def _between(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """The outer planet clears the inner one's central wheels, and the inner one the outer one's rings."""
+        """Yield the clearance of the outer planet to the inner one's central wheels, and of the inner one to the
+        outer's rings.
+        """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
                 name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
                 yield from _condition(name, PositiveRoom(*whole(self._gap(planet, other, mesh))))
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
-        """Twice the room between a planet and the central wheel of another one, less what is to be left."""
+        """Return twice the clearance between a planet and the central wheel of another one, minus the required
+        clearance.
+        """
         reach, own = _reach(planet), planet.central[0]
         assert reach is not None
         assert mesh.module is not None
@@ -212,19 +224,23 @@ class PlanetRoom:
 
 
 def _is_plain(planet: Planet, external: bool) -> bool:
-    """True if a planet is one wheel among external central wheels only, or among rings only; at the end of its set."""
+    """Return whether a planet is a single wheel at the end of its set, with only external (or only ring) central
+    wheels.
+    """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Twice the distance of a planet's axis from the central one: by a mesh of a wheel, else by an external one."""
+    """Return twice the distance of a planet's axis from the central axis: by a mesh of a wheel, else by an external
+    mesh.
+    """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None
 
 
 def _once(planet: Planet) -> list[AssemblyMesh]:
-    """A mesh for each of its wheels."""
+    """Return one mesh for each wheel of a planet."""
     inward = [planet.inward] if planet.inward else []
     meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
@@ -247,7 +263,7 @@ def _shown(number: Fraction) -> str:
 
 
 def _check(found: PlanetSet) -> None:
-    """Refuse sets whose room is not known."""
+    """Raise `QuestionError` for sets whose clearance cannot be computed."""
     meshes = _meshes(found)
     if not all(mesh.spur for mesh in meshes):
         why, fix = "the tips of bevel wheels are not on circles about parallel axes", "leave the clearance out"

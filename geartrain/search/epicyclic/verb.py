@@ -1,4 +1,4 @@
-"""`geartrain teeth set RATIO --kind ...`: epicyclic sets."""
+"""Command `geartrain teeth set RATIO --kind ...`: search for epicyclic sets."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Epicyclic sets of one kind with a wanted ratio, that can be put together with equal planets."""
+    """Find epicyclic sets of one type for a ratio that can be assembled with equal planets."""
     from geartrain.search.epicyclic.set_search import find_sets
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
@@ -87,7 +87,7 @@ def run(
 
 
 def _list(answer: SearchAnswer) -> None:
-    """The kinds there are."""
+    """Print the types of epicyclic sets."""
     from geartrain.search.epicyclic.epicyclic_sets import kinds
     from geartrain.search.tooth_numbers_report import describe_set_kinds
 

@@ -1,7 +1,7 @@
-"""Pages of a train that is being written, on the local address: made anew when a file of it is saved.
+"""Local web server for the pages of a train that is being edited; they are rebuilt when one of its files is saved.
 
-One page holds the report and the turning train side by side. It keeps a line open to the server; when that says that
-there is something new, both are loaded again, and camera, crank and chosen state are put back where they were.
+One page shows the report and the animated train side by side. It keeps a connection to the server; when a new version
+is announced, both are reloaded, and camera, crank and selected state are restored.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ _LOCAL = "127.0.0.1"
 
 @dataclass(frozen=True, slots=True)
 class LivePages:
-    """What is shown of a train: whole documents of HTML."""
+    """Pages of a train as complete HTML documents."""
 
     report: str
     view: str
 
 
 class LiveServer:
-    """Serves a train's pages on the local address alone, until it is interrupted.
+    """Server of the pages of a train on the local address only, until it is interrupted.
 
     Parameters
     ----------
     make : callable
-        Makes the pages anew; a `GearTrainError` is shown above the pages made last.
+        Function that builds the pages; a `GearTrainError` is shown above the last pages.
     watched : callable
-        Files whose change makes them old, asked after each change.
+        Function that returns the files to watch; it is called after each change.
     port : int
-        0 for one that is free.
+        Port number, 0 for any free port.
 
     Raises
     ------
     MissingExtraError
-        Where server or watcher are not installed.
+        If tornado or watchdog is not installed.
     QuestionError
-        Where the port is taken.
+        If the port is in use.
     """
 
     def __init__(self, make: Callable[[], LivePages], watched: Callable[[], Iterable[Path]], port: int = 0) -> None:
@@ -71,11 +71,11 @@ class LiveServer:
 
     @property
     def address(self) -> str:
-        """Where the page is."""
+        """URL of the page."""
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Make the pages; what is wrong with the train is kept, to be shown."""
+        """Build the pages; if the train has errors, keep the message to display it."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
@@ -83,12 +83,12 @@ class LiveServer:
         self.version += 1
 
     def run(self, told: Callable[[str], object]) -> None:
-        """Serve until interrupted.
+        """Serve the pages until interrupted.
 
         Parameters
         ----------
         told : callable
-            Called with what is wrong after each change, or with nothing.
+            Function called after each change with the error message, empty if there is no error.
         """
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(told))
@@ -170,7 +170,9 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """What the outer page may do: run its script, show the two pages of this server, and listen to it."""
+        """Return the content security policy of the outer page: its script, frames of this server, and the connection
+        to it.
+        """
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]
         reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"

@@ -1,4 +1,4 @@
-"""`geartrain teeth orrery moon=29.53 venus=224.7 ...`: several periods from one arbor."""
+"""Command `geartrain teeth orrery moon=29.53 venus=224.7 ...`: search for a train that shows several periods."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Several periods from one arbor, with few wheels and arbors."""
+    """Find a gear train that shows several periods from one arbor with few wheels and arbors."""
     from geartrain.search.orrery.orrery_search import find_orrery
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_orrery, orrery_rows
@@ -50,7 +50,7 @@ def run(
 
 
 def _periods(texts: list[str]) -> dict[str, Fraction]:
-    """Name -> period in turns of the first arbor."""
+    """Parse a mapping from name to period [revolutions of the first arbor]."""
     from geartrain.search.target_ratio import read_ratio
 
     found: dict[str, Fraction] = {}

@@ -1,4 +1,5 @@
-"""Tooth numbers in a train: every assignment of its free wheels with which all outputs meet their requirements."""
+"""Search for tooth counts in a train: all assignments of its free wheels for which all outputs meet their requirements.
+"""
 
 from __future__ import annotations
 
@@ -33,14 +34,16 @@ from geartrain.train import Train
 
 
 _LISTED = 100_000
-"""Assignments that are brought out to find the best few by error; more are narrowed down first."""
+"""Maximum number of assignments that are enumerated to find the best by error; if there are more, the tolerance is
+reduced.
+"""
 _TRIES = 40  # passes with one tolerance after the other
 _MINIMUM = Fraction(1, 10**40)  # tolerances past these hold nothing, or all there is
 _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """The pass that counts, the best assignments, and whether they are shown to be the best."""
+    """Return the pass that counts, the best assignments, and whether they are proved to be the best."""
     if any(asking.approached for asking in search.part.askings):
         passed = widened(search)
         return passed, passed.tally.best, passed.tally.listed and passed.complete
@@ -55,16 +58,18 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """A pass with a tolerance that holds as many assignments as are wanted, or all there are."""
+    """Run passes until the tolerance includes the requested number of assignments, or all."""
     return _fitting(search, _first(search), None, 3 * search.order.best)
 
 
 def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: int) -> PassResult:
-    """A pass with a tolerance in which enough lie, all of them listed.
+    """Find a tolerance that includes enough assignments, all of them listed, and return its pass.
 
-    long   a tolerance that holds too many to list; None if none is known
-    some   how many it should hold, about
-    Where no tolerance will do, because too many have one error, the pass lists what it can in its time.
+    long   a tolerance that includes too many to list; None if none is known
+    some   approximate number of assignments it should include
+
+    If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
+    enumerate within its limit.
     """
     short = Fraction(0)
     for _ in range(_TRIES):
@@ -90,17 +95,17 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
 
 
 def _most(search: PartSearch) -> int:
-    """How many assignments are brought out at most to find the best by error."""
+    """Return the maximum number of assignments that are enumerated to find the best by error."""
     return max(_LISTED, 4 * search.order.best)
 
 
 def _powers(search: PartSearch) -> int:
-    """How many outputs have an error to narrow."""
+    """Return the number of outputs that have an error."""
     return sum(not asking.exact for asking in search.part.askings)
 
 
 def _first(search: PartSearch) -> Fraction:
-    """The tolerance in which about as many lie as are wanted."""
+    """Estimate the tolerance that includes about the requested number of assignments."""
     trial = Fraction(1, 1000)
     # hits grow as the tolerance to the power of the outputs that have an error
     hits = size_of(search.domains) * prod(search.chances(search.requested(trial)).values())
@@ -110,19 +115,19 @@ def _first(search: PartSearch) -> Fraction:
 
 
 def _growth(search: PartSearch, count: int, some: int) -> Fraction:
-    """By how much to widen when only `count` were found."""
+    """Return the factor by which to increase the tolerance if only `count` assignments were found."""
     # nothing found: as wide a step as is taken
     missing = some / count if count else 1e9
     return Fraction(min(10.0, max(1.5, missing ** (1 / max(_powers(search), 1)))))
 
 
 def _rounded(share: Fraction) -> Fraction:
-    """To two digits, so that it can be said in words."""
+    """Round to two digits, so that the tolerance is easy to print."""
     return Fraction(f"{float(share):.1e}")
 
 
 def _top(search: PartSearch) -> Fraction:
-    """No solution has a larger error than this."""
+    """Return an upper bound of the error of all solutions."""
     largest = Fraction(0)
     for asking in search.part.askings:
         requested = asking.requested(None)
@@ -134,7 +139,7 @@ def _top(search: PartSearch) -> Fraction:
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:
-    """The same search with every graded demand approached: what comes nearest."""
+    """Return the search with every graded requirement replaced by the minimisation of its error."""
     askings = tuple(
         replace(asking, demands=tuple(one.loosened() if one.graded else one for one in asking.demands))
         for asking in search.part.askings
@@ -148,7 +153,9 @@ def relaxed_search(search: PartSearch) -> PartSearch:
 
 
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
-    """The tallies of a pass; where nothing was found, also the nearest miss and what would help."""
+    """Return the rejected assignments of a pass by reason; if there is no solution, also the nearest miss and
+    suggestions.
+    """
     found = tallied(search, passed)
     if passed.tally.count or not passed.complete:
         return found
@@ -158,7 +165,7 @@ def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
-    """How many assignments each rule and demand refused, in the order in which they were decided."""
+    """Return the number of assignments that each constraint and requirement rejected, in the order of evaluation."""
     removed = dict(search.alone)
     for reason, number in passed.removed.items():
         removed[reason] = removed.get(reason, 0) + number
@@ -166,7 +173,7 @@ def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _explained(search: PartSearch) -> tuple[str, str]:
-    """The nearest miss in words, and what to relax."""
+    """Describe the nearest miss, and the constraints to relax."""
     wrong = [asking for asking in search.part.askings if _turns_wrong(asking)]
     if wrong:
         names = ", ".join(f"'{asking.name}'" for asking in wrong)
@@ -182,7 +189,7 @@ def _explained(search: PartSearch) -> tuple[str, str]:
 
 
 def _turns_wrong(asking: OutputRequirement) -> bool:
-    """True if a sense is asked for that no counts give."""
+    """Return whether the required sense of rotation cannot be obtained with any counts."""
     requested = asking.requested(None)
     senses = [_sense(terms) for terms in (asking.function.numerator, asking.function.denominator)]
     if requested is None or not all(senses):
@@ -192,7 +199,7 @@ def _turns_wrong(asking: OutputRequirement) -> bool:
 
 
 def _against(interval: Interval, sense: int) -> bool:
-    """True if an interval has speeds of the other sense, and none of this one."""
+    """Return whether an interval has only speeds of the opposite sense."""
     low, high = interval
     # an interval whose end is 0 is met by a standstill, so it is not of the other sense alone
     near, far = (high, low) if sense > 0 else (low, high)
@@ -200,13 +207,15 @@ def _against(interval: Interval, sense: int) -> bool:
 
 
 def _sense(terms: Sequence[WholeTerm]) -> int:
-    """1 or -1 where all terms have that sign, else 0."""
+    """Return the common sign of all terms, 1 or -1, or 0 if they differ."""
     signs = {term[0] > 0 for term in terms}
     return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
-    """What comes nearest, with all rules kept; None if the rules leave nothing, or it cannot be found in time."""
+    """Return the assignment with the minimum error that satisfies all constraints; None if none was found within the
+    limit.
+    """
     if not search.part.askings or not size_of(search.domains):
         return None
     best = widened(relaxed_search(search)).tally.best
@@ -214,7 +223,7 @@ def _nearest(search: PartSearch) -> Assignment | None:
 
 
 def _alone(search: PartSearch) -> Iterator[str]:
-    """How near every output comes when the others are not asked."""
+    """Yield the minimum error of each output without the requirements on the others."""
     for asking in search.part.askings:
         part = replace(search.part, askings=(asking,))
         order = replace(search.order, askings=(asking,))
@@ -224,7 +233,7 @@ def _alone(search: PartSearch) -> Iterator[str]:
 
 
 def _without(search: PartSearch) -> Iterator[str]:
-    """What there would be without one rule, or one output's demands, where there is more than one thing asked."""
+    """Yield the number of solutions without one constraint, or without one output, if there are several."""
     names = dict.fromkeys(rule.name for rule in search.part.rules)
     if len(names) + len(search.part.askings) < 2:
         return
@@ -256,7 +265,7 @@ def _errors(assignment: Assignment) -> str:
 
 
 def _up(error: Fraction) -> str:
-    """A size rounded up to two digits."""
+    """Format a magnitude rounded up to two digits."""
     if not error:
         return "0"
     unit = Fraction(10) ** (floor(log10(error)) - 1)
@@ -264,12 +273,12 @@ def _up(error: Fraction) -> str:
 
 
 LIMIT = 10**9
-"""Steps (partial assignments looked at) that a pass may take by default: a few minutes."""
+"""Default maximum number of steps (partial assignments examined) of a pass: a few minutes."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainSearchRequest:
-    """What is requested of a search for tooth numbers in a train; fields are the arguments of `search_train`."""
+    """Request of a search for tooth counts in a train; its fields are the arguments of `search_train`."""
 
     train: Train
     state: str | None = None
@@ -279,10 +288,10 @@ class TrainSearchRequest:
     best: int = 20
     by: By = "error"
     where: tuple[Mapping[str, int], ...] = ()
-    """Assignments whose place among all is requested besides."""
+    """Assignments whose ranks are also requested."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data: equal for two requests that need the same work."""
+        """Return plain data, equal for two requests that need the same computation."""
         return {
             "train": self.train.model_dump(mode="json"),
             "state": self.state,
@@ -295,13 +304,14 @@ class TrainSearchRequest:
 
 
 def answer_search(request: TrainSearchRequest, execution: Execution | None = None) -> TrainFindings:
-    """Answer a request: the solutions of `search_train`, and where the requested assignments are among them.
+    """Run a request: the solutions of `search_train`, and the ranks of the queried assignments.
 
     Parameters
     ----------
     request : TrainSearchRequest
+        Request of the search.
     execution : Execution, optional
-        How the tasks are done; default in this process.
+        Execution of the tasks; by default in this process.
     """
     run = execution or Execution()
     found = search_train(
@@ -333,53 +343,55 @@ def search_train(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> TrainFindings:
-    """All tooth counts of a train's free wheels that meet every requirement, counted, and the best: an exact join.
+    """Find all tooth counts of the free wheels of a train that satisfy every requirement, count them, and list the best.
 
-    Lists of products of counts are joined along what the outputs share, so that far more assignments are counted than
-    could be listed; integers decide. What is required of an output: its `expect` and `published`, at their digits and
-    in their sense; every target that has a tolerance; with `tolerance`, the first target where none has. An output with
-    targets and none of all these is approached: the best `best` by error are found, proved by widening a common
-    tolerance.
+    The algorithm is an exact join of lists of products of counts along the factors that the outputs share, so that many
+    more assignments can be counted than listed; all comparisons are in integers. The requirements on an output are its
+    `expect` and `published`, at their digits and in their sense; every target that has a tolerance; and, with `tolerance`,
+    the first target if none has one. The error of an output with targets but without any of these is minimised: the
+    `best` assignments by error are found, and proved by increasing a common tolerance.
 
     Parameters
     ----------
     train : Train
         The declaration, such as `geartrain.load(name).declaration`.
     state : str, optional
-        In which state of a train with states; default in all of them at once.
+        State of a train with states; by default the requirements of all states.
     free : str or sequence of str
-        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those and all wheels whose count has a `range`
-        or `choices`. Or wheels by name, which must have one of the three. Wheels without any count are free anyway.
+        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those, and all wheels whose count has a `range` or
+        `choices`. Otherwise names of wheels, each of which must have one of the three. Wheels without any count are
+        always free.
     rules : ConstraintOptions or sequence of constraints, optional
-        What else must hold of the counts; default what holds without being asked for, `ConstraintOptions()`.
+        Further constraints on the counts; by default `ConstraintOptions()`.
     tolerance : Fraction, optional
-        Relative, for targets that have none: the first target of an output none of whose targets has one.
+        Relative tolerance for the first target of an output none of whose targets has one.
     best : int
-        How many solutions to list.
+        Maximum number of solutions to list.
     by : {"error", "total", "largest", "distinct", "change"}
-        Their order: largest error of an output, total teeth, largest wheel, distinct counts, or wheels changed from
-        their declared count; ties by error, total, largest, and the counts.
+        Primary criterion of their order: maximum error of an output, sum of counts, largest count, number of distinct
+        counts, or number of wheels changed from their declared count. Ties are broken by error, total, largest count, and
+        the counts.
     limit : int
-        Steps (partial assignments looked at) that a pass may take; beyond them a sample is searched, and `complete` is
-        False.
+        Maximum number of steps (partial assignments examined) of a pass. If it is exceeded, a random sample is searched,
+        and `complete` is False.
     executor : concurrent.futures.Executor, optional
-        Where tasks run; default in this process. The answer does not depend on it.
+        Executor of the tasks; this process by default. It does not change the result.
     journal : Journal, optional
-        Where finished work is kept, for a run that may be cut.
+        Store of finished tasks, so that an interrupted run can be resumed.
     tell : callable, optional
-        Called with (tasks done, tasks in all).
+        Progress function, called with (tasks done, total tasks).
 
     Returns
     -------
     TrainFindings
-        Part by part. Interrupted from the keyboard, it holds what is known, with `complete` False.
+        Results part by part. After a keyboard interrupt they include the finished tasks, with `complete` False.
 
     Raises
     ------
     QuestionError
-        If no wheel is free, nothing is required of them, or there is no such order or state.
+        If no wheel is free, nothing is required of them, or the order or state does not exist.
     RangeError
-        For a range of counts that is too wide to be listed.
+        If a range of counts is too large to list.
 
     References
     ----------
@@ -388,7 +400,7 @@ def search_train(
     Examples
     --------
     The lost wheels of the planets' trains (Pennestri, Valentini and Petti 2002, Table 6), within a quarter per cent;
-    of 35,937 assignments for Jupiter 15 will do:
+    of 35,937 assignments for Jupiter 15 are solutions:
 
     >>> import geartrain
     >>> found = search_train(geartrain.load("pennestri-2002-missing").declaration, best=1)
@@ -420,7 +432,7 @@ def search_train(
 
 
 def _found(search: PartSearch) -> PartFindings:
-    """All that is said of a part."""
+    """Search one part and return its findings."""
     try:
         passed, solutions, ranked = solve(search)
     except KeyboardInterrupt:
@@ -452,7 +464,7 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Why a part is not complete or not ranked, in words."""
+    """Describe why a part is not complete or not ranked; empty if it is."""
     if passed.tally.stopped:
         return "interrupted: the count is of what had been searched"
     if passed.searched < 1:
@@ -467,12 +479,12 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Standings:
-    """Answers where an assignment stands, by counting what comes before it."""
+    """Ranks of assignments, by counting the assignments with smaller errors."""
 
     searches: tuple[PartSearch, ...]
 
     def find(self, part: int, teeth: Mapping[str, int]) -> Standing:
-        """For one part, all of whose wheels are in `teeth`."""
+        """Return the rank in one part, all of whose wheels are in `teeth`."""
         search = self.searches[part]
         own = {wheel: teeth[wheel] for wheel in search.part.domains}
         assignment = search.order.assignment(own)
@@ -482,7 +494,7 @@ class _Standings:
 
 
 def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment | None) -> list[str]:
-    """All that refuses an assignment, in words."""
+    """Return the descriptions of all constraints and requirements that reject an assignment."""
     import numpy as np
 
     columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}
@@ -504,7 +516,7 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
 
 
 def _rank(search: PartSearch, assignment: Assignment) -> int | None:
-    """One more than the number of assignments with a smaller error."""
+    """Return one plus the number of assignments with a smaller error; None if the count is not complete."""
     if not assignment.error or not search.part.askings:
         return 1
     passed = search.run(assignment.error, 0, strict=True)

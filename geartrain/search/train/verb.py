@@ -1,4 +1,4 @@
-"""`geartrain teeth train FILE`: the free wheels of a train."""
+"""Command `geartrain teeth train FILE`: search for the tooth counts of the free wheels of a train."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Counts of the free wheels of a train that meet all its targets at once, under the rules given."""
+    """Find tooth counts of the free wheels of a train that satisfy all its targets and the given constraints."""
     from geartrain.search.constraints.constraint_options import read_constraint_options
     from geartrain.search.tooth_numbers_report import assignment_rows, describe_assignments
     from geartrain.search.train.train_search import TrainSearchRequest, answer_search
@@ -109,7 +109,7 @@ def run(
 
 
 def _assignment(text: str) -> dict[str, int]:
-    """`o1=32,o2=50`."""
+    """Parse an assignment such as `o1=32,o2=50`."""
     try:
         pairs = (part.split("=") for part in text.split(","))
         return {name.strip(): int(count) for name, count in pairs}
@@ -118,13 +118,13 @@ def _assignment(text: str) -> dict[str, int]:
 
 
 def _check_kept(file: str, out: Path | None) -> None:
-    """A solution extends the train: it cannot take its place, and a table must not."""
+    """Raise `typer.BadParameter` if the output file is the train itself, which a solution extends."""
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
         raise typer.BadParameter(f"'{out}' is the train itself; write to another file", param_hint="-o")
 
 
 def _parent(file: str, out: Path | None) -> str:
-    """What a solution extends, as seen from the file it is written to."""
+    """Return the train that a solution extends, relative to the file to be written."""
     import os
 
     from geartrain.train.declaration_files import shipped

@@ -25,13 +25,13 @@ if TYPE_CHECKING:
 
 Stage = Literal["speeds", "transmission functions", "motion", "torques"]
 
-_TURNS = 20.0  # of the input, over which motion is followed
-_TOLERANCES = (1e-6, 1e-12)  # of tables, in pitches
-_SAMPLES = (20_000, 2_000, 200, 20)  # of torque over a turn; the others are held against the first
-_PASSAGES = 6_000  # teeth that pass in a run, times the pairs that are evaluated at each
-_ENOUGH, _LONG = 0.1, 5.0  # seconds after which a task is not repeated, even if it ran but once
-_REFERENCE = "the others are held against it"
-_NO_FORM = "no pair has a tooth form, and no pin its sizes"
+_TURNS = 20.0  # revolutions of the input over which motion is computed
+_TOLERANCES = (1e-6, 1e-12)  # of tables [pitch]
+_SAMPLES = (20_000, 2_000, 200, 20)  # of torque over a revolution; the first is the reference
+_PASSAGES = 6_000  # tooth engagements in a run, times the number of evaluated pairs
+_ENOUGH, _LONG = 0.1, 5.0  # [s] total time after which a task is not repeated; the second even after one run
+_REFERENCE = "reference for the other methods"
+_NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +144,7 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
     def solve(method: Any) -> Answer:
         answer = GearTrain(train.declaration).solve(state, method=method)
-        list(answer.speeds.values())  # each is multiplied out when read
+        list(answer.speeds.values())  # speeds are computed when they are read
         return answer
 
     exact: Mapping[str, Any] = {}
@@ -156,7 +156,7 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
     off = [abs(Fraction(floats[link]) / Fraction(speed) - 1) for link, speed in exact.items() if speed]
     if not exact:
         off = [abs(each.estimate / floats[link]) for link, each in floats.accuracy.items() if floats[link]]
-    reference = "exact speeds" if exact else "its own forecast"
+    reference = "exact speeds" if exact else "its error estimate"
     yield MethodAccuracy("speeds", "floats", seconds, float(max(off, default=0.0)), "relative", reference)
 
 
@@ -165,13 +165,13 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
     transmissions = {mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
     transmissions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
     if not transmissions:
-        what = "each pair with a tooth form has its exact ratio" if train.meshes else _NO_FORM
+        what = "every pair with a tooth form keeps its exact ratio" if train.meshes else _NO_FORM
         raise QuestionError(Problem(what))
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
-    # equal steps could fall on the nodes of the tables, and miss their error; seeded, so that it is the same each time
+    # equal steps could coincide with the nodes of the tables, where their error is 0; seeded, so that results repeat
     random = np.random.default_rng(1)
     S = {name: random.uniform(0, 10 * transmission.period, positions) for name, transmission in transmissions.items()}
     pitches = {
@@ -190,13 +190,13 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
     stage: Stage = "transmission functions"
     seconds, direct = _best_of(partial(evaluate, transmissions))
-    yield MethodAccuracy(stage, f"direct, {len(transmissions)} laws", seconds, None, "pitches", _REFERENCE)
+    yield MethodAccuracy(stage, f"direct, {len(transmissions)} functions", seconds, None, "pitches", _REFERENCE)
     for tolerance in _TOLERANCES:
         prepared, tables = _best_of(partial(tabulate, tolerance))
         seconds, read = _best_of(partial(evaluate, tables))
         off = {name: float(np.nanmax(np.abs(read[name] - direct[name]))) / pitches[name] for name in transmissions}
         name = max(off, key=lambda each: off[each])
-        method, reference = f"tabulated, {tolerance:.0e}", f"direct, of {name}"
+        method, reference = f"tabulated, {tolerance:.0e}", f"direct, pair {name}"
         yield MethodAccuracy(stage, method, seconds, off[name], "pitches", reference, prepared)
 
 
@@ -212,12 +212,12 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
     def compose(tolerance: float | None = None) -> Motion:
         motion = train.motion(state, tolerance=tolerance)
-        motion.hung.at(np.zeros(2))  # functions and tables are made when first needed
+        motion.hung.at(np.zeros(2))  # functions and tables are built at the first use
         return motion
 
     prepared, motion = _best_of(compose)
     if not motion.ahead.used:
-        raise QuestionError(Problem("no error reaches an output"))
+        raise QuestionError(Problem("no transmission error affects an output"))
     turns: Floats = np.arange(positions, dtype=float) * (_TURNS / positions)
     seconds, direct = _best_of(lambda: motion.hung.at(turns).error)
     ripple = np.degrees(np.ptp(direct, axis=1))
@@ -226,8 +226,8 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
     def row(method: str, evaluate: Callable[[], Floats], prepared: float) -> MethodAccuracy:
         seconds, found = _best_of(evaluate)
         off = np.degrees(np.abs(found - direct).max(axis=1))
-        at = int(np.lexsort((ripple, off))[-1])  # of outputs equally far off the one with the largest ripple
-        reference = f"composed, of {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
+        at = int(np.lexsort((ripple, off))[-1])  # ties are broken by the largest ripple
+        reference = f"composed, output {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
         return MethodAccuracy("motion", method, seconds, float(off[at]), "deg", reference, prepared)
 
     if usable() and (kernel := compiled_composition(motion.hung)) is not None:
@@ -235,15 +235,14 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
         prepared, _ = _best_of(partial(compiled_composition, motion.hung))
         yield row("composed, compiled", lambda: kernel.at(turns).error, prepared)
     prepared, tabulated = _best_of(partial(compose, _TOLERANCES[-1]))
-    yield row("composed, tabulated laws", lambda: tabulated.hung.at(turns).error, prepared)
+    yield row("composed, tabulated functions", lambda: tabulated.hung.at(turns).error, prepared)
     prepared, superposed = _best_of(partial(Superposition, motion.ahead))
     yield row("superposed with lag", partial(superposed.at, turns, lagged=True), prepared)
     yield row("superposed", partial(superposed.at, turns, lagged=False), prepared)
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for torques: the exact balance with losses, and the mean torque over a revolution by samples.
-    """
+    """Yield the methods for torques: the exact balance with losses, and the mean torque over a revolution by samples."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     seconds, found = _best_of(lambda: GearTrain(train.declaration).torques(state))
@@ -251,7 +250,7 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
         raise QuestionError(Problem(f"{found.verdict.kind}: {found.verdict.text}"))
     through = max(map(abs, found.powers.values()), default=0)
     missed = abs(sum(found.powers.values()) - found.loss) / through if through else 0
-    reference = "power in, out and lost"
+    reference = "power balance"
     yield MethodAccuracy("torques", "balance with losses", seconds, float(missed), "relative", reference)
     used = train.motion(state, tuple(train.declaration.links)).ahead.used
     passages = sum(float(each.cycles) for each in used)
@@ -262,7 +261,7 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
         if not found.mean:
             return
         error = None if mean is None else abs(found.mean / mean - 1)
-        reference = _REFERENCE if mean is None else f"{_SAMPLES[0]} samples, the mean"
+        reference = _REFERENCE if mean is None else f"mean of {_SAMPLES[0]} samples"
         yield MethodAccuracy(
             "torques", f"over {span:.3g} turns, {samples} samples", seconds, error, "relative", reference
         )

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 MOST_COMBINATIONS = 20_000
 _JOINER = "+"
-_FIGURES = 12  # digits past the point to which sums of squares are compared
+_FIGURES = 12  # decimals to which sums of squares are compared, so that rounding does not decide ties
 
 
 @dataclass(frozen=True)
@@ -218,7 +218,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     for size in range(len(elements) + 1):
         if comb(len(elements), size) > MOST_COMBINATIONS:
             what = f"{comb(len(elements), size):,} ways to close {size} of {len(elements)} elements"
-            why = f"more than {MOST_COMBINATIONS:,} are too many"
+            why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
         choices = list(combinations(elements, size))
         answers = _answered(train, choices)
@@ -314,7 +314,7 @@ _Way = tuple[float, int, tuple[int, ...]]
 def _evenest_from(
     start: int, gears: Sequence[PossibleGear], links: Links, number: int, logs: Sequence[float]
 ) -> dict[int, _Way]:
-    """Find, for every last gear, the path with the minimum sum of squared steps, by dynamic programming.
+    """Find the path to every last gear with the minimum sum of squared steps, by dynamic programming.
 
     Ties are broken by the number of double shifts.
     """

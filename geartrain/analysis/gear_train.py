@@ -267,7 +267,7 @@ class GearTrain:
         DeclarationError
             If the data are invalid. The message names the place of every error.
         """
-        if "extends" in data or "reconstruct" in data:  # evidence is refused there
+        if "extends" in data or "reconstruct" in data:  # `read_declaration` rejects evidence
             from geartrain.train.declaration_files import read_declaration
 
             return cls(read_declaration(data))
@@ -360,7 +360,7 @@ class GearTrain:
         found = next(speed_formulas(self.declaration, self.declaration.single_state(state), (output,)), None)
         if found is None:
             what, why = f"output '{output}' has no formula", "the inputs do not determine it"
-            raise QuestionError(Problem(what, why, "see `geartrain check` for what is missing"))
+            raise QuestionError(Problem(what, why, "`geartrain check FILE` shows which inputs are missing"))
         return found
 
     def variants(
@@ -399,7 +399,7 @@ class GearTrain:
         return find_variants(self.declaration, self.declaration.single_state(state), counts, outputs)
 
     def gearbox(self, output: str | None = None) -> Gearbox:
-        """Analyse all states of a train with clutches: ratios, steps, speeds, slip and torques of elements, recirculating power.
+        """Compute ratios, steps, speeds, slips, torques and recirculating power of all states of a train with clutches.
 
         Parameters
         ----------
@@ -431,8 +431,7 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """Parts of the train that cannot be built or are inadvisable, by the declaration only (docs/buildability.md).
-        """
+        """Parts of the train that cannot be built or are inadvisable, by the declaration only (docs/buildability.md)."""
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
@@ -683,7 +682,7 @@ class GearTrain:
     @property
     def unfolded(self) -> GearTrain:
         """Train with each of its equal planets declared; the train itself if no link represents several (`copies`)."""
-        # not kept where it is the train itself: that would hold itself
+        # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
     @cached_property

@@ -175,7 +175,7 @@ def _told(value: Fraction | None) -> float | None:
 
 
 def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
-    """Analyse all states of a train with clutches; see `GearTrain.gearbox`."""
+    """Compute the results of all states of a train with clutches; see `GearTrain.gearbox`."""
     source, link = gearbox_ends(train.declaration, output)
     answers = [train.kinematics.solve(name) for name in train.declaration.states]
     found = [_state(train, answer, source, link) for answer in answers]
@@ -188,17 +188,20 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
     """Return the links at which power enters and leaves; `QuestionError` if the train is not a gearbox."""
     if not declared.clutches or not declared.states:
-        what, why = f"'{declared.name}' is no gearbox", "it declares no `clutches` with `states` that engage them"
-        raise QuestionError(Problem(what, why, "declare `clutches`, and `states` with what is `engaged`"))
+        what, why = (
+            f"'{declared.name}' is not a gearbox",
+            "a gearbox declares `clutches`, and `states` that engage them",
+        )
+        raise QuestionError(Problem(what, why, "declare `clutches`, and `states` with lists of `engaged` clutches"))
     case = declared.case(declared.state_or_first(None))
     source = next((link for link, speed in case.inputs.items() if speed), None)
     if source is None:
         what = f"'{declared.name}' has no input that turns"
-        raise QuestionError(Problem(what, "ratios are over it", "declare `inputs`"))
+        raise QuestionError(Problem(what, "ratios are relative to the speed of an input", "declare `inputs`"))
     names = [name for name, each in case.outputs.items() if each.links(name, declared.frame)[0] != source]
     if output is None and not names:
         what = f"'{declared.name}' has no output"
-        raise QuestionError(Problem(what, "ratios are those of one", "declare `outputs`"))
+        raise QuestionError(Problem(what, "ratios are those of an output", "declare `outputs`"))
     if output is not None:
         check_choice("output", output, case.outputs)
     name = output or names[0]

@@ -29,8 +29,8 @@ _GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind",
 
 def _refuse(*_: object, **__: object) -> NoReturn:
     """Raise `QuestionError` for an attempt to change the graph."""
-    what, why = "the graph of a train cannot be changed", "the answers of the train would not follow"
-    fix = "make another train: with_teeth or with_changes; or change a graph.copy()"
+    what, why = "the graph of a train cannot be changed", "its results would not agree with the train"
+    fix = "build another train by with_teeth or with_changes, or change a graph.copy()"
     raise QuestionError(Problem(what, why, fix))
 
 
@@ -117,7 +117,7 @@ def _frozen(graph: Graph) -> Graph:
     """Return the graph with its structure frozen; attributes can be added to nodes and edges."""
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
-    for name in vars(graph).keys() - before:  # the methods that it replaces
+    for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
         setattr(graph, name, _refuse)
     for *_, data in (*graph.nodes(data=True), *graph.edges(data=True)):
         data.__class__ = _Attributes
@@ -156,8 +156,7 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | PinMesh | None:
-        """Return a pair with real teeth as it is driven in the state, or a pin with dimensions; None for other pairs.
-        """
+        """Return a pair with real teeth as it is driven in the state, or a pin with dimensions; None for other pairs."""
         return self._meshes.get(name)
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:

@@ -60,7 +60,7 @@ class TrainVariants(Tabular, Result):
             return self.speeds[:, self.outputs.index(name)]
         if name in self.wheels:
             return self.counts[:, self.wheels.index(name)]
-        raise KeyError(f"no column '{name}': there are {', '.join((*self.wheels, *self.outputs))}")
+        raise KeyError(f"no column '{name}'; columns are {', '.join((*self.wheels, *self.outputs))}")
 
     def exact(self, row: int, output: str) -> Fraction | None:
         """Return the speed of one output in one row as a fraction; None if it is undetermined.
@@ -92,7 +92,7 @@ def find_variants(
     number = prod(map(len, choices.values()))
     if number > MOST_VARIANTS:
         what = f"{number:,} assignments of counts are too many"
-        raise QuestionError(Problem(what, f"{MOST_VARIANTS:,} fit into memory", "ask for fewer counts at once"))
+        raise QuestionError(Problem(what, f"at most {MOST_VARIANTS:,} fit into memory", "request fewer counts"))
     formulas = find_formulas(declared, state, choices)
     names = tuple(name for name in (outputs or case.outputs) if name in formulas)
     grid = np.meshgrid(*(np.array(each, dtype=np.int64) for each in choices.values()), indexing="ij")

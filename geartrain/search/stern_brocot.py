@@ -146,9 +146,9 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
         if len(found) + run.length - first >= _MOST_LISTED:
             raise RangeError(
                 Problem(
-                    f"more than {_MOST_LISTED} fractions lie on the way",
-                    f"a straight run of the walk, from {run.at(1)} to {run.at(run.length)}, holds {run.length} of them",
-                    "lower the bound, or ask for the convergents alone",
+                    f"more than {_MOST_LISTED} fractions approximate this ratio",
+                    f"the run of the Stern-Brocot tree from {run.at(1)} to {run.at(run.length)} has {run.length} of them",
+                    "reduce the bound, or request only the convergents",
                 )
             )
         for k in range(first, run.length + 1):
@@ -191,7 +191,7 @@ def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
     """
     if value.denominator <= most:
         return value, value
-    # no numerator of a neighbour is longer than this, so only the denominators are bounded
+    # no numerator of a neighbour exceeds this, so only the denominators are bounded
     low, high = neighbours(value, (int(value) + 1) * most, most)
     return Fraction(*low), Fraction(*high)
 
@@ -204,7 +204,7 @@ def nearest_first(value: Fraction, most_numerator: int, most_denominator: int) -
     low, high = neighbours(value, most_numerator, most_denominator)
     most = (most_numerator, most_denominator)
     up = (coprime(p, q) for p, q in _onward(low, high, most))
-    # turned upside down, the fractions below ascend too
+    # the reciprocals of the fractions below are ascending too
     down = (coprime(p, q) for q, p in _onward(high[::-1], low[::-1], most[::-1]))
     return merge(down, up, key=lambda fraction: abs(fraction - value))
 

@@ -1,5 +1,4 @@
-"""Parser of a requested ratio: a number, a fraction, a pair of counts, a quotient of periods, or the name of a period.
-"""
+"""Parser of a requested ratio: a number, a fraction, a pair of counts, a quotient of periods, or the name of a period."""
 
 from __future__ import annotations
 
@@ -20,12 +19,12 @@ TargetKind = Literal["number", "things", "time", "speed", "count"]
 
 _MOST_CHARACTERS = 2000
 _SHOWN = 60
-_FARTHEST = Fraction(10**30)  # fifteen stages of 1:100
+_FARTHEST = Fraction(10**30)  # about fifteen stages of 1:100
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _WITH_WORD = re.compile(rf"({_NUMBER}(?:\s*[/:]\s*{_NUMBER})?)\s*(?![eE][+-]?\d)([^\W\d_].*)")
 _DIVISION = re.compile(r"[/:]")
 _WIDE_DIVISION = re.compile(r"\s[/:]\s")
-# words for times beyond the units that quantities are written in
+# words for times in addition to the units of quantities
 _TIMES = {
     **dict.fromkeys(("hour", "hours", "hr", "hrs"), "h"),
     **dict.fromkeys(("minute", "minutes", "mins"), "min"),
@@ -65,15 +64,15 @@ class TargetRatio(Result):
     def __post_init__(self) -> None:
         if self.value <= 0:
             raise _problem(
-                f"a ratio of {_short(fraction_text(self.value))} is wanted",
-                "tooth counts make the magnitude, which is above 0; the sense is told apart",
+                f"the ratio is {_short(fraction_text(self.value))}",
+                "the magnitude of a ratio must be positive; a separate sign gives the sense",
                 "give a number above 0",
             )
         if not 1 / _FARTHEST <= self.value <= _FARTHEST:
             raise _problem(
-                f"a ratio of {_short(self.label or decimal(self.value, 6))} is wanted",
-                "no train of gears has it: ratios are from 1e-30 to 1e30",
-                "give a nearer one",
+                f"the ratio is {_short(self.label or decimal(self.value, 6))}",
+                "the ratio of a gear train must be from 1e-30 to 1e30",
+                "give a ratio in this range",
             )
 
 
@@ -129,7 +128,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     (Fraction(235, 19), -1, '235 months in the time of 19 years')
     """
     if len(text) > _MOST_CHARACTERS:
-        raise _problem(f"a ratio of {len(text)} characters", "a number has at most 400", f"write {_WAYS}")
+        raise _problem(f"the ratio has {len(text)} characters", "a number has at most 400 characters", f"write {_WAYS}")
     label = " ".join(text.replace("−", "-").split())
     sense: Literal[-1, 0, 1] = -1 if label.startswith("-") else 1 if label.startswith("+") else 0
     terms = [_term(part, label) for part in _parts(label[abs(sense) :].strip(), label)]
@@ -149,17 +148,21 @@ def _parts(text: str, label: str) -> list[str]:
         if len(parts) == 2:
             return [part.strip() for part in parts]
     if len(parts) > 2:
-        raise _problem(f"'{_short(label)}' divides more than once", "a ratio is one quotient", f"write {_WAYS}")
+        raise _problem(
+            f"'{_short(label)}' has more than one division sign", "a ratio is one quotient", f"write {_WAYS}"
+        )
     return parts
 
 
 def _term(text: str, label: str) -> _Term:
     if not text:
-        raise _problem(f"'{_short(label)}' lacks a number", "a ratio is one number or two sides", f"write {_WAYS}")
+        raise _problem(
+            f"'{_short(label)}' lacks a number", "a ratio is one number or a quotient of two terms", f"write {_WAYS}"
+        )
     if re.match(r"[+-]\s*[\d.]", text):
         raise _problem(
-            f"'{_short(text)}' has a sign of its own",
-            "a ratio has one sign, which tells its sense",
+            f"'{_short(text)}' has a sign",
+            "only the whole ratio has a sign, which gives the sense of rotation",
             "write the sign in front of the ratio, such as -235/19",
         )
     match = _WITH_WORD.fullmatch(text)
@@ -170,8 +173,8 @@ def _term(text: str, label: str) -> _Term:
     else:
         term = _Term("number", _figure(text), "", "")
     if not term.value:
-        why = "a ratio of 0 or one that divides by 0 is no motion to gear"
-        raise _problem(f"'{_short(label)}' has a zero in it", why, f"write {_WAYS}")
+        why = "a ratio must be positive and finite"
+        raise _problem(f"'{_short(label)}' contains a zero", why, f"write {_WAYS}")
     return term
 
 
@@ -180,9 +183,9 @@ def _with_word(number: str, word: str) -> _Term:
     shown = f"{number} {word}"
     if word in period_table():
         raise _problem(
-            f"'{_short(shown)}' can be read in two ways",
-            f"as {number} turns in counting, and as {number} times the period",
-            f"for counts use plain words, such as '{number} months'; for times write the days, such as '29.53 d'",
+            f"'{_short(shown)}' is ambiguous",
+            f"it may mean {number} revolutions or {number} times the period",
+            f"for counts use other words, such as '{number} months'; for times write the days, such as '29.53 d'",
         )
     unit = _TIMES.get(word, word)
     try:
@@ -195,8 +198,8 @@ def _with_word(number: str, word: str) -> _Term:
         return _Term("things", quantity.value, word, shown)
     raise _problem(
         f"'{_short(shown)}' is a {quantity.dimension}",
-        "a ratio comes from numbers, counts or periods",
-        "write its number alone, or a time such as '29.53059 d'",
+        "a ratio is given by numbers, counts or periods",
+        "write only the number, or a time such as '29.53059 d'",
     )
 
 
@@ -211,11 +214,11 @@ def _figure(text: str) -> Fraction:
     try:
         return Figure.parse(text).value
     except PydanticCustomError as error:
-        what, why = f"'{_short(text)}' is no number", error.message()
+        what, why = f"'{_short(text)}' is not a number", error.message()
         if "why" in (context := error.context or {}):
             raise _problem(why, context["why"], context["fix"]) from None
         if text[:1].isalpha():
-            raise _problem(what, "no period of the table has this name either", suggested_period(text)) from None
+            raise _problem(what, "no period has this name either", suggested_period(text)) from None
         if text[:1].isdigit() and "is not a number" in why:
             why = "a number has at most 400 characters, and an exponent three digits"
         raise _problem(what, why, f"write {_WAYS}") from None
@@ -229,14 +232,14 @@ def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
             pair = f"{period} / month_synodic_J2000" if year else f"year_tropical_J2000 / {period}"
             raise _problem(
                 f"'{_short(label)}' is a period, not a ratio",
-                "a ratio needs a second period, which turns once while this one is counted",
+                "a ratio needs two periods",
                 f"write for example '{pair}'",
             )
         return _in_one(per, term)
     if term.kind == "things":
         raise _problem(
-            f"'{_short(label)}' is half a pair of counts",
-            "a ratio needs the count of something else in the same time",
+            f"'{_short(label)}' is only one count",
+            "a ratio of counts needs a second count in the same time",
             f"write for example '{'235 months' if term.word.startswith('year') else term.note} / 19 years'",
         )
     if per is not None and not (term.kind == "speed" and per.startswith("year") and per in period_table()):
@@ -270,8 +273,8 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
             )
         return first.value / second.value, f"{first.note} over {second.note}"
     raise _problem(
-        f"'{_short(label)}' divides unlike things",
-        f"{_said(first)} over {_said(second)} is no ratio of speeds",
+        f"'{_short(label)}' is a quotient of different quantities",
+        f"{_said(first)} over {_said(second)} is not a ratio of speeds",
         "write two numbers, two counts of things, two times (d, h, min, s), or two names of one kind",
     )
 
@@ -292,9 +295,9 @@ def _said(term: _Term) -> str:
 
 def _ratio_already(label: str, per: str) -> QuestionError:
     return _problem(
-        f"'{_short(label)}' is a ratio already",
-        f"`per` ('{_short(per)}') belongs to a lone period",
-        "leave `per` out, or give one period",
+        f"'{_short(label)}' is already a ratio",
+        f"`per` ('{_short(per)}') is only used with a single period",
+        "omit `per`, or give a single period",
     )
 
 

@@ -53,7 +53,7 @@ class SearchGroup(LazyGroup):
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
             requested = shlex.join(["geartrain", "teeth", word, *rest])
-            ctx.fail(f"say what is searched for, one of {', '.join(self.verbs)}: `{requested}`")
+            ctx.fail(f"the kind of search is missing, one of {', '.join(self.verbs)}; did you mean `{requested}`?")
         return super().resolve_command(ctx, args)
 
 
@@ -75,8 +75,8 @@ app = typer.Typer(
     cls=SearchGroup,
     add_completion=False,
     no_args_is_help=True,
-    context_settings={"ignore_unknown_options": True},  # what was asked without its word may begin with an option
-    help="Tooth numbers for a wanted motion: complete, exact, and with a reason where there are none.",
+    context_settings={"ignore_unknown_options": True},  # arguments without a command name may begin with an option
+    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.",
 )
 
 
@@ -88,14 +88,18 @@ def _group() -> None:
 # -------------------------------------------- options of several searches, each written once, and how a search answers
 
 
-Ratio = Annotated[str, typer.Argument(help="A ratio: 13.368, 235/19, 'A / B' with periods, or a period by name.")]
-Range = Annotated[str, typer.Option("--range", help="Tooth counts that may be used, such as 15:120 or 30,36,48.")]
-Wheels = Annotated[str | None, typer.Option("--wheels", help="Counts of the larger wheel of each pair.")]
-Pinions = Annotated[str | None, typer.Option("--pinions", help="Counts of the smaller wheel of each pair.")]
-Per = Annotated[str | None, typer.Option("--per", help="With one period by name: the period it is seen in.")]
-Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Greatest relative error: 1e-6, 20 ppm, 0.001 %.")]
-Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many solutions to list.")]
-Pick = Annotated[int, typer.Option("--pick", min=1, help="Which solution -o writes as a declaration.")]
+Ratio = Annotated[
+    str, typer.Argument(help="Requested ratio: 13.368, 235/19, 'A / B' with two periods, or the name of a period.")
+]
+Range = Annotated[str, typer.Option("--range", help="Admissible tooth counts, such as 15:120 or 30,36,48.")]
+Wheels = Annotated[str | None, typer.Option("--wheels", help="Tooth counts of the larger wheel of each pair.")]
+Pinions = Annotated[str | None, typer.Option("--pinions", help="Tooth counts of the smaller wheel of each pair.")]
+Per = Annotated[
+    str | None, typer.Option("--per", help="Second period, if RATIO is a single period: the ratio is PER over it.")
+]
+Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Maximum relative error: 1e-6, 20 ppm, 0.001 %.")]
+Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of solutions to list.")]
+Pick = Annotated[int, typer.Option("--pick", min=1, help="Number of the solution that -o writes as a declaration.")]
 Csv = Annotated[bool, typer.Option("--csv", help="Print the solutions as CSV.")]
 
 ANY_COUNT = "12:120"
@@ -109,17 +113,17 @@ _WIDEST = 10**12
 def check_number(ctx: typer.Context, text: str) -> str:
     """Raise `typer.BadParameter` if a text that begins with a minus sign is not a negative number."""
     if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
-        raise typer.BadParameter(f"there is no option '{text}'; {ctx.command_path} -h lists them")
+        raise typer.BadParameter(f"unknown option '{text}'; `{ctx.command_path} -h` lists the options")
     return text
 
 
 def read_tolerance(text: str | None) -> Fraction | None:
-    """Parse the maximum relative error; None if there is no text."""
+    """Parse the maximum relative error; None if the text is None."""
     if text is None:
         return None
     found = read_share(text, "--tolerance")
     if not 0 <= found <= _WIDEST:
-        raise typer.BadParameter(f"a relative error is from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
+        raise typer.BadParameter(f"a relative error must be from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
     return found
 
 
@@ -147,7 +151,7 @@ class SearchAnswer:
         describe: Callable[[Any], Document],
         declared: Callable[[int], Mapping[str, Any]] | None = None,
     ) -> None:
-        """Print or write the solutions and exit: 0 if there are solutions, 1 if there are none, 130 if interrupted.
+        """Print or write the solutions and exit: 0 with solutions, 1 without, 130 if interrupted.
 
         rows       the solutions as a flat table
         declared   function from the index of a solution to its declaration
@@ -174,8 +178,10 @@ class SearchAnswer:
         from geartrain.train.yaml_nodes import as_yaml
 
         if declared is None:
-            raise typer.BadParameter("a ratio alone is no train to be written", param_hint="-o")
+            raise typer.BadParameter(
+                "these solutions cannot be written as a declaration; use .md, .html, .json or .csv", param_hint="-o"
+            )
         if self.pick <= found:
             emit(as_yaml(declared(self.pick - 1)), self.out)
         elif found:
-            raise typer.BadParameter(f"there are {found} solutions in the list", param_hint="--pick")
+            raise typer.BadParameter(f"the list has {found} solutions", param_hint="--pick")

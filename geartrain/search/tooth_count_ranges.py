@@ -77,10 +77,12 @@ class CountRuns(Sequence[int]):
             else:
                 found.append((first, last))
         if not found:
-            raise _problem("no tooth counts are given", "a wheel needs at least one count it may have")
+            raise _problem("no tooth counts are given", "a wheel needs at least one admissible count")
         for first, last in found:
             if first < 1 or last > MOST_TEETH:
-                raise _problem(f"no wheel has {first if first < 1 else last} teeth", "counts run from 1 to 10^12")
+                raise _problem(
+                    f"a wheel cannot have {first if first < 1 else last} teeth", "tooth counts are from 1 to 10^12"
+                )
         return cls(tuple(found))
 
     @property
@@ -130,9 +132,8 @@ class CountRuns(Sequence[int]):
         if len(self) > _MOST_LISTED:
             raise RangeError(
                 Problem(
-                    f"{len(self)} tooth counts to list",
-                    "this search takes counts one by one; only a single pair of wheels is found in a range of any "
-                    "length",
+                    f"{len(self)} tooth counts are too many to list",
+                    "this search enumerates the counts; only the search for a single pair accepts ranges of any length",
                     "give a shorter range, such as 15:120",
                 )
             )
@@ -193,7 +194,7 @@ def read_counts(text: str) -> CountRuns:
     ((12, 13, 14, 15, 48, 60), 999999989)
     """
     if not text.strip():
-        raise _problem("no tooth counts are given", "a wheel needs at least one count it may have")
+        raise _problem("no tooth counts are given", "a wheel needs at least one admissible count")
     return CountRuns.joined(_span(part) for part in text.split(","))
 
 
@@ -201,10 +202,10 @@ def _span(part: str) -> tuple[int, int]:
     shown = part.strip() if len(part) <= 40 else f"{part.strip()[:37]}..."
     match = _PART.fullmatch(part) if len(part) <= 100 else None
     if match is None:
-        raise _problem(f"'{shown}' is no tooth count", "a count is a whole number, a range is first:last")
+        raise _problem(f"'{shown}' is not a tooth count", "a count is an integer, a range is first:last")
     first, last = int(match[1]), int(match[2] or match[1])
     if first > last:
-        raise _problem(f"the range {shown} runs backwards", "its first count is above its last", f"{last}:{first}")
+        raise _problem(f"the range {shown} is reversed", "the first count must not exceed the last", f"{last}:{first}")
     return first, last
 
 

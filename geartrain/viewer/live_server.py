@@ -20,7 +20,7 @@ from geartrain.viewer.viewer_page import own_script_only
 if TYPE_CHECKING:
     from tornado.web import Application
 
-_SETTLING = 0.1  # s that an editor may take to write a file in several steps
+_SETTLING = 0.1  # [s] an editor may write a file in several steps
 _LOCAL = "127.0.0.1"
 
 
@@ -57,7 +57,7 @@ class LiveServer:
             import tornado.netutil
             import watchdog.observers  # noqa: F401
         except ImportError:
-            raise MissingExtraError("tornado or watchdog", "watch", "a page that follows a file") from None
+            raise MissingExtraError("tornado or watchdog", "watch", "the live page of a file") from None
         self.make, self.watched = make, watched
         self.pages: LivePages | None = None
         self.error = ""
@@ -66,8 +66,8 @@ class LiveServer:
         try:
             self._sockets = tornado.netutil.bind_sockets(port, _LOCAL)
         except (OSError, OverflowError) as error:
-            fix = "give another --port, or none"
-            raise QuestionError(Problem(f"no page can be served at port {port}", str(error), fix)) from None
+            fix = "give another --port, or omit it"
+            raise QuestionError(Problem(f"port {port} cannot be used", str(error), fix)) from None
 
     @property
     def address(self) -> str:
@@ -88,7 +88,7 @@ class LiveServer:
         Parameters
         ----------
         told : callable
-            Function called after each change with the error message, empty if there is no error.
+            Function called after each change with the error message, empty if it has none.
         """
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(told))
@@ -146,7 +146,7 @@ class LiveServer:
                 pages = live.pages
                 text = shell if not name else "" if pages is None else getattr(pages, name)
                 self.set_header("Cache-Control", "no-store")
-                if not name:  # the two within have policies of their own
+                if not name:  # the two inner pages have their own policies
                     self.set_header("Content-Security-Policy", policy)
                 self.finish(text)
 
@@ -164,7 +164,7 @@ class LiveServer:
             def on_close(self) -> None:
                 live._listening.discard(self)
 
-        # a name that another site has pointed here is answered by nothing
+        # requests for other host names are not answered (DNS rebinding)
         application = Application(log_function=lambda handler: None)
         application.add_handlers(r"(127\.0\.0\.1|localhost)", [(r"/(report|view|)", Shown), (r"/changes", Changes)])
         return application

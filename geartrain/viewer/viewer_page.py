@@ -61,7 +61,7 @@ def page(
     Raises
     ------
     QuestionError
-        If there is no scene, or if `compare` has fewer than two.
+        If there are too few scenes: none, or fewer than two with `compare`.
 
     Examples
     --------
@@ -72,7 +72,13 @@ def page(
     (True, True, False)
     """
     if len(scenes) < 1 + compare:
-        raise QuestionError(Problem("too few scenes for a page", f"it was given {len(scenes)}", "give it one, or two"))
+        raise QuestionError(
+            Problem(
+                "too few scenes for a page",
+                f"{len(scenes)} scenes are given",
+                "pass one scene, or two with compare=True",
+            )
+        )
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
     program = _built("viewer.js")
@@ -134,7 +140,7 @@ class EmbeddedPage:
     """Height of the frame [px]."""
 
     def _repr_html_(self) -> str:
-        # the script counts by the letter: what shows this may join lines, widen tabs and read formulas
+        # the script is checked by its hash, but notebooks may join lines, expand tabs and interpret formulas
         inner = escape(train_page(self.train, self.state)).translate(_AS_NUMBERS)
         style = f"width:100%;height:{self.height}px;border:0"
         return f'<iframe title="{escape(self.train.name)}, turning" style="{style}" srcdoc="{inner}"></iframe>'

@@ -132,7 +132,7 @@ class _Requesting:
                 Problem(
                     f"the radius of '{wheel}' cannot be compared with {radius}",
                     f"its module is {declared}" if module else "several modules are declared for it",
-                    "give lengths and modules both with units; without modules a radius is a plain number of modules",
+                    "give radius and modules both with units; without declared modules a radius is a plain number of modules",
                 )
             )
         return int(2 * radius.base / module)
@@ -140,8 +140,7 @@ class _Requesting:
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Yield the equality of centre distance for meshes between the same two axes with modules of the same measure.
-        """
+        """Yield the equality of centre distance for meshes between the same two axes with modules of the same measure."""
         if self.requested.coaxial is False:
             return
         first: dict[object, AssemblyMesh] = {}
@@ -209,7 +208,7 @@ class _Requesting:
 
     def _different(self) -> Iterator[CountConstraint]:
         """Yield the conditions between each free wheel and all fixed counts, then between each two free wheels."""
-        words = "different counts: two wheels have the same"
+        words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
         groups = joined_groups(self.fitting.train.wheels, copied)
         alike = {wheel: at for at, wheels in enumerate(groups) for wheel in wheels}
@@ -274,9 +273,9 @@ class _Requesting:
         if not numbered:
             raise QuestionError(
                 Problem(
-                    "the room between planets is not known",
-                    "it depends on how many there are on a carrier",
-                    "say how many equal planets there are: planets=3",
+                    "the clearance between planets cannot be computed",
+                    "it depends on the number of planets on a carrier",
+                    "give the number of equal planets: planets=3",
                 )
             )
         for one, number in numbered:
@@ -286,9 +285,9 @@ class _Requesting:
 
 def _never(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
     return Problem(
-        f"'{before.name}' and '{mesh.name}' never have one centre distance",
-        "they lie between the same two axes, and what is free in them cancels",
-        "correct a fixed count, allow a `shift`, or do not ask for `coaxial`",
+        f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
+        "they connect the same two axes, and their free counts cancel",
+        "correct a fixed count, allow a `shift`, or do not require `coaxial`",
     )
 
 
@@ -296,26 +295,26 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
     what = f"'{unknown[0]}' carries no planets" if unknown else "no link carries planets"
     return Problem(
         what,
-        "planets turn on axes that a link other than the frame carries along",
-        f"name one of: {', '.join(known)}" if known else "leave the number of planets out",
+        "the axes of planets are carried by a link other than the frame",
+        f"name one of: {', '.join(known)}" if known else "omit the number of planets",
     )
 
 
 def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
     if one.planets is None:
-        why = "they mesh with each other in a loop, which is not judged"
+        why = "planets that mesh with each other in a loop are not supported"
     elif number < 1:
-        why = "a carrier has one planet or more"
+        why = "a carrier has at least one planet"
     else:
-        why = f"{declared} sets are declared, alike"
+        why = f"{declared} equal sets are declared"
     return Problem(
-        f"{number} equal planets {one.title} on '{one.carrier}' cannot be asked for",
+        f"{number} equal planets {one.title} on '{one.carrier}' cannot be required",
         why,
-        "ask for as many as are declared, or declare one that stands for all; or ask by carrier: planets={'arm': 3}",
+        "give the declared number, or declare one set that represents all; or give numbers by carrier: planets={'arm': 3}",
     )
 
 
-# ------------------------------------------------- declared positions: which counts reach each other, which teeth meet
+# ------------------------------------------------- declared positions: centre distances and the phasing of loops
 
 
 @dataclass(frozen=True, slots=True)
@@ -336,8 +335,7 @@ class CentreDistanceMatch:
 
 @dataclass(frozen=True)
 class LoopPhasing:
-    """Condition that the teeth of all loops mesh, evaluated for each candidate separately (about a millisecond each).
-    """
+    """Condition that the teeth of all loops mesh, evaluated for each candidate separately (about a millisecond each)."""
 
     train: Train
     """Train with placeholder counts; those of `wheels` are replaced."""
@@ -402,7 +400,9 @@ class DeclaredPositions:
         for mesh in meshes:
             first = (fixed or meshes)[0]
             if mesh is not first:
-                yield from self._as(mesh, teeth_of(first), self._length(mesh) / self._length(first), f"'{first.name}'")
+                yield from self._as(
+                    mesh, teeth_of(first), self._length(mesh) / self._length(first), f"that of '{first.name}'"
+                )
 
     def _is_sized(self, mesh: AssemblyMesh) -> bool:
         """Return whether the module of a mesh and the positions of its axes have the same measure."""
@@ -417,7 +417,7 @@ class DeclaredPositions:
         one, two = whole(teeth_of(mesh), other)
         wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
         if wheels:
-            name = f"declared positions: '{mesh.name}' reaches as {what} says"
+            name = f"declared positions: centre distance of '{mesh.name}' agrees with {what}"
             yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, BACKLASH + self.shift))
 
     def _length(self, mesh: AssemblyMesh) -> float:
@@ -432,18 +432,17 @@ class DeclaredPositions:
         return sqrt(max(sum(x * x for x in arm) - along, 0.0))
 
     def _meeting(self) -> Iterator[Condition]:
-        """Yield one condition on all loops: their divisibility rule if it is known, otherwise a test of each candidate.
-        """
+        """Yield one condition on all loops: their divisibility rule if it is known, otherwise a test of each candidate."""
         wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
         if not wheels:
             return
         alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
-        # with several carriers, or loops that do not turn, which loops there are depends on the counts
+        # with several carriers, or with rigid loops, the set of loops depends on the counts
         rule = replace(self.closure, alike=dict).rule if alone else None
-        name = "phase closure: teeth of all loops meet at the declared positions"
+        name = "phase closure: teeth of all loops mesh at the declared positions"
         if rule is None:
             train = self.fitting.train.model_copy()
-            train._marks = None  # it leads to a file, which other processes do not need
+            train._marks = None  # refers to a file, which other processes do not need
             yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
             return
         sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
@@ -467,9 +466,9 @@ class DeclaredPositions:
 
 def _no_places(train: Train) -> Problem:
     return Problem(
-        f"no loop of '{train.name}' has known places",
-        "teeth meet or miss around loops of meshes, where the positions of axes are declared",
-        "declare `axes` with positions, or leave phase closure out",
+        f"the axes of no loop of '{train.name}' have known positions",
+        "phase closure requires the positions of the axes of a loop",
+        "declare `axes` with positions, or omit phase closure",
         train.place("axes"),
     )
 
@@ -488,7 +487,7 @@ def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
     """
     with localcontext(prec=50):
         limit = decimal(2 * addendum) / sine(pressure) ** 2
-        # what agrees with a whole number in 25 digits is that number, and is not rounded up past it
+        # a value that equals an integer to 25 digits is that integer, and must not be rounded up
         return int((limit - decimal(Fraction(1, 10**25))).to_integral_value(ROUND_CEILING))
 
 
@@ -516,7 +515,7 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
 def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
     """Return the clearance `tip_room` of each candidate [rad]; tooth counts are arrays that broadcast to one shape."""
     planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
-    # many candidates share a few pairs of counts
+    # many candidates share the same few pairs of counts
     pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
     rooms = np.array([tip_room(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
     return np.asarray(rooms[which.ravel()].reshape(planets.shape))
@@ -569,8 +568,7 @@ def _square(pressure: Fraction) -> Decimal:
 def interference(
     mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
 ) -> Iterator[Condition]:
-    """Yield the interference condition of a spur pair with a free count; pressure angle in turns, addenda in modules.
-    """
+    """Yield the interference condition of a spur pair with a free count; pressure angle in turns, addenda in modules."""
     wheels = free_of(*mesh.parts)
     if not wheels or not mesh.spur:
         return

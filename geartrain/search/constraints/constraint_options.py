@@ -132,7 +132,7 @@ def _read(problems: list[Problem], option: str, text: str | None, parse: Callabl
         return parse(text)
     except PydanticCustomError as error:
         fix = (error.context or {}).get("fix", "")
-        problems.append(Problem(f"--{option}: {error.message()}", "it is not read", str(fix)))
+        problems.append(Problem(f"--{option}: {error.message()}", "", str(fix)))
         return None
 
 
@@ -143,7 +143,7 @@ def _planets(text: str) -> int | dict[str, int]:
         name, _, number = piece.rpartition("=")
         if not number.strip().isascii() or not number.strip().isdigit() or ("," in text and not name):
             raise PydanticCustomError(
-                "planets", "'{text}' is no number of planets", {"text": text, "fix": "write 3, or arm=3,inner=4"}
+                "planets", "'{text}' is not a number of planets", {"text": text, "fix": "write 3, or arm=3,inner=4"}
             )
         names.append(name.strip())
         found.append(int(number))
@@ -155,6 +155,8 @@ def turns(angle: Quantity) -> Fraction:
     found = angle.base
     if angle.dimension != "angle" or not 0 < found < Fraction(1, 4):
         raise QuestionError(
-            Problem(f"{angle} is no pressure angle", "it is above 0 and below 90 deg", "write for example 20 deg")
+            Problem(
+                f"{angle} is not a pressure angle", "it must be above 0 and below 90 deg", "write for example 20 deg"
+            )
         )
     return found

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Ints
 
-_DIGITS = 70  # fifty are meant: the others take up the rounding of sums and powers
+_DIGITS = 70  # fifty are needed; the others absorb the rounding of sums and powers
 _PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803")
-_NEAR = 1e-7  # of the terms: floats, with a root of a difference among the terms, are nearer than this
-_EQUAL = Decimal("1e-25")  # of the terms: what agrees in so many digits is equal
+_NEAR = 1e-7  # relative to the terms: bound of the float error, which a root of a difference increases
+_EQUAL = Decimal("1e-25")  # relative to the terms: values that agree to 25 digits are equal
 
 CandidateColumns = Mapping[str, "Ints"]
 """Wheel -> tooth counts of many candidates, int64 arrays of equal length."""
@@ -160,8 +160,7 @@ class WholeSum:
         return tuple(wheel for wheel, _ in self.terms)
 
     def of(self, columns: CandidateColumns) -> Ints:
-        """Return the values of the sum, (candidates,), or one number if it has no free wheel. Sums above 2^63 overflow.
-        """
+        """Return the values of the sum, (candidates,), or one number if it has no free wheel. Sums above 2^63 overflow."""
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
             total = total + weight * columns[wheel]
@@ -224,7 +223,7 @@ class Coprime:
     second: CountRef
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose greatest common divisor is 1, (candidates,)."""
+        """Return the candidates whose gcd is 1, (candidates,)."""
         return np.asarray(np.gcd(counts_of(columns, self.first), counts_of(columns, self.second)) == 1)
 
 

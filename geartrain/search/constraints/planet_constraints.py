@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
 
 
-# Equal planets, equally spaced: which tooth counts let all of them be put in.
+# Assembly of equal, equally spaced planets.
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class EqualPlanets:
     def __call__(self, columns: CandidateColumns) -> Bools:
         """Return the candidates for which the planets can be assembled, (candidates,)."""
         n = self.number
-        # b matters modulo n only: reduced, so that products of counts stay within int64
+        # b is only needed modulo n; reduced, so that products of counts fit int64
         kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda number: number % n)
         found = np.asarray(True)
         for number in phase_numbers(self.first, kind):
@@ -63,14 +63,13 @@ class EqualPlanets:
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the greatest common divisors g of arrays of numbers >= 0, and u, v with u a + v b = g (extended Euclid).
-    """
+    """Return the gcd g of arrays of numbers >= 0, and u, v with u a + v b = g, by the extended Euclidean algorithm."""
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
         done = r2 == 0
-        # numpy divides in all rows: by 1 in those that have ended
+        # numpy divides in all rows; in finished ones by 1
         q = np.where(done, 0, r // np.maximum(r2, 1))
-        # rows that have ended keep their values while others go on
+        # finished rows keep their values
         r, r2 = np.where(done, r, r2), np.where(done, r2, r - q * r2)
         s, s2 = np.where(done, s, s2), np.where(done, s2, s - q * s2)
         t, t2 = np.where(done, t, t2), np.where(done, t2, t - q * t2)
@@ -92,7 +91,7 @@ def reason(found: PlanetSet, number: int) -> str:
     head = f"{number} equal planets on '{found.carrier}'"
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
-        return f"{head}: teeth of {found.title} meet"
+        return f"{head}: teeth of {found.title} mesh"
     one, other = (planet_contact(planet, mesh) for mesh in planet.central)
     sign = "+" if one.sense * other.sense < 0 else "-"
     if len(planet.wheels) == 1:
@@ -100,7 +99,7 @@ def reason(found: PlanetSet, number: int) -> str:
     return f"{head}: {number} gcd({one.own}, {other.own}) divides {one.mate} {other.own} {sign} {other.mate} {one.own}"
 
 
-# Room between planets: neighbours on a carrier, and planets that mesh with each other and their neighbours.
+# Clearance between planets: neighbours on a carrier, and planets that mesh with each other.
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,7 +184,7 @@ class PlanetRoom:
                 continue
             assert mesh.module is not None
             tips = LinearSum.of([(1, part)]).plus(2 * self.addendum + self.clearance).times(mesh.module)
-            name = f"neighbours: tips of {self.number} planets '{wheel}' keep {_shown(self.clearance)} apart"
+            name = f"neighbours: tip clearance of {self.number} planets '{wheel}' above {_shown(self.clearance)}"
             yield from _condition(name, NeighbourClearance(self.number, *whole(reach, tips)))
 
     def _both(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
@@ -195,7 +194,7 @@ class PlanetRoom:
         assert mesh.module is not None
         tips = teeth_of(mesh).plus(4 * self.addendum + 2 * self.clearance).times(mesh.module)
         pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
-        name = f"neighbours: {pair} of {self.number} planets reach each other and keep {_shown(self.clearance)} apart"
+        name = f"neighbours: {pair} of {self.number} planets mesh, with tip clearance above {_shown(self.clearance)}"
         yield from _condition(name, PassingClearance(self.number, *whole(A, B, distance_of(mesh), tips)))
         for inner, outer in ((planet, other), (other, planet)):
             if _is_plain(inner, True) and _is_plain(outer, False):
@@ -266,11 +265,11 @@ def _check(found: PlanetSet) -> None:
     """Raise `QuestionError` for sets whose clearance cannot be computed."""
     meshes = _meshes(found)
     if not all(mesh.spur for mesh in meshes):
-        why, fix = "the tips of bevel wheels are not on circles about parallel axes", "leave the clearance out"
+        why, fix = "the tips of bevel wheels are not on circles about parallel axes", "omit the clearance"
     elif any(mesh.module is None for mesh in meshes):
-        why, fix = "two of their wheels mesh and have different modules", "correct a module"
+        why, fix = "two meshing wheels have different modules", "correct a module"
     elif len({mesh.measure for mesh in meshes}) > 1:
-        why, fix = "some wheels have a declared module, others none", "declare the module of all of them, or of none"
+        why, fix = "only some of the wheels have a declared module", "declare the module of all of them, or of none"
     else:
         return
-    raise QuestionError(Problem(f"the room between planets {found.title} is not known", why, fix))
+    raise QuestionError(Problem(f"the clearance between planets {found.title} cannot be computed", why, fix))

@@ -134,9 +134,9 @@ class EpicyclicKind(Result):
             return EpicyclicMode(*parts)
         raise QuestionError(
             Problem(
-                f"'{text}' is no mode of the kind '{self.name}'",
-                f"a mode is input:output:held, of three different ones of {', '.join(self.links)}",
-                f"write one such as {self.modes[0].key}, or all",
+                f"'{text}' is not a mode of the kind '{self.name}'",
+                f"a mode is input:output:held with three different members of {', '.join(self.links)}",
+                f"write for example {self.modes[0].key}, or all",
             )
         )
 
@@ -247,9 +247,7 @@ def epicyclic_kind(name: str) -> EpicyclicKind:
     """Return a type of epicyclic set by name; `QuestionError` if it does not exist."""
     if name in kinds():
         return kinds()[name]
-    raise QuestionError(
-        Problem(f"there is no kind of epicyclic set '{name}'", "it is not in the list", f"one of {', '.join(kinds())}")
-    )
+    raise QuestionError(Problem(f"unknown kind of epicyclic set '{name}'", "", f"use one of {', '.join(kinds())}"))
 
 
 # ------------------------------------------------------------------------------------------------ sets that were found
@@ -374,7 +372,7 @@ class SetFindings(Result):
     complete: bool
     """True, because all sets within the bounds are examined."""
     count: int
-    """Number of sets within the tolerance, over all modes; number of all sets that run if there is no tolerance."""
+    """Number of sets within the tolerance, over all modes; number of all sets that run if `tolerance` is None."""
     solutions: tuple[EpicyclicSet, ...]
     """Best sets, best first."""
     shortfall: Shortfall

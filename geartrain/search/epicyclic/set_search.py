@@ -56,8 +56,8 @@ SetBounds = Mapping[str, tuple[int, ...]]
 
 TIPS = 2.0
 """Twice the addendum [modules]: tip diameter minus pitch diameter."""
-_BEVEL = 1e-9  # modules; what floats may be off where room and clearance are equal
-_NEAR = 1e-6  # modules; what floats say of the room is nearer than this
+_BEVEL = 1e-9  # [modules] float error of a clearance that equals the required one
+_NEAR = 1e-6  # [modules] bound of the float error of a clearance
 _MARGIN = 1e-12
 """Relative margin of float comparisons; values within it are compared exactly. Rounding errors are below 1e-15."""
 
@@ -65,12 +65,12 @@ _FARTHEST = Fraction(10**18)
 _FINEST = 10**6
 """Maximum denominator of a clearance, so that lengths in these fractions of a module are int64."""
 
-NO_PLACE = "a wheel out of its bounds, a planet without a place, or steps that are equal"
-NO_SPACING = "planets that cannot be put in equally spaced"
+NO_PLACE = "count out of bounds, planet that does not fit, or equal steps"
+NO_SPACING = "planets that cannot be equally spaced"
 NO_ROOM = "neighbouring planets that touch"
-NO_MOTION = "a mode that does not run"
-NO_SENSE = "the output turns the other way"
-NO_MATCH = "a ratio outside the tolerance"
+NO_MOTION = "mode that does not transmit motion"
+NO_SENSE = "opposite sense of rotation"
+NO_MATCH = "ratio outside the tolerance"
 
 
 def find_sets(
@@ -108,7 +108,7 @@ def find_sets(
     planets : int
         Number of equal planets, 1 or more.
     tolerance : Fraction, optional
-        Maximum absolute relative error; by default there is no limit.
+        Maximum absolute relative error; by default unlimited.
     best : int
         Maximum length of the list, 1 or more.
     sense : {-1, 0, 1}
@@ -166,16 +166,21 @@ def find_sets(
 
 def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int, slack: int) -> None:
     for bad, what, why, fix in (
-        (not _FARTHEST > wanted > 1 / _FARTHEST, "a ratio beyond all sets", "none reaches 10^18", "give a nearer one"),
-        (planets < 1, f"{planets} planets", "a set has one planet at least", "give 1 or more"),
+        (
+            not _FARTHEST > wanted > 1 / _FARTHEST,
+            "the ratio is out of range",
+            "it must be from 1e-18 to 1e18",
+            "give a ratio in this range",
+        ),
+        (planets < 1, f"planets is {planets}", "a set has at least one planet", "give 1 or more"),
         (
             tolerance is not None and tolerance < 0,
-            f"a tolerance of {tolerance}",
-            "no error is below 0",
+            f"the tolerance is {tolerance}",
+            "a tolerance must not be negative",
             "give 0 or more",
         ),
-        (best < 1, f"the best {best}", "a list has one place at least", "give 1 or more"),
-        (slack < 0, f"a slack of {slack}", "it is a number of half modules", "give 0 or more"),
+        (best < 1, f"best is {best}", "a list has at least one solution", "give 1 or more"),
+        (slack < 0, f"slack is {slack}", "it must not be negative", "give 0 or more"),
     ):
         if bad:
             raise QuestionError(Problem(what, why, fix))
@@ -187,9 +192,9 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
         (ratio_is, "kind of ratio", get_args(RatioIs)),
     ):
         if word not in words:
-            raise QuestionError(Problem(f"'{word}' is no {what}", "there are others", f"write {' or '.join(words)}"))
+            raise QuestionError(Problem(f"'{word}' is not a valid {what}", "", f"use {' or '.join(words)}"))
     if not isfinite(clearance):
-        raise QuestionError(Problem(f"a clearance of {clearance}", "it is a length", "give a number of modules"))
+        raise QuestionError(Problem(f"the clearance is {clearance}", "it must be finite", "give a number of modules"))
 
 
 def _length(columns: Columns) -> int:
@@ -245,7 +250,7 @@ class _Search:
         self.charge(NO_MATCH, int((~inside).sum()))
         if not self.count:
             nearest = self._set(columns, int(errors.argmin()), mode)
-            # only while nothing is within the tolerance: an explanation is wanted then
+            # only while nothing is within the tolerance, for the explanation
             if self.nearest is None or abs(nearest.error) < abs(self.nearest.error):
                 self.nearest = nearest
         if not inside.any():
@@ -278,7 +283,7 @@ class _Search:
         """Return an upper bound of the primary criterion of the best sets."""
         worst = np.inf if len(self.found) < self.best else float(self.found[-1][0][0])
         if len(first) > self.best:
-            # the n-th best of this block bounds the n-th best of all
+            # the n-th best of this block is a bound for the n-th best of all
             worst = min(worst, float(np.partition(first, self.best - 1)[self.best - 1]))
         return worst + _MARGIN * (1 + worst) if np.isfinite(worst) else np.inf
 
@@ -312,16 +317,16 @@ class _Search:
         if self.count:
             return "", ""
         if self.nearest is None and NO_SENSE in self.removed:
-            return "", "every set that runs turns the other way: ask for the other sense, for none, or for other modes"
+            return "", "all sets turn in the opposite sense: request the other sense, either sense, or other modes"
         if self.nearest is None:
             reason = max(self.removed, key=lambda name: self.removed[name])
             return (
                 "",
-                f"no set came as far as its ratio, most fell to: {reason}; widen the counts or change the planets",
+                f"all sets were rejected before their ratio, most by: {reason}; widen the counts or change the planets",
             )
         error = decimal(abs(self.nearest.error), 3)
         nearest = f"{self.nearest}, error {decimal(self.nearest.error, 3)}"
-        return nearest, f"a tolerance of {error} keeps it; wider counts may bring a nearer one"
+        return nearest, f"a tolerance of {error} includes it; a wider range of counts may give a nearer one"
 
 
 # ------------------------------------------ all tooth sets of a kind within bounds, as columns, and their exact ratios
@@ -335,9 +340,9 @@ def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> S
         unknown = [wheel for wheel in counts if wheel not in kind.wheels]
         missing = [wheel for wheel in kind.wheels if wheel not in counts]
         if unknown or missing:
-            what = f"'{unknown[0]}' is no wheel of" if unknown else f"wheel '{missing[0]}' has no counts in"
-            why = f"its wheels are {', '.join(kind.wheels)}"
-            raise QuestionError(Problem(f"{what} the kind '{kind.name}'", why, "give counts for each of them"))
+            what = f"unknown wheel '{unknown[0]}'" if unknown else f"wheel '{missing[0]}' has no counts"
+            why = f"the wheels of the kind '{kind.name}' are {', '.join(kind.wheels)}"
+            raise QuestionError(Problem(what, why, "give counts for each of them"))
         return {wheel: _usable(f"of wheel '{wheel}' ", counts[wheel]) for wheel in kind.wheels}
     return dict.fromkeys(kind.wheels, _usable("", counts))
 
@@ -346,7 +351,7 @@ def _usable(whose: str, counts: Counts) -> tuple[int, ...]:
     found = tuple(sorted(set(counts))) if len(counts) <= MOST_TEETH else ()
     if found and found[0] >= 1 and found[-1] <= MOST_TEETH:
         return found
-    why = f"the search takes counts from 1 to {MOST_TEETH}, and at least one"
+    why = f"at least one count is needed, from 1 to {MOST_TEETH}"
     raise QuestionError(Problem(f"the counts {whose}cannot be used", why, "give counts such as 15:120"))
 
 
@@ -369,11 +374,11 @@ def blocks(
     """
     total = size(kind, bounds, slack)
     if total > MOST_SETS:
-        why = f"the search looks at each, and takes {MOST_SETS:.0e} at most"
-        raise RangeError(Problem(f"{total:.2g} tooth sets to look at", why, "narrow the counts, or ask for less slack"))
+        why = f"at most {MOST_SETS:.0e} sets are enumerated"
+        raise RangeError(Problem(f"{total:.2g} tooth sets are too many", why, "narrow the counts, or reduce the slack"))
     first, *rest = (np.array(bounds[wheel], dtype=np.int64) for wheel in kind.free)
     inner = [column.ravel() for column in np.meshgrid(*rest, indexing="ij")]
-    # about 20,000 sets at a time fit the processor's cache
+    # about 20,000 sets fit the cache of a processor
     step = max(1, 20_000 // max(1, len(inner[0])))
     for at in range(0, len(first), step):
         head = first[at : at + step]
@@ -433,7 +438,7 @@ def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
     """Add the smallest count of the idle wheels that fits, and remove the sets without one."""
-    # an idle wheel takes part in no ratio: the least count that fits stands for all
+    # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
     found: Ints = np.zeros_like(columns[kind.free[0]])
     for count in sorted(common):
@@ -476,7 +481,7 @@ def _relative(member: CentralWheel | None, columns: Columns) -> tuple[Ints | int
     return member.sign * (columns[member.step] if member.step else 1), columns[member.wheel]
 
 
-# -------------------------------------------- assembly: where equal planets can stand, and the room between neighbours
+# -------------------------------------------- assembly of equal planets, and clearance between neighbours
 
 
 def places(kind: EpicyclicKind, columns: Columns) -> Ints:
@@ -514,7 +519,7 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
         gap = columns["r"] - columns["s"]
         good &= (2 * columns["p1"] + 2 * TIPS < gap) & (gap < 2 * (columns["p1"] + columns["p2"]))
     if kind.name == "ravigneaux":
-        # the long planet passes by the small sun, and the short one reaches it
+        # the long planet clears the small sun, and the short one meshes with it
         good &= (columns["s2"] - columns["s1"] > 2 * TIPS) & (columns["s1"] + 2 * columns["ps"] > columns["s2"])
     if kind.bevel:
         good &= np.abs(columns["s1"] - columns["s2"]) < 2 * columns["p"]
@@ -539,7 +544,7 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     if len(own) == 1:
         return own[0]
     (first, second), (a, b) = distances, kind.between[0]
-    # no division by 0 where a planet would stand on the axis: such sets do not fit anyway
+    # avoids a division by 0 for a planet on the central axis, which does not fit anyway
     cosine = (first**2 + second**2 - (columns[a] + columns[b]) ** 2) / np.maximum(2 * first * second, 1)
     angle = np.arccos(np.clip(cosine, -1, 1))
     for turn in range(1, planets):
@@ -564,7 +569,7 @@ def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fract
 
 
 def _clears_exactly(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
-    # all lengths are multiplied by the denominator, so that they are whole
+    # all lengths are multiplied by the denominator, so that they are integers
     unit, minimum = clearance.denominator, clearance.numerator
     reaches = [unit * _distance(kind, columns, link) for link in kind.planets]
     tips = [unit * (np.maximum.reduce([columns[wheel] for wheel in link]) + int(TIPS)) for link in kind.planets]

@@ -27,25 +27,26 @@ context_settings = NEGATIVE_NUMBERS
 
 def run(
     context: typer.Context,
-    kind: Annotated[str, typer.Option("--kind", help="The kind of set; 'list' names the kinds.")],
+    kind: Annotated[str, typer.Option("--kind", help="Kind of set; 'list' prints the kinds.")],
     ratio: Annotated[
-        str | None, typer.Argument(help="A ratio; not needed with --kind list.", metavar="[RATIO]")
+        str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="[RATIO]")
     ] = None,
     counts: Range = ANY_COUNT,
-    mode: Annotated[str, typer.Option("--mode", help="Which links: input:output:held, or all.")] = "all",
-    ratio_is: Annotated[str, typer.Option("--ratio-is", help="input/output or output/input.")] = "input/output",
-    planets: Annotated[int | None, typer.Option("--planets", help="Equal planets, equally spaced.")] = None,
+    mode: Annotated[str, typer.Option("--mode", help="Modes input:output:held, separated by commas, or all.")] = "all",
+    ratio_is: Annotated[
+        str, typer.Option("--ratio-is", help="Definition of the ratio: input/output or output/input.")
+    ] = "input/output",
+    planets: Annotated[int | None, typer.Option("--planets", help="Number of equal, equally spaced planets.")] = None,
     clearance: Annotated[
-        str | None, typer.Option("--clearance", help="Room between the tips of neighbouring planets, in modules.")
+        str | None,
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
     ] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Half modules by which centre distances may differ.")
+        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
     ] = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
-    by: Annotated[
-        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres.")
-    ] = "error",
+    by: Annotated[str, typer.Option("--by", help="Order of the solutions: error, total, largest.")] = "error",
     per: Per = None,
     pick: Pick = 1,
     csv: Csv = False,
@@ -64,9 +65,9 @@ def run(
         _list(answer)
         return
     if ratio is None:
-        raise typer.BadParameter("a set is made for a ratio", param_hint="RATIO")
+        raise typer.BadParameter("the ratio is missing", param_hint="RATIO")
     if clearance is not None and planets is None:
-        raise typer.BadParameter("room is asked of equal planets; give --planets too", param_hint="--clearance")
+        raise typer.BadParameter("the clearance between planets requires --planets", param_hint="--clearance")
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
     chosen: Any = "all" if mode == "all" else tuple(mode.split(","))
     found = find_sets(

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 ROUNDING = 1e-12
 """Error bound of logarithms of periods and ratios whose magnitude is below 100."""
-_MOST_PAIRS = 2 * 10**7  # of counts
-_MOST_STEPS = 4000  # of one tree; a first complete choice is always found
+_MOST_PAIRS = 2 * 10**7  # of counts in the table
+_MOST_STEPS = 4000  # of one tree; a first complete assignment is always found
 
 
 @dataclass(frozen=True)
@@ -71,19 +71,23 @@ def read_period_targets(
 ) -> PeriodTargets:
     """Build the targets from periods by name and one tolerance for all or one for each."""
     if not periods:
-        raise QuestionError(Problem("no periods are asked for", "an orrery shows at least one", "name one period"))
+        raise QuestionError(
+            Problem("no periods are given", "an orrery shows at least one period", "give one, such as moon=29.53")
+        )
     if len(periods) > 30:
-        raise RangeError(Problem(f"{len(periods)} periods", "the search keeps sets of up to 30", "split the orrery"))
+        raise RangeError(
+            Problem(f"{len(periods)} periods are too many", "at most 30 periods are possible", "split the orrery")
+        )
     slack = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(periods, tolerance)
     problems = [
-        Problem(f"period {name!r} is {value}", "a period is a positive number of turns", "give its magnitude")
+        Problem(f"period {name!r} is {value}", "a period must be positive", "give its magnitude")
         for name, value in periods.items()
         if value <= 0
     ]
     problems += [
         Problem(
-            f"no usable tolerance for {name!r}: {slack.get(name)}",
-            "a relative tolerance lies from 0 to below 1",
+            f"the tolerance of {name!r} is {slack.get(name)}",
+            "a relative tolerance must be at least 0 and below 1",
             "give for instance 1e-6",
         )
         for name in periods
@@ -107,7 +111,7 @@ def members(bits: int) -> Iterator[int]:
         at += 1
 
 
-# ------------------------------------------------------------------------------------------- what one gear pair can do
+# ------------------------------------------------------------------------------------------- ratios of one gear pair
 
 
 @dataclass(frozen=True)
@@ -154,28 +158,26 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
     admissible = tuple(sorted(set(counts)))
     if not admissible or admissible[0] < 1:
         raise QuestionError(
-            Problem(
-                "no admissible tooth counts", "a wheel has a positive number of teeth", "give counts such as 12:400"
-            )
+            Problem("no admissible tooth counts", "tooth counts must be positive", "give counts such as 12:400")
         )
-    # terms below 2^31, for both of a ratio are put into one integer below
+    # terms below 2^31, because both terms of a ratio are packed into one integer below
     if len(admissible) ** 2 > _MOST_PAIRS or admissible[-1] >= 2**31:
         raise RangeError(
             Problem(
-                f"{len(admissible)} tooth counts up to {admissible[-1]}",
-                f"the search holds all ratios of two of them; it has room for {_MOST_PAIRS:.0e}",
+                f"too many tooth counts: {len(admissible)}, up to {admissible[-1]}",
+                f"the table of ratios of two counts is limited to {_MOST_PAIRS:.0e} entries",
                 "narrow the range of teeth",
             )
         )
     teeth = np.array(admissible, dtype=np.int64)
     over, under = (part.ravel() for part in np.meshgrid(teeth, teeth))
     common = np.gcd(over, under)
-    # a ratio in lowest terms as one integer, below 2^62, so that np.unique takes pairs
+    # a ratio in lowest terms packed into one integer below 2^62, for np.unique
     shift = admissible[-1] + 1
     keys = np.unique(over // common * shift + under // common)
     over, under = keys // shift, keys % shift
     logs = np.log(over / under)
-    # ratios whose logarithms round alike are told apart by their terms: the order is always the same
+    # ratios with equal rounded logarithms are ordered by their terms, so that the order is deterministic
     order = np.lexsort((under, logs))
     return PairRatios(admissible, over[order], under[order], logs[order])
 
@@ -205,7 +207,7 @@ def reach(table: PairRatios, aims: PeriodTargets, log_period: float, requested: 
     falling = -logs[::-1]
     for aim in members(requested):
         low, high = aims.logs[aim][0] - log_period - ROUNDING, aims.logs[aim][1] - log_period + ROUNDING
-        # ratios so far from the aim that no pair bridges the rest need not be asked
+        # ratios from which no single pair reaches the target are skipped
         begin, end = np.searchsorted(falling, [logs[0] - high, logs[-1] - low + ROUNDING])
         start = np.searchsorted(logs, falling[begin:end] + low)
         good = np.append(logs, np.inf)[start] <= falling[begin:end] + high
@@ -217,7 +219,7 @@ def reach(table: PairRatios, aims: PeriodTargets, log_period: float, requested: 
 
 
 def reached_sets(table: PairRatios, aims: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """Return, for every ratio of the table, the bit mask of the targets one pair beyond the arbor it leads to, (n,)."""
+    """Return the bit mask of the targets one pair beyond the arbor that each ratio of the table leads to, (n,)."""
     sets = np.zeros(len(table), dtype=np.int64)
     found = reach(table, aims, log_period, requested)
     sets[found.first] = found.sets
@@ -248,7 +250,7 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
                 users[wheel] = users.get(wheel, 0) + 1
     options, hopes = [], []
     for (parent, child, *_), pairs in zip(edges, choices, strict=True):
-        # a choice that coincides with no other pair's is as good as any other such choice
+        # of the choices that cannot be shared with another pair, one is sufficient
         fresh = [(users[parent, driver] == 1) + (users[child, driven] == 1) for driver, driven in pairs]
         shared = [pair for pair, new in zip(pairs, fresh, strict=True) if new < 2]
         options.append(shared or pairs[:1])
@@ -451,9 +453,10 @@ def _useful(tree: ArborTree) -> bool:
 
 
 def _closures(table: PairRatios, aims: PeriodTargets) -> Ints:
-    """Return, for each bit mask of targets, the targets that chains of single pairs can reach from them, including them.
+    """Return a table from each bit mask of targets to the targets that chains of single pairs reach from them.
 
-    The period of an arbor may be anywhere within its tolerance, so the result is a superset.
+    The targets themselves are included. The period of an arbor may be anywhere within its tolerance, so the result is a
+    superset.
     """
     beside = []
     for low, high in aims.bounds:

@@ -36,12 +36,12 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Ints
 
 
-_KEPT_ENTRIES = 3 * 10**7  # of remembered reaches: 240 MB of int64
-_TRIED = 20  # moves of each gain that are worked out exactly
-_ALIKE = 3  # trees that show the same, before others have their turn
+_KEPT_ENTRIES = 3 * 10**7  # of the cache of reaches: 240 MB of int64
+_TRIED = 20  # moves of each gain that are evaluated exactly
+_ALIKE = 3  # trees with the same targets and periods that are selected before others
 _Key = frozenset[tuple[int, int, int]]
-_WALKABLE = 2 * 10**5  # steps of a walk that is made unasked
-_SEEDS_A_PART = 4  # first extra arbors for each tree that a beam keeps
+_WALKABLE = 2 * 10**5  # steps of an enumeration by default
+_SEEDS_A_PART = 4  # initial additional arbors for each tree of the beam
 
 Tell = Callable[[int, int], None]
 
@@ -252,7 +252,9 @@ def find_orrery(
     aims = read_period_targets(periods, tolerance)
     if first in aims.names or "frame" in (first, *aims.names):
         raise QuestionError(
-            Problem("two arbors of one name", f"the first is {first!r}, what holds them is 'frame'", "rename one")
+            Problem(
+                "two arbors have the same name", f"the first arbor is {first!r}, and 'frame' is reserved", "rename one"
+            )
         )
     search = _Sharing(pair_ratios(counts), aims, seconds, tell)
     ended = search.run(effort, walk)
@@ -283,7 +285,7 @@ class _Sharing:
                 self._walk(extra)
                 if self.proved:
                     return "proved"
-            # iterative widening: a beam costs about four times the one before, all narrower ones together a third of it
+            # iterative widening: each beam costs about four times the previous one, all narrower ones together a third
             width = 4
             while width // 4 < max(effort, 1):
                 self._widen(min(width, max(effort, 1)))
@@ -399,18 +401,18 @@ def _nothing(search: _Sharing, ended: str) -> QuestionError:
     """Return the error for a search without a result, with the proved bounds."""
     table, size = search.table, len(search.aims.periods)
     minimum, most = table.counts[0], table.counts[-1]
-    walked = f"all trees with up to {size + search.walked} pairs were walked; " if search.walked >= 0 else ""
-    stopped = {"time": "the time allowed was over; ", "interrupted": "the search was interrupted; "}.get(ended, "")
+    walked = f"all trees with up to {size + search.walked} pairs were enumerated; " if search.walked >= 0 else ""
+    stopped = {"time": "the time limit was reached; ", "interrupted": "the search was interrupted; "}.get(ended, "")
     return QuestionError(
         Problem(
             f"no orrery found for {size} periods with wheels of {minimum} to {most} teeth",
-            f"{walked}{stopped}a pair changes the speed at most {most / minimum:.3g} times and has {len(table)} ratios",
+            f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
             "loosen the tolerance, allow more tooth counts, or raise effort",
         )
     )
 
 
-# ------------------------------------- beam search: trees with few wheels from the best part-built ones, without proof
+# ------------------------------------- beam search: trees with few wheels, without proof
 
 
 @dataclass(frozen=True, slots=True)
@@ -452,7 +454,7 @@ class BeamSearch:
         plain = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
         self._bulk = plain
         self._windows = np.array(aims.logs).T
-        # stable: of ratios as plain as each other the least first, on every machine
+        # stable sort: ties are ordered by ratio, on every machine
         self._plainest = np.argsort(plain, kind="stable")
 
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:
@@ -461,7 +463,7 @@ class BeamSearch:
         """
         size = len(self.aims.periods)
         root = PartialTree((FIRST,), self.aims.everything, 0, 0.0)
-        # first arbors that show nothing themselves lead to aims that two pairs from the first arbor cannot
+        # initial arbors without a period lead to targets that two pairs from the first arbor cannot reach
         chosen = [root, *self._direct(root, 0), *self._blanks(root, seeds)]
         levels: list[dict[_Key, PartialTree]] = [{} for _ in range(size)]
         for shown in range(size):
@@ -501,15 +503,14 @@ class BeamSearch:
             self._entries += known.next.size
             while self._reaches and self._entries > _KEPT_ENTRIES:
                 self._entries -= self._reaches.pop(next(iter(self._reaches))).next.size
-        self._reaches[arbor.n, arbor.d] = known  # the one used last goes last
+        self._reaches[arbor.n, arbor.d] = known  # the most recently used entry is last
         return known
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the most promising extensions of a partial tree by one additional arbor, and their direct extensions.
-        """
+        """Yield the most promising extensions of a partial tree by one additional arbor, and their direct extensions."""
         reaches = [self._reach(arbor, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
-        # the best of each gain: one that shows more aims at once needs more wheels, and would lose to the others
+        # separately for each gain: moves with more targets need more wheels, and would always be ranked lower
         for gain in np.unique(rows[:, 0]):
             mine = rows[rows[:, 0] == gain]
             for row in mine[np.lexsort((mine[:, 2], mine[:, 1]))[:_TRIED]]:
@@ -537,8 +538,7 @@ class BeamSearch:
     def _moves(
         self, part: PartialTree, parent: int, known: ReachablePeriods
     ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-        """Return a table of moves, (moves, 5): targets gained, wheels needed, bulk, parent, row of the parent's reach.
-        """
+        """Return a table of moves, (moves, 5): targets gained, wheels needed, bulk, parent, row of the parent's reach."""
         sets = known.sets & part.left
         rows = np.flatnonzero(sets)
         gained = np.bitwise_count(sets[rows]).astype(np.int64)
@@ -592,8 +592,7 @@ class BeamSearch:
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """Select the best partial trees. At most a few that show the same targets with the same periods are selected first.
-    """
+    """Select the best partial trees. At most a few that show the same targets with the same periods are selected first."""
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []
     alike: Counter[_Key] = Counter()
@@ -602,5 +601,5 @@ def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
         alike[shown] += 1
         (kept if alike[shown] <= _ALIKE else spare).append(part)
     kept = (kept[:width] + spare)[:width]
-    # trees that share arbors next to each other: what these arbors reach is then still at hand
+    # trees that share arbors are neighbours, so that the reaches of these arbors are still cached
     return sorted(kept, key=lambda part: [(arbor.n, arbor.d) for arbor in part.tree])

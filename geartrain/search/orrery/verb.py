@@ -16,13 +16,13 @@ _TOLERANCE = Fraction(1, 10**6)
 
 def run(
     periods: Annotated[
-        list[str], typer.Argument(help="Several NAME=PERIOD in turns of one arbor.", metavar="NAME=PERIOD...")
+        list[str], typer.Argument(help="Names and periods [revolutions of the first arbor].", metavar="NAME=PERIOD...")
     ],
     counts: Range = ANY_COUNT,
     tolerance: Tolerance = None,
-    effort: Annotated[int, typer.Option("--effort", min=1, help="How widely to search.")] = 16,
+    effort: Annotated[int, typer.Option("--effort", min=1, help="Maximum beam width of the search.")] = 16,
     walk: Annotated[
-        int | None, typer.Option("--walk", min=0, help="Extra arbors up to which all trees are walked.")
+        int | None, typer.Option("--walk", min=0, help="Enumerate all trees with up to this number of extra arbors.")
     ] = None,
     csv: Csv = False,
     json: Json = False,
@@ -62,7 +62,9 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
             raise typer.BadParameter(f"two periods are named '{name.strip()}'", param_hint="NAME=PERIOD")
         wanted = read_ratio(period)
         if wanted.sense:
-            what = f"'{text}' asks for a sense, which is left open here; the answer tells that of every arbor"
+            what = (
+                f"'{text}' has a sign; give periods without sign, because the search chooses the sense of every arbor"
+            )
             raise typer.BadParameter(what, param_hint="NAME=PERIOD")
         found[name.strip()] = wanted.value
     return found

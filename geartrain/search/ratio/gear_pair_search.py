@@ -22,9 +22,9 @@ from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import CountRuns, Counts
 
 _MOST_PAIRS = 10**6  # listed
-_MOST_SCANNED = 10**6  # counts taken one by one where a list has gaps
-_MOST_BOXES = 400  # pairs of runs, where lists with gaps are longer
-_FAR = 10**12  # times beyond all ratios of the counts
+_MOST_SCANNED = 10**6  # counts that are scanned if a list has gaps
+_MOST_BOXES = 400  # pairs of runs, for longer lists with gaps
+_FAR = 10**12  # factor beyond the ratios of all counts
 _Pair = tuple[int, int]
 
 
@@ -52,7 +52,7 @@ def find_pairs(
     bound = None if tolerance is None else _checked(tolerance)
     number = 20 if best is None and bound is None else best
     if number is not None and number < 1:
-        raise QuestionError(Problem(f"the best {number} are asked for", "that is no list", "ask for 1 or more"))
+        raise QuestionError(Problem(f"best is {number}", "a list has at least one solution", "give 1 or more"))
     found = [pair for box in boxes for pair in _found(wanted.value, box, bound, number)]
     found.sort(key=lambda pair: _rank(wanted.value, pair))
     return tuple(_stages(wanted.value, pair) for pair in found[:number])
@@ -124,7 +124,7 @@ def _boxes(wanted: TargetRatio, wheels: Counts, pinions: Counts) -> list[_Box]:
         raise RangeError(
             Problem(
                 f"{len(top)} counts over {len(beneath)}, with gaps, are too many",
-                "counts with gaps are taken one by one, or range by range where the ranges are few",
+                f"lists with gaps are scanned, or searched as at most {_MOST_BOXES} pairs of ranges",
                 "give one range for each wheel, such as 12:1000000",
             )
         )
@@ -136,9 +136,9 @@ def _check_reach(value: Fraction, boxes: list[_Box]) -> None:
     low = min(Fraction(box.top.minimum, box.beneath.most) for box in boxes)
     high = max(Fraction(box.top.most, box.beneath.minimum) for box in boxes)
     if not low / _FAR < value < high * _FAR:
-        made = f"these counts make {decimal(low, 3)} to {decimal(high, 3)}"
+        made = f"ratios of these counts are from {decimal(low, 3)} to {decimal(high, 3)}"
         what = f"a ratio of {decimal(value, 3)} is far out of reach"
-        raise RangeError(Problem(what, made, "take more stages, or a wider range of counts"))
+        raise RangeError(Problem(what, made, "use more stages, or a wider range of counts"))
 
 
 def _found(value: Fraction, box: _Box, tolerance: Fraction | None, number: int | None) -> list[_Pair]:
@@ -148,9 +148,9 @@ def _found(value: Fraction, box: _Box, tolerance: Fraction | None, number: int |
         if number is None and inside > _MOST_PAIRS:
             raise RangeError(
                 Problem(
-                    f"{inside} pairs lie within the tolerance",
-                    f"more than {_MOST_PAIRS} are not listed",
-                    "ask for the best of them, or lower the tolerance",
+                    f"{inside} pairs are within the tolerance",
+                    f"at most {_MOST_PAIRS} are listed",
+                    "request only the best, or reduce the tolerance",
                 )
             )
         number = min(inside, number or inside)
@@ -190,7 +190,7 @@ def _by_tree(value: Fraction, box: _Box, number: int) -> list[_Pair]:
         multiples = range(first, min(box.top.most // p, box.beneath.most // q) + 1)
         found += [(k * p, k * q) for k in islice(multiples, number)]
         if last is None and len(found) >= number:
-            # a fraction as far away on the other side may still have fewer teeth
+            # a fraction with the same error on the other side may have fewer teeth
             last = distance
     return nsmallest(number, found, key=lambda pair: _rank(value, pair))
 
@@ -199,7 +199,7 @@ def _by_scan(value: Fraction, box: _Box, number: int) -> list[_Pair]:
     """Return the `number` best pairs by a scan; the tolerance is increased until it includes that many pairs."""
     farthest = [box.top.minimum / Fraction(box.beneath.most), box.top.most / Fraction(box.beneath.minimum)]
     tolerance = max(farthest[0] / value - 1, 1 - farthest[1] / value, Fraction(0))
-    # narrower than evenly spread pairs would need, then four times as wide each time: the last count costs most
+    # smaller than for uniformly distributed pairs, then increased fourfold: the last count costs most
     step = Fraction(number, len(box.top) * len(box.beneath)) / 64
     while box.number(*_limits(value, tolerance)) < number:
         tolerance += step
@@ -212,7 +212,7 @@ def _under(box: _Box, ratio: Fraction, strictly: bool = False) -> int:
     (first, last), (low, high) = box.top.spans[0], box.beneath.spans[0]
     n, d = ratio.numerator, ratio.denominator
     off = 1 if strictly else 0
-    # beneath `start` not even the first count on top is small enough, from `full` on all of them are
+    # below `start` no numerator is small enough, from `full` on all are
     start = min(max(-(-(first * d + off) // n), low), high + 1)
     full = min(max(-(-(last * d + off) // n), start), high + 1)
     part = _floor_sum(full - start, n, n * start - off, d) - (full - start) * (first - 1)
@@ -230,7 +230,7 @@ def _floor_sum(number: int, slope: int, offset: int, divisor: int) -> int:
         total += sign * (number * (number - 1) // 2 * (slope // divisor) + number * (offset // divisor))
         slope, offset = slope % divisor, offset % divisor
         rows = (slope * (number - 1) + offset) // divisor
-        # points of row j = 1..rows under the line are those right of it: `number` less ceil((divisor j - offset)/slope)
+        # row j = 1..rows has `number` - ceil((divisor j - offset)/slope) points under the line
         total += sign * rows * number
         if not rows:
             return total
@@ -261,6 +261,6 @@ def _stages(value: Fraction, pair: _Pair) -> GearStages:
 def _checked(tolerance: Fraction) -> Fraction:
     if tolerance < 0:
         raise QuestionError(
-            Problem(f"a tolerance of {tolerance}", "an error is compared by its size", "give 0 or more, such as 1e-6")
+            Problem(f"the tolerance is {tolerance}", "a tolerance must not be negative", "give 0 or more, such as 1e-6")
         )
     return tolerance

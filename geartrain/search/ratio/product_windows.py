@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]  # int64, or Python integers where those would overflow
 
 
-# Where a window of ratios cuts a list of products, exactly; and how far a ratio is from the wanted one.
+# Index ranges of products within windows of ratios, and relative errors of ratios.
 
 
 ROUNDING = 1e-28
@@ -34,18 +34,18 @@ ROUNDING = 1e-28
 
 
 def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
-    """Return, for each factor f, the half-open index range of `products` with low f <= product <= high f; exact.
+    """Return the half-open index range of `products` with low f <= product <= high f for each factor f; exact.
 
     products   ascending, at least one
     factors    positive, in the same dtype: int64 below 2^52, or Python integers
     low, high  0 <= low <= high
     """
-    # no ratio of these products has a longer denominator than the largest factor
+    # no ratio of these products has a denominator larger than the largest factor
     longest = int(factors.max()) if len(factors) else 1
-    # past all products, with room for the guess in `_floors`: what lies beyond needs no exact floor
+    # above all products, with a margin for the estimate in `_floors`; larger values need no exact floor
     cap = int(products[-1]) + 8
     first, whole = _floors(factors, farey_neighbours(low, longest)[1], cap)
-    # the ceiling: one more where the product is not whole
+    # ceiling: one more than the floor if the product is not an integer
     first = first + ~whole
     last, _ = _floors(factors, farey_neighbours(high, longest)[0], cap)
     return np.searchsorted(products, first), np.searchsorted(products, last, side="right")
@@ -79,7 +79,7 @@ def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
     """Return the relative error top / (beneath value) - 1 of each pair to about 1e-30, by Dekker's double-double
     products.
     """
-    # the value and all products of its halves then stay within float64
+    # then the value and all products of its halves are within the range of float64
     short = abs(value.numerator.bit_length() - value.denominator.bit_length()) < 300
     if tops.dtype == object or beneaths.dtype == object or not short:
         n, d = value.numerator, value.denominator
@@ -91,7 +91,7 @@ def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
     product = q * head
     q_high, q_low = split(q)
     head_high, head_low = split(np.float64(head))
-    # largest first: in this order no sum rounds
+    # largest first: in this order no addition has a rounding error
     lost = ((q_high * head_high - product) + q_high * head_low + q_low * head_high) + q_low * head_low
     return np.asarray(((tops - product) - (lost + q * tail)) / product)
 
@@ -124,8 +124,8 @@ def rounded_up(bound: float | Fraction) -> Fraction:
 MOST_STAGES = 5
 PLAIN = 1 << 52
 """Limit of products as int64, which float64 represents exactly; larger products are Python integers (dtype object)."""
-_MOST_OBJECTS = 2 * 10**6  # products as Python integers, which are held one by one
-_MOST_ROWS = 12 * 10**6  # of the tables
+_MOST_OBJECTS = 2 * 10**6  # products as Python integers in memory
+_MOST_ROWS = 12 * 10**6  # of the tables in memory
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -223,7 +223,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
     below = (size - 1) // 2
     rows, lows, table = _rows(numbers, below)
     if size - 1 - below < 2:
-        # one count above, or none: looked for in the counts themselves, from the middle one on
+        # at most one count above: the counts themselves, from the middle one on, are the table
         uppers = _chosen(numbers, size - 1 - below)
         starts = table if size > 1 else np.zeros_like(table)
         highs = row_products(uppers)
@@ -241,8 +241,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
-    """Return every multiset of `below` numbers with a number not less than them: product, counts, index of that number.
-    """
+    """Return every multiset of `below` numbers with a number not less than them: product, counts, index of that number."""
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
     lows = np.concatenate([np.concatenate(parts), numbers[table][:, None]], axis=1)
@@ -261,7 +260,7 @@ def expand(product: int, counts: tuple[int, ...], size: int) -> list[tuple[int, 
     [(36, 100), (40, 90), (45, 80), (48, 75), (50, 72), (60, 60)]
     """
     numbers = _array(counts)
-    # longer products do not fit int64: then no count is ruled out beforehand
+    # larger products do not fit int64; then all counts are tried
     here = [int(count) for count in numbers[product % numbers == 0]] if product < PLAIN else list(counts)
     found: list[tuple[int, ...]] = []
     _factor(product, here, 0, size, (), found)
@@ -296,8 +295,8 @@ def _array(counts: tuple[int, ...]) -> Ints:
 
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Places:
-    """Return, for each row, the index after the last high part whose product with the row is less than `bound`."""
-    # one search in one key for all tables: the offset of a row leads to its own table
+    """Return the index after the last high part whose product with each row is less than `bound`, (rows,)."""
+    # one binary search for all tables: the offset of a row selects its table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
     return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
 
@@ -325,6 +324,6 @@ def check_memory(counts: tuple[int, ...], size: int, plain: bool) -> None:
     number, half = len(counts), (size + 1) // 2
     rows = multisets(number, half) if size < 4 else multisets(number, 3)
     if rows > _MOST_ROWS or not (plain or multisets(number, size) <= _MOST_OBJECTS):
-        why = "the tables would not fit in memory" if plain else "products past 2^52 are held one by one"
+        why = "the tables would not fit in memory" if plain else "products above 2^52 are stored as Python objects"
         what = f"{number} counts are too many for {size} stages" + ("" if plain else f" of up to {counts[-1]} teeth")
-        raise RangeError(Problem(what, why, "take a shorter range of counts, or fewer stages"))
+        raise RangeError(Problem(what, why, "use a shorter range of counts, or fewer stages"))

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     Span = tuple[Ints, Ints]
 
 
-_BINS = 256  # of the logarithms of counts
+_BINS = 256  # of the histogram of logarithms of counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,7 @@ class SegmentPlan:
 
     def tolerance_for(self, number: float) -> Fraction:
         """Return an absolute relative error within which about `number` pairs of multisets are expected."""
-        # without a density to go by a search begins narrow, and is widened
+        # without a density the search starts with a narrow tolerance, which is then widened
         return Fraction(number / self.density) if self.density * 1e18 > number else Fraction(1, 10**18)
 
 
@@ -70,7 +70,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     """
     size, value = question.stages, question.value
     spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
-    # a single count spans nothing
+    # a single count has a span of 0
     width = max(*spans, 1e-6) / _BINS
     over, under = (_spread(counts, size, width) for counts in (question.top, question.beneath))
     start = size * log(question.beneath[0])
@@ -89,19 +89,18 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     both = under * beside
     peak = ceil(exp(start + (int(both.argmax()) + 0.5) * width))
     densest = int(np.searchsorted(np.array(bounds[1:-1], dtype=np.float64), float(peak), side="right"))
-    # twice, for an |error| has a side above the ratio and one below
+    # factor 2: an absolute error includes both sides of the ratio
     return SegmentPlan(bounds, densest, float(2 * both.sum() / width))
 
 
 def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
-    """Return the number of multisets by the logarithm of their product, in bins of `width` from the smallest product.
-    """
+    """Return the number of multisets by the logarithm of their product, in bins of `width` from the smallest product."""
     places = np.array([log(count / counts[0]) / width for count in counts])
     one = np.bincount(places.astype(np.int64)).astype(np.float64)
     found = np.ones(1)
     for _ in range(size):
         found = np.convolve(found, one)
-    # the convolution counts ordered choices: scaled to the number of unordered sets
+    # the convolution counts sequences; scaled to the number of multisets
     return np.asarray(found * (multisets(len(counts), size) / found.sum()))
 
 
@@ -109,7 +108,7 @@ BLOCK = 1 << 21
 """Maximum number of products of one side in memory."""
 PER_ROW = 3
 """Minimum number of products per row of the tables in a block. A window costs a binary search in every row."""
-_FEW = 1000  # solutions that may be made one by one from their products
+_FEW = 1000  # solutions that may be factored individually from their products
 
 Range = tuple[int, int]
 
@@ -169,7 +168,7 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
     low, high = max(low, products.minimum), min(high, products.most + 1)
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
-        # the geometric mean, for products are spread evenly in logarithms
+        # the geometric mean, because the logarithms of products are about uniform
         middle = min(max(isqrt(low * high), low + 1), high - 1)
         yield from pieces(products, low, middle, most)
         yield from pieces(products, middle, high, most)
@@ -177,16 +176,15 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
         yield low, high
 
 
-# The best ratios by their error alone: compared as values, made into counts only where they are shown.
+# The best ratios by error only: compared as values, and factored into counts only if listed.
 
 
-_MANY = 1 << 20  # pairs of products looked at together
-_CLOSE = Fraction(1, 10**40)  # so near, only pairs of one and the same ratio are left
+_MANY = 1 << 20  # pairs of products in one vectorised step
+_CLOSE = Fraction(1, 10**40)  # at this distance only pairs with the same ratio remain
 
 
 class ValueFinder:
-    """Count of all solutions by runs of equal products, and list of the best by error, sum, largest count and counts.
-    """
+    """Count of all solutions by runs of equal products, and list of the best by error, sum, largest count and counts."""
 
     def __init__(self, question: StageProblem, hint: Fraction, bound: tuple[int, Fraction, int] | None) -> None:
         self.question, self.hint = question, hint
@@ -218,13 +216,13 @@ class ValueFinder:
             limit = min(limit, self.most[0])
         tolerance = min(self.hint, limit)
         span = self._span(under, over, whole, tolerance)
-        # widened until the block's best are surely within
+        # widened until the best of the block are certainly within
         while weight(under, over, span) < best and tolerance < limit:
             tolerance = min(8 * tolerance, limit)
             span = self._span(under, over, whole, tolerance)
         fewer = Fraction(0)
         while _pairs(span) > _MANY and tolerance - fewer > _CLOSE:
-            # too wide a start: halve what lies between enough and too few
+            # the start was too wide: bisect between enough and too few
             middle = (tolerance + fewer) / 2
             inner = self._span(under, over, whole, middle)
             if weight(under, over, inner) < best:
@@ -236,7 +234,7 @@ class ValueFinder:
         return over[0][j], under[0][i], sets
 
     def _span(self, under: Span, over: Span, whole: Span, tolerance: Fraction) -> Span:
-        """Return, for each denominator product, the range of numerator products within a narrower tolerance."""
+        """Return the range of numerator products within a narrower tolerance for each denominator product."""
         value, (low, high) = self.question.value, self.question.edges
         if tolerance >= self.question.tolerance:
             return whole
@@ -255,7 +253,7 @@ class ValueFinder:
         minimum = _minimum_sums(over, under, size)
         misses, place = error_places(over, under, value)
         fresh: list[StageRank] = []
-        # nearest first, then by the least sum that is possible: from the first that is too late on, all are
+        # by error, then by the minimum possible sum: all after the first that is too late are too late
         for at in np.lexsort((minimum, place)).tolist():
             miss, total = misses[place[at]], float(minimum[at])
             if self._too_late(miss, total):
@@ -289,8 +287,7 @@ def distinct(values: Ints) -> Span:
 
 
 def weight(under: Span, over: Span, span: Span) -> int:
-    """Count the pairs of multisets: for each denominator product, the multisets of the numerator products in its range.
-    """
+    """Count the pairs of multisets: for each denominator product, the multisets of the numerator products in its range."""
     return int(((over[1][span[1]] - over[1][span[0]]) * (under[1][1:] - under[1][:-1])).sum())
 
 
@@ -303,11 +300,11 @@ def _minimum_sums(over: Ints, under: Ints, size: int) -> Floats:
     """Return a lower bound of the sum of all counts. By the AM-GM inequality equal counts have the minimum sum."""
     root = 1.0 / size
     sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
-    # less what roots are rounded by: a lower bound must not be too great
+    # reduced by the rounding error of the roots, because a lower bound must not be too large
     return np.asarray(sums * (1 - 1e-12))
 
 
-# Solutions judged one by one, many at once: conditions on the counts, and orders other than by error.
+# Individual tests of solutions, vectorised: constraints on the counts, and orders other than by error.
 
 
 CHUNK = 1 << 16
@@ -337,7 +334,7 @@ class RowFinder:
         used = span[1] > span[0]
         if not used.any():
             return
-        # products on top that some window holds: windows opened less windows closed so far
+        # numerator products within some window: number of windows opened minus number closed so far
         opened, closed = (np.bincount(ends, minlength=len(above[0]) + 1) for ends in span)
         needed = np.cumsum(opened - closed)[:-1] > 0
         under = self._useful(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
@@ -396,7 +393,7 @@ class StageFilter:
         """Process the pairs of numerator multisets j and denominator multisets i."""
         bound = self.best.bound
         if self.quick and bound:
-            # what is certainly not among the best needs no look at its counts
+            # solutions that are certainly not among the best need no test of their counts
             self.count += len(j)
             near = np.flatnonzero(self._first(over, under, j, i) <= bound[0])
             self._rank(over, under, j[near], i[near], None)
@@ -426,17 +423,16 @@ class StageFilter:
             self.best.add(rows)
 
     def _suits(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
-        """Return the indices of the pairs that satisfy the constraints, and their pairings; count the others by reason.
-        """
+        """Return the indices of the pairs that satisfy the constraints, and their pairings; count the others by reason."""
         fit, at = self.fit, np.arange(len(j))
         top, beneath = over.counts[j], under.counts[i]
         if fit.different:
-            # equal counts stand beside each other once they are sorted
+            # equal counts are neighbours after sorting
             both = np.sort(np.concatenate([top, beneath], axis=1), axis=1)
-            at = self._left(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "a count that is there twice")
+            at = self._left(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "repeated count")
         if fit.totals_matter:
             total, (minimum, most) = top[at].sum(axis=1) + beneath[at].sum(axis=1), fit.totals
-            at = self._left(at, (total >= minimum) & (total <= most), "a sum of counts out of bounds")
+            at = self._left(at, (total >= minimum) & (total <= most), "sum of counts out of bounds")
         by = self.question.by
         if not fit.pairs_matter and by not in ("hunting", "centres"):
             return at, None
@@ -458,7 +454,7 @@ def pairing_reason(question: StageProblem) -> str:
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
-        *(["one centre distance"] if fit.reverted else []),
-        *([f"a larger ring in {fit.internal} of the stages"] if fit.internal else []),
+        *(["equal centre distances"] if fit.reverted else []),
+        *([f"a ring larger than its pinion in {fit.internal} of the stages"] if fit.internal else []),
     ]
     return f"no pairing with {' and '.join(requested)}"

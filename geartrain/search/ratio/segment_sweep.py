@@ -32,16 +32,16 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]
 
 
-# Reverted trains: all stages have the same sum of counts, so each sum is a search of its own, and a small one. As
-# an exact join (equal sums as equations, stages in order as conditions) the same took 0.6 times as long for two
-# stages of 15 to 120 teeth, 1.3 times for 12 to 400, and 1.5 to 4.3 times for three and four stages: so it stays.
+# Reverted trains: all stages have the same sum of counts, so each sum is an independent small search. The same problem
+# as an exact join (equal sums as equations, order of the stages as conditions) took 0.6 times as long for two stages
+# of 15 to 120 teeth, but 1.3 times for 12 to 400 teeth, and 1.5 to 4.3 times for three and four stages.
 
 
-_SLACK = 1e-12  # relative: floats find candidates with it, integers decide
+_SLACK = 1e-12  # relative margin: floats select candidates with it, integers decide
 
-APART = "no pairing on one centre distance"
+APART = "no pairing with equal centre distances"
 SHARED = "no such pairing with coprime counts in every stage"
-TOTAL = "a sum of counts out of bounds"
+TOTAL = "sum of counts out of bounds"
 
 
 def sums_of(question: StageProblem) -> range:
@@ -91,7 +91,7 @@ def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageFilter) -> None:
-    """Pass all multisets of these stages with a ratio within the tolerance to the filter."""
+    """Send all multisets of these stages with a ratio within the tolerance to the filter."""
     size = question.stages
     counts = np.array(stages, dtype=np.int64 if question.plain_integers else object)
     lower, upper = _halves(len(stages), size // 2), _halves(len(stages), size - size // 2)
@@ -99,19 +99,19 @@ def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageF
     low_ratios, high_ratios = ratios[lower].prod(axis=1), ratios[upper].prod(axis=1)
     order = np.argsort(high_ratios, kind="stable")
     upper, high_ratios = upper[order], high_ratios[order]
-    # floats find candidates, a little too many; `_judge` decides in integers
+    # floats select slightly too many candidates; `_judge` decides in integers
     low, high = question.edges
     first = np.searchsorted(high_ratios, float(low) * (1 - _SLACK) / low_ratios)
     last = np.searchsorted(high_ratios, float(high) * (1 + _SLACK) / low_ratios, side="right")
     for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
-        # halves that ascend across the cut: each unordered set is met in one way only
+        # only halves in ascending order, so that each multiset occurs once
         once = np.flatnonzero(lower[i, -1] <= upper[j, 0]) if size > 1 else np.arange(len(i))
         chosen = np.concatenate([lower[i[once]], upper[j[once]]], axis=1)
         _judge(question, counts, chosen, judge)
 
 
 def _judge(question: StageProblem, counts: Ints, chosen: Ints, judge: StageFilter) -> None:
-    """Select the candidates within the tolerance by exact arithmetic and pass them to the filter."""
+    """Select the candidates within the tolerance by exact arithmetic and send them to the filter."""
     tops, beneaths = np.sort(counts[chosen, 0], axis=1), np.sort(counts[chosen, 1], axis=1)
     over, under = row_products(tops), row_products(beneaths)
     inside = np.flatnonzero(_are_within(over, under, question))
@@ -140,13 +140,13 @@ def _halves(number: int, size: int) -> Ints:
 
 
 Bound = tuple[int, Fraction, int]
-_WIDER = 16  # times, from one tolerance to the next: all before the last cost little beside it
+_WIDER = 16  # factor between tolerances; all passes before the last then cost little
 _ENOUGH = 2 * 10**9
 """Number of individually inspected pairs of multisets after which a search without a tolerance is not widened further.
 """
 _MOST = 1e11
 """Maximum number of pairs of multisets that may be inspected individually."""
-_PILOT = Fraction(1, 100)  # |error| past which a first piece is not widened
+_PILOT = Fraction(1, 100)  # absolute error beyond which the first segment is not widened
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,10 +187,10 @@ def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     if bound:
         start = rounded_up(bound[1])
     while True:
-        # the nearest ratio of all may be far away: the tolerance begins there
+        # the nearest possible ratio may be far away; the tolerance starts there
         tolerance = min(minimum + start, most)
         found = search.sweep(tolerance, bound, means)
-        means = replace(means, journal=None)  # its pieces are those of the first tolerance
+        means = replace(means, journal=None)  # the journal belongs to the first tolerance only
         if found.count >= question.best or tolerance >= most or not found.complete:
             return found
         if _WIDER * found.inside > _ENOUGH and not question.loose:
@@ -200,8 +200,8 @@ def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
 
 def _given_up(found: SweepOutcome) -> str:
     return (
-        f"only {found.count} solutions are within {float(found.tolerance):.3g}, where {found.inside} pairs of "
-        "sets were looked at; give a tolerance to search farther"
+        f"only {found.count} solutions are within {float(found.tolerance):.3g}, among {found.inside} candidates; "
+        "give a tolerance to search further"
     )
 
 
@@ -223,9 +223,9 @@ class _ByProducts:
         if pairs > _MOST and not listed_by_value(self.question):
             raise RangeError(
                 Problem(
-                    f"about {pairs:.1g} pairs of sets are within the tolerance",
-                    "these conditions, this order or so long a list need a look at each of them",
-                    f"narrow the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
+                    f"about {pairs:.1g} candidates are within the tolerance",
+                    f"these constraints, this order or the length of the list require a test of each; at most {_MOST:.0g} are tested",
+                    f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
                 )
             )
 
@@ -243,7 +243,7 @@ class _ByProducts:
         return bound
 
     def widened_pilot(self) -> Bound | None:
-        """Return a bound of the best solutions if there is no tolerance yet; it is increased until there are enough
+        """Return a bound of the best solutions before a tolerance is known; it is increased until there are enough
         solutions.
         """
         found = []
@@ -302,7 +302,7 @@ class _BySums:
         """Search all sums within a tolerance."""
         del bound
         question = replace(self.question, tolerance=tolerance)
-        # four stages and more take long: in pieces of eight sums; fewer in one piece
+        # four and more stages are slow, so eight sums are one task; fewer stages are one task in all
         sums, step = sums_of(question), 8 if question.stages > 3 else 1 << 40
         plain = question.plain()
         tasks = [

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 Set = tuple[int, ...]
 Pairs = tuple[tuple[int, int], ...]
-_CHUNK = 1 << 18  # numbers handled at once
-_TABLE = 1024  # up to here, a table tells which counts are coprime
+_CHUNK = 1 << 18  # numbers in one vectorised step
+_TABLE = 1024  # maximum count of the lookup table of coprime pairs
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,14 +106,14 @@ class StageConstraints(Result):
             raise QuestionError(
                 Problem(
                     f"internal is {self.internal}",
-                    f"of {stages} meshes, 0 to {stages} can be with a ring",
+                    f"with {stages} meshes, 0 to {stages} can be internal",
                     f"give internal from 0 to {stages}",
                 )
             )
         minimum, most = self.totals
         if minimum > most:
-            what = f"least_total is {minimum}, most_total is {most}"
-            raise QuestionError(Problem(what, "no sum is between them", "exchange them, or leave one out"))
+            what = f"minimum_total is {minimum}, most_total is {most}"
+            raise QuestionError(Problem(what, "the minimum exceeds the maximum", "exchange them, or omit one"))
 
 
 @dataclass(frozen=True)
@@ -195,7 +195,7 @@ class StageProblem:
     def loose(self) -> bool:
         """True if every pair of multisets within the tolerance is a solution."""
         low, high = self.edges
-        # one ring is always possible unless all counts are equal, and then the ratio is 1
+        # one internal mesh is always possible unless all counts are equal, and then the ratio is 1
         ring_alone = self.fit.internal == 1 and not low <= 1 <= high
         return self.fit.free or (ring_alone and replace(self.fit, internal=0).free)
 
@@ -227,7 +227,7 @@ def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
     )
 
 
-# --------------------------------------------- pairings: the stages that a set of counts over another can be paired to
+# ------------------------------------------------------------ pairings of the counts of two multisets to stages
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,7 +255,7 @@ def suited(
     """
     size = tops.shape[1]
     step = max(_CHUNK // (len(_arrangements(size, fit.internal)[0]) * size), 1)
-    # one chunk at least, so that an empty answer has its columns too
+    # at least one chunk, so that an empty result has its columns too
     parts = [
         _judged(tops[at : at + step], beneaths[at : at + step], fit, coprime, centres)
         for at in range(0, max(len(tops), 1), step)
@@ -272,7 +272,7 @@ def _judged(
     possible = np.ones((len(tops), len(orders)), dtype=bool)
     alone = kinds = np.zeros(possible.shape, dtype=np.int64)
     if fit.hunting or coprime:
-        # pairs as bits of one integer: an arrangement is tested by one `and`
+        # pairs as a bit mask: one `and` tests an arrangement
         alone = np.bitwise_count(_code(_coprime(tops, beneaths))[:, None] & meshes).astype(np.int64)
         if fit.hunting:
             possible &= alone == size
@@ -402,9 +402,7 @@ def check_order(by: str) -> None:
     """Raise `QuestionError` if the order is unknown."""
     if by not in get_args(StageOrder):
         known = ", ".join(get_args(StageOrder))
-        raise QuestionError(
-            Problem(f"'{by}' is no order of solutions", "solutions are ranked", f"write one of {known}")
-        )
+        raise QuestionError(Problem(f"'{by}' is not an order of solutions", "", f"use one of {known}"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -434,7 +432,7 @@ class RankedStages:
 
     @classmethod
     def joined(cls, parts: Sequence[RankedStages]) -> RankedStages:
-        """Concatenate the rows of all parts."""
+        """Join the rows of all parts."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
@@ -456,14 +454,14 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints, found: 
 
 def margin(error: float) -> float:
     """Return an upper bound of an exact error whose approximation is `error`."""
-    # far wider than the 1e-12 to which errors are known
+    # much larger than the relative error of 1e-12 of the approximations
     return error * (1 + 1e-9) + 2 * ROUNDING
 
 
 def cut(rows: RankedStages, best: int, value: Fraction) -> RankedStages:
     """Return the first `best` rows in their order, compared exactly."""
     if len(rows) > best:
-        # near errors choose generously, for only these few are compared as Fractions
+        # approximate errors select slightly too many, which are then compared as Fractions
         order = np.lexsort((rows.error, rows.first))
         last = order[best - 1]
         first, error = rows.first[last], margin(float(rows.error[last]))
@@ -500,7 +498,7 @@ class BestStages:
 
     @property
     def bound(self) -> tuple[int, float] | None:
-        """Primary criterion and error beyond which rows cannot be among the first n; None if there is no bound yet."""
+        """Primary criterion and error beyond which rows cannot be among the first n; None if unknown."""
         return self._bound
 
     def add(self, rows: RankedStages) -> None:

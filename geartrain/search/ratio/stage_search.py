@@ -30,11 +30,11 @@ from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import CountRuns, Counts
 
 OUTSIDE = "outside the tolerance"
-SENSE = "the other sense of rotation"
+SENSE = "opposite sense of rotation"
 DEFAULT_TOLERANCE = Fraction(1, 10**6)
-_FAR = 10**12  # times beyond all ratios of the counts
-_LONG = 100_000  # counts of a wheel beyond which single pairs come from the tree of fractions, not from tables
-_QUICK = 3 * 10**6  # products made to find out what one more stage would give
+_FAR = 10**12  # factor beyond the ratios of all counts
+_LONG = 100_000  # number of counts of a wheel beyond which single pairs are found without tables
+_QUICK = 3 * 10**6  # maximum number of products for the suggestion of one more stage
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ class StageFindings(Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """"whole" if the search was completed, "interrupted" if not."""
+        """ "whole" if the search was completed, "interrupted" if not."""
         return "whole" if self.complete else "interrupted"
 
     @property
@@ -236,11 +236,13 @@ def _question(
     """Return the problem as plain data, the number of pairs of multisets, and a note on assumptions."""
     check_order(by)
     if not 1 <= stages <= MOST_STAGES:
-        raise _refused(f"{stages} stages are asked for", f"1 to {MOST_STAGES} can be searched", "take fewer stages")
+        raise _refused(f"stages is {stages}", f"it must be from 1 to {MOST_STAGES}", f"give 1 to {MOST_STAGES}")
     if best < 1:
-        raise _refused(f"the best {best} are asked for", "that is no list", "ask for 1 or more")
+        raise _refused(f"best is {best}", "a list has at least one solution", "give 1 or more")
     if tolerance is not None and tolerance < 0:
-        raise _refused(f"the tolerance is {tolerance}", "no error is less than 0", "give 0 or more, such as 1e-6")
+        raise _refused(
+            f"the tolerance is {tolerance}", "a tolerance must not be negative", "give 0 or more, such as 1e-6"
+        )
     fit.check(stages)
     given = [tuple(CountRuns.of(each).as_array().tolist()) for each in counts]
     top, beneath = given if wanted.value >= 1 else given[::-1]
@@ -249,7 +251,7 @@ def _question(
         top, beneath = (tuple(count for count in each if count <= fit.largest) for each in (top, beneath))
     note = ""
     if tolerance is None and by != "error":
-        note = f"no tolerance was given, and the order by {by} needs one: it is 1e-6"
+        note = f"the order by {by} needs a tolerance, and 1e-6 was used"
     used = DEFAULT_TOLERANCE if tolerance is None else Fraction(tolerance)
     return StageProblem(wanted.value, stages, top, beneath, fit, by, best, used), considered, note
 
@@ -278,7 +280,7 @@ def _stages(key: StageRank, question: StageProblem) -> GearStages:
     top, beneath = key[4:]
     ratio = Fraction(prod(top), prod(beneath))
     pairs = best_pairing(top, beneath, question.fit, centres=question.by == "centres")
-    assert pairs is not None  # the search lists only what can be paired
+    assert pairs is not None  # the search lists only solutions with a feasible pairing
     return GearStages(top, beneath, ratio, ratio / question.value - 1, pairs)
 
 
@@ -290,15 +292,15 @@ def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
     return Shortfall(
         considered,
         {SENSE: considered},
-        f"{plural(stages, 'stage')}, {internal} with a ring: the output has {has} the input, whatever the counts",
+        f"with {plural(stages, 'stage')}, {internal} of them internal, the output has {has} the input for all counts",
         f"add an idler, or a stage (stages={stages + 1}), or make a mesh internal (internal={rings})",
     )
 
 
 def _too_large(question: StageProblem, considered: int) -> Shortfall:
     largest = question.fit.largest
-    reason = f"a count above {largest}"
-    return Shortfall(considered, {reason: considered}, "no count is left", f"let largest be more than {largest}")
+    reason = f"count above {largest}"
+    return Shortfall(considered, {reason: considered}, f"all counts exceed {largest}", f"give largest above {largest}")
 
 
 def _check_reach(question: StageProblem) -> None:
@@ -307,12 +309,12 @@ def _check_reach(question: StageProblem) -> None:
         check_memory(counts, question.stages, question.plain_integers)
     low, high = question.reach
     if not low / _FAR < question.value < high * _FAR:
-        made = f"{question.stages} stages of these counts make {decimal(low, 3)} to {decimal(high, 3)}"
+        made = f"ratios of {question.stages} stages with these counts are from {decimal(low, 3)} to {decimal(high, 3)}"
         raise RangeError(
             Problem(
                 f"a ratio of {decimal(question.value, 3)} is far out of reach",
                 made,
-                "take more stages, or a wider range of counts",
+                "use more stages, or a wider range of counts",
             )
         )
 
@@ -321,7 +323,7 @@ def _refused(what: str, why: str, fix: str) -> QuestionError:
     return QuestionError(Problem(what, why, fix))
 
 
-# --------------------------------------------- why there are no stages, or so few: what was nearest, and what to relax
+# ------------------------------------- explanation of short results: nearest miss and constraints to relax
 
 
 def tolerance_text(tolerance: Fraction) -> str:
@@ -331,7 +333,7 @@ def tolerance_text(tolerance: Fraction) -> str:
 
 def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
     """Return reason -> number of rejected pairs of multisets. Their sum and the solutions equal `considered`."""
-    removed = {f"a count above {question.fit.largest}": considered - question.considered}
+    removed = {f"count above {question.fit.largest}": considered - question.considered}
     known = dict(outcome.removed)
     if question.fit.reverted and not question.fit.internal:
         removed.update(tally(question))
@@ -344,7 +346,7 @@ def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> M
 def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
     """Return the rejected pairs by reason; for an empty result also the nearest miss and the constraints to relax."""
     if not outcome.complete:
-        return Shortfall(considered, {}, advice="the search was cut short; take it up again, or narrow the counts")
+        return Shortfall(considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts")
     removed = account(question, considered, outcome)
     if outcome.count:
         return Shortfall(considered, removed)
@@ -353,7 +355,7 @@ def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sens
         miss = nearest(one, means)
         plain = miss if question.fit.free else nearest(replace(one, fit=StageConstraints()), means)
         advice = "; ".join(_advice(question, miss, removed, sense))
-    except KeyboardInterrupt:  # the answer stands, only its explanation is cut short
+    except KeyboardInterrupt:  # the result is complete, only its explanation is interrupted
         return Shortfall(considered, removed)
     return Shortfall(considered, removed, _nearest(question, miss, plain), advice)
 
@@ -364,9 +366,9 @@ def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) ->
     if miss.keys and miss.complete:
         parts.append(in_words(miss.keys[0], question.value))
     elif miss.complete and not miss.note:
-        parts.append("no counts satisfy the conditions, whatever the tolerance")
+        parts.append("no counts satisfy the constraints at any tolerance")
     if plain.keys and plain.complete and plain.keys[:1] != miss.keys[:1]:
-        parts.append(f"without conditions {in_words(plain.keys[0], question.value)}")
+        parts.append(f"without constraints {in_words(plain.keys[0], question.value)}")
     return "; ".join(parts)
 
 
@@ -383,8 +385,8 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
     if miss.keys and miss.complete:
         yield f"a tolerance of {tolerance_text(miss.keys[0][1])} gives a solution"
     for reason, number in removed.items():
-        if reason not in (OUTSIDE, f"a count above {question.fit.largest}") and not question.fit.reverted:
-            yield f"'{reason}' removed {number} within the tolerance: give it up"
+        if reason not in (OUTSIDE, f"count above {question.fit.largest}") and not question.fit.reverted:
+            yield f"relax the constraint that rejected {number} candidates within the tolerance ({reason})"
     if question.stages < MOST_STAGES:
         yield from _one_more(question, sense)
 
@@ -393,7 +395,7 @@ def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
     """Yield the result of one more stage if it can be computed quickly."""
     size = question.stages + 1
     fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit
-    ring = ", its mesh with a ring so that the sense stays," if sense else ""
+    ring = " with an internal mesh, which keeps the sense," if sense else ""
     more = replace(question, stages=size, best=1, by="error", fit=fit)
     if max(multisets(len(counts), size) for counts in (question.top, question.beneath)) > _QUICK or not fit.free:
         yield f"try {size} stages"

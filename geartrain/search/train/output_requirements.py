@@ -46,8 +46,7 @@ class SpeedRequirement:
 
     @classmethod
     def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """Build the requirement of a target, with a relative tolerance `share` or, if None, with the error minimised.
-        """
+        """Build the requirement of a target, with a relative tolerance `share` or, if None, with the error minimised."""
         said = "" if share is None else f" within {decimal(share, 3)}"
         demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
         if share is None:
@@ -134,8 +133,7 @@ class OutputRequirement:
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
-        """Return the constraint on the function, graded requirements within `share`; None if all speeds are admissible.
-        """
+        """Return the constraint on the function, graded requirements within `share`; None if all speeds are admissible."""
         common: tuple[Interval, ...] = ((None, None),)
         for demand in self.demands:
             near = demand.within(share)
@@ -157,8 +155,8 @@ def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[Interv
     """
     for condition in formulas.conditions:
         if not condition.wheels:
-            what = f"'{train.name}' does not turn, whatever counts are chosen"
-            raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
+            what = f"'{train.name}' cannot turn with any tooth counts"
+            raise QuestionError(Problem(what, condition.label, "`geartrain solve FILE` shows what locks it"))
         yield IntervalConstraint(condition.label, condition, ((Fraction(0), Fraction(0)),))
     for exclusion in formulas.exclusions:
         yield IntervalConstraint(exclusion.label, exclusion, _ANYTHING_ELSE, strict=True)
@@ -231,7 +229,7 @@ def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interva
     yield from ((None, ray) if ray < 0 else (ray, None) for ray in sorted(rays))
 
 
-# The free wheels of a train and their requirements, in parts that share neither output nor constraint.
+# The free wheels of a train and their requirements, in connected components.
 
 
 _MOST_COUNTS = 10**6
@@ -279,7 +277,7 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         unknown = [name for name in free if name not in train.wheels]
         if unknown:
             fix = suggest(unknown[0], train.wheels)
-            raise QuestionError(Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "it is not declared", fix))
+            raise QuestionError(Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "", fix))
     found = {}
     for wheel, (link, declared) in train.wheels.items():
         teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
@@ -288,16 +286,16 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         if counts:
             found[wheel] = counts
         elif chosen and not isinstance(free, str):
-            why = f"its count is {teeth.value}, with no search, range or choices"
+            why = f"its count is {teeth.value}, without search, range or choices"
             fix = "declare it as {search: [15, 80]}"
             raise QuestionError(
                 Problem(f"wheel '{wheel}' is not free", why, fix, train.place("links", link, "wheels", wheel))
             )
     if not found:
-        fix = "write `teeth: {search: [15, 80]}` at the wheels to be found"
+        fix = "declare `teeth: {search: [15, 80]}` for the wheels to search"
         if free == "search" and any(train.uncertain_wheels()):
-            fix += ", or ask for the uncertain ones"
-        raise QuestionError(Problem(f"'{train.name}' has no wheel to be found", "none has `search`", fix))
+            fix += ", or use --free uncertain"
+        raise QuestionError(Problem(f"'{train.name}' has no free wheel", "no wheel declares `search`", fix))
     return found
 
 
@@ -307,7 +305,7 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
     if not counts and teeth.range is not None:
         counts = range(teeth.range[0], teeth.range[1] + 1)
     if len(counts) > _MOST_COUNTS:
-        why = f"{counts[0]} to {counts[-1]} are more than {_MOST_COUNTS} counts"
+        why = f"{counts[0]} to {counts[-1]} has more than {_MOST_COUNTS} counts"
         place = train.place("links", link, "wheels", wheel)
         raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow it", place))
     return counts
@@ -342,13 +340,12 @@ def _idle(asking: OutputRequirement) -> Iterator[str]:
     if speed is not None:
         reached = asking.reached(speed)
         if not reached.met:
-            said = f"its speed is {speed}, {decimal(reached.error, 3)} off ({reached.label})"
-            yield f"no free wheel moves '{asking.name}', which is not as asked: {said}"
+            said = f"its speed is {speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
+            yield f"no free wheel influences '{asking.name}', which violates its requirement: {said}"
 
 
 def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
-    """Yield the connected components of the free wheels, in the order of declaration; idle wheels are separate parts.
-    """
+    """Yield the connected components of the free wheels, in the order of declaration; idle wheels are separate parts."""
     scopes = chain(
         (asking.function.wheels for asking in demands.askings),
         (condition.function.wheels for condition in demands.conditions),

@@ -56,11 +56,11 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
     wanted = question.steps * _SAMPLED / limit if sampled else question.steps / _SMALL
     chain = _chain(question, min(wanted, _MOST_TASKS))
     number = prod(of for _, of in chain)
-    # twice its share, for tasks are uneven
+    # twice the share of a task, because tasks are uneven
     budget = 2 * limit / _SAMPLED if sampled else limit
     chosen: Sequence[int] = range(number)
     if sampled and number > _SAMPLED:
-        # always the same sample, so that a question has one answer
+        # fixed seed, so that results are deterministic
         chosen = sorted(random.Random(0).sample(range(number), _SAMPLED))
     tasks = [{"parts": _digits(at, chain), "budget": budget, "pieces": 16} for at in chosen]
     return tasks, len(tasks) / number if sampled else 1.0
@@ -300,8 +300,7 @@ class PassResult:
 
     @property
     def removed(self) -> dict[str, int]:
-        """Reason -> number of assignments it rejected, in the order of evaluation; constraints of one name are summed.
-        """
+        """Reason -> number of assignments it rejected, in the order of evaluation; constraints of one name are summed."""
         found: dict[str, int] = {}
         for at in self.order:
             reason = self.reasons[at]
@@ -396,7 +395,7 @@ def narrow(domains: Domains, rule: CountConstraint) -> Domains:
     return {**domains, wheel: tuple(count for count, good in zip(counts, met.tolist(), strict=True) if good)}
 
 
-# --------------------------------------------------- the best of very many assignments: bounds in floats, exact errors
+# --------------------------------------------------- the best of many assignments: bounds in floats, exact errors
 
 
 @dataclass(frozen=True, slots=True)
@@ -468,7 +467,7 @@ class AssignmentOrder:
 def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
     """Return lower and upper bounds of the maximum absolute error of one output."""
     function = asking.function
-    # a count is rounded once at most, where it is beyond 2^53
+    # a count is rounded at most once, if it exceeds 2^53
     quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
     speed, off = quotient.bounded(products_of([columns[wheel].astype(np.float64) for wheel in function.wheels]))
     size = len(next(iter(columns.values())))
@@ -555,7 +554,7 @@ class BestAssignments:
             return
         first = self.order.first(self._columns())
         minimum, maximum = self.order.errors(self._columns())
-        # the n-th least upper bound: what lies surely above it is none of the best n
+        # n-th smallest upper bound: larger lower bounds exclude an assignment from the best n
         last = np.lexsort((maximum, first))[best - 1]
         kept: Bools = (first < first[last]) | ((first == first[last]) & (minimum <= maximum[last]))
         self._table = self._table[:, kept]

@@ -193,7 +193,7 @@ class TrainFindings(Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """"interrupted" if the search was interrupted, otherwise "whole", even if only a sample was searched."""
+        """ "interrupted" if the search was interrupted, otherwise "whole", even if only a sample was searched."""
         return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
@@ -227,8 +227,8 @@ class TrainFindings(Result):
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
         if not whole or self._stand is None:
-            why = f"its parts are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
-            raise QuestionError(Problem("the assignment names no part as a whole", why, "give the missing counts"))
+            why = f"the parts of the train are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
+            raise QuestionError(Problem("the assignment includes no complete part", why, "give the missing counts"))
         return tuple(self._stand(at, teeth) for at in whole)
 
     def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:
@@ -254,7 +254,7 @@ class TrainFindings(Result):
         for wheel in teeth:
             if wheel not in self.links:
                 fix = f"the free wheels are {', '.join(self.links)}"
-                raise QuestionError(Problem(f"wheel '{wheel}' is not free", "the search did not look for it", fix))
+                raise QuestionError(Problem(f"wheel '{wheel}' is not free", "the search did not vary it", fix))
 
 
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:

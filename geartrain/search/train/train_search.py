@@ -1,5 +1,4 @@
-"""Search for tooth counts in a train: all assignments of its free wheels for which all outputs meet their requirements.
-"""
+"""Search for tooth counts in a train: all assignments of its free wheels for which all outputs meet their requirements."""
 
 from __future__ import annotations
 
@@ -30,15 +29,15 @@ from geartrain.search.train.search_passes import NOT_BEGUN, AssignmentOrder, Par
 from geartrain.search.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
 from geartrain.train import Train
 
-# How far to look: a tolerance that holds the best assignments asked for, and not too many to list.
+# Choice of a tolerance that includes the requested number of assignments, and not too many to list.
 
 
 _LISTED = 100_000
 """Maximum number of assignments that are enumerated to find the best by error; if there are more, the tolerance is
 reduced.
 """
-_TRIES = 40  # passes with one tolerance after the other
-_MINIMUM = Fraction(1, 10**40)  # tolerances past these hold nothing, or all there is
+_TRIES = 40  # passes with different tolerances
+_MINIMUM = Fraction(1, 10**40)  # smaller tolerances include nothing, tolerances above `_WIDEST` include everything
 _WIDEST = Fraction(10**6)
 
 
@@ -87,7 +86,7 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
             short = share
             guess = share * _growth(search, passed.tally.count, some)
         if short and long is not None:
-            # between too few and too many, halved in logarithms
+            # bisection of the logarithm, between too few and too many
             guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
     if long is None:
         return search.run(None, search.limit / 8)
@@ -107,16 +106,16 @@ def _powers(search: PartSearch) -> int:
 def _first(search: PartSearch) -> Fraction:
     """Estimate the tolerance that includes about the requested number of assignments."""
     trial = Fraction(1, 1000)
-    # hits grow as the tolerance to the power of the outputs that have an error
+    # the number of hits is proportional to the tolerance to the power of the number of outputs with errors
     hits = size_of(search.domains) * prod(search.chances(search.requested(trial)).values())
-    # 1e-300: a forecast may be so small that it is 0 in float64
+    # 1e-300: a forecast may underflow to 0 in float64
     guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_powers(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))
 
 
 def _growth(search: PartSearch, count: int, some: int) -> Fraction:
     """Return the factor by which to increase the tolerance if only `count` assignments were found."""
-    # nothing found: as wide a step as is taken
+    # nothing found: the maximum step
     missing = some / count if count else 1e9
     return Fraction(min(10.0, max(1.5, missing ** (1 / max(_powers(search), 1)))))
 
@@ -149,17 +148,15 @@ def relaxed_search(search: PartSearch) -> PartSearch:
     return PartSearch(part, order, search.runner, search.limit)
 
 
-# Why a search found little: where the assignments went, what comes nearest, and what to relax.
+# Explanation of short results: rejected assignments, nearest miss, constraints to relax.
 
 
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
-    """Return the rejected assignments of a pass by reason; if there is no solution, also the nearest miss and
-    suggestions.
-    """
+    """Return the rejected assignments of a pass by reason; without a solution also the nearest miss and suggestions."""
     found = tallied(search, passed)
     if passed.tally.count or not passed.complete:
         return found
-    # an explanation must not cost more than the answer
+    # the explanation must not cost more than the search
     nearest, advice = _explained(PartSearch(search.part, search.order, search.runner, search.limit / 4))
     return found if search.runner.stopped else replace(found, nearest=nearest, advice=advice)
 
@@ -177,14 +174,14 @@ def _explained(search: PartSearch) -> tuple[str, str]:
     wrong = [asking for asking in search.part.askings if _turns_wrong(asking)]
     if wrong:
         names = ", ".join(f"'{asking.name}'" for asking in wrong)
-        return f"{names} turn in the other sense, whatever the counts", "change the sign asked for, or add an idler"
+        return f"{names} turn in the opposite sense for all counts", "change the required sign, or add an idler"
     best = _nearest(search)
     others = "; ".join(_without(search))
     if best is None:
-        return "", others or "nothing asked is to blame alone: widen the ranges of the wheels"
+        return "", others or "no single requirement is the cause: widen the ranges of the wheels"
     alone = "; ".join(_alone(search)) if len(search.part.askings) > 1 else ""
-    nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (alone, {alone})" if alone else "")
-    advice = f"with a relative tolerance of {_up(best.error)} this one is in"
+    nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (individually, {alone})" if alone else "")
+    advice = f"a relative tolerance of {_up(best.error)} includes it"
     return nearest, advice + (f"; {others}" if others else "")
 
 
@@ -201,7 +198,7 @@ def _turns_wrong(asking: OutputRequirement) -> bool:
 def _against(interval: Interval, sense: int) -> bool:
     """Return whether an interval has only speeds of the opposite sense."""
     low, high = interval
-    # an interval whose end is 0 is met by a standstill, so it is not of the other sense alone
+    # an interval that ends at 0 includes rest, so it is not only of the opposite sense
     near, far = (high, low) if sense > 0 else (low, high)
     return near is not None and near * sense <= 0 and far != 0
 
@@ -229,7 +226,7 @@ def _alone(search: PartSearch) -> Iterator[str]:
         order = replace(search.order, askings=(asking,))
         best = _nearest(PartSearch(part, order, search.runner, search.limit))
         if best is not None:
-            yield f"{asking.name} comes to {decimal(best.error, 3)}"
+            yield f"{asking.name} has an error of {decimal(best.error, 3)}"
 
 
 def _without(search: PartSearch) -> Iterator[str]:
@@ -240,17 +237,17 @@ def _without(search: PartSearch) -> Iterator[str]:
     for name in names:
         passed = search.without(rule=name).run(None, 0)
         if passed.tally.count:
-            yield f'without the rule "{name}" there {_are(passed)}'
+            yield f'without the constraint "{name}" there {_are(passed)}'
     for asking in search.part.askings:
         passed = search.without(asking=asking).run(None, 0)
         if passed.tally.count:
-            yield f"without what is asked of '{asking.name}' there {_are(passed)}"
+            yield f"without the requirement on '{asking.name}' there {_are(passed)}"
 
 
 def _are(passed: PassResult) -> str:
     count = passed.tally.count
     minimum = "" if passed.complete else "at least "
-    return f"is {minimum}1" if count == 1 else f"are {minimum}{count}"
+    return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
 
 
 def _teeth(assignment: Assignment) -> str:
@@ -411,14 +408,16 @@ def search_train(
     {'JO1': 31, 'JO2': 55, 'JX': 31}
     """
     if by not in ORDERS:
-        raise QuestionError(Problem(f"there is no order '{by}'", "solutions have others", suggest(by, ORDERS)))
+        raise QuestionError(Problem(f"unknown order '{by}'", "", suggest(by, ORDERS)))
     domains = find_domains(train, free)
     demands = find_requirements(train, state, domains, tolerance)
     if rules is None or isinstance(rules, ConstraintOptions):
         rules = find_constraints(train, domains, rules or ConstraintOptions())
     if not demands.askings and not rules:
-        fix = "declare `targets`, or an `expect`, at an output that the wheels move"
-        raise QuestionError(Problem("nothing is asked of the free wheels", "no output depends on them", fix))
+        fix = "declare `targets`, or an `expect`, at an output that the wheels influence"
+        raise QuestionError(
+            Problem("nothing is required of the free wheels", "no output with a requirement depends on them", fix)
+        )
     declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
     runner = PassRunner(executor, journal, tell)
     searches = [
@@ -466,15 +465,15 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
     """Describe why a part is not complete or not ranked; empty if it is."""
     if passed.tally.stopped:
-        return "interrupted: the count is of what had been searched"
+        return "interrupted: the count covers only the finished part"
     if passed.searched < 1:
         share = decimal(Fraction(passed.searched), 2)
-        return f"about {passed.steps:.1e} steps and a limit of {search.limit:.1e}: a random part, {share}, was searched"
+        return f"about {passed.steps:.1e} steps, above the limit of {search.limit:.1e}: a random share of {share} was searched"
     if passed.tally.cut:
         return f"the limit of {search.limit:.1e} steps was reached"
     if not ranked and search.runner.stopped:
-        return "interrupted: all are counted, the best are not listed"
-    return "" if ranked else f"too many to bring them all out within {search.limit:.1e} steps"
+        return "interrupted: all solutions are counted, the best are not listed"
+    return "" if ranked else f"too many solutions to list them all within {search.limit:.1e} steps"
 
 
 @dataclass(frozen=True, slots=True)
@@ -499,7 +498,9 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
 
     columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}
     found = [
-        f"'{wheel}' is not to have {count} teeth" for wheel, count in teeth.items() if count not in part.domains[wheel]
+        f"{count} teeth are not admissible for '{wheel}'"
+        for wheel, count in teeth.items()
+        if count not in part.domains[wheel]
     ]
     found += [rule.name for rule in part.rules if not rule.holds(columns).all()]
     for requested in part.conditions:
@@ -511,7 +512,7 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
     askings = {asking.name: asking for asking in part.askings}
     for name, reached in assignment.outputs.items():
         if not reached.met:
-            found.append(f"{askings[name].text}: {decimal(reached.error, 3)} off")
+            found.append(f"{askings[name].text}: error {decimal(reached.error, 3)}")
     return found
 
 

@@ -17,42 +17,48 @@ Flag = bool
 def run(
     file: File,
     free: Annotated[
-        str, typer.Option("--free", help="Which wheels: search, uncertain, or wheels by name with commas.")
+        str, typer.Option("--free", help="Wheels to vary: search, uncertain, or names separated by commas.")
     ] = "search",
     state: StateName = None,
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres, change.")
+        str, typer.Option("--by", help="Order of the solutions: error, total, largest, distinct, change.")
     ] = "error",
-    planets: Annotated[str | None, typer.Option("--planets", help="Equal planets: 3, or carrier=3,...")] = None,
+    planets: Annotated[
+        str | None, typer.Option("--planets", help="Number of equal planets: 3, or carrier=3,...")
+    ] = None,
     clearance: Annotated[
-        str | None, typer.Option("--clearance", help="Room between the tips of neighbouring planets, in modules.")
+        str | None,
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
     ] = None,
     undercut: Annotated[
-        str | None, typer.Option("--undercut", help="No wheel is undercut at this pressure angle.")
+        str | None, typer.Option("--undercut", help="Pressure angle at which no wheel may be undercut.")
     ] = None,
     interference: Annotated[
-        str | None, typer.Option("--interference", help="Tips keep to the involute of their mates at this angle.")
+        str | None, typer.Option("--interference", help="Pressure angle at which tips must not interfere.")
     ] = None,
     largest_radius: Annotated[
-        str | None, typer.Option("--largest-radius", help="Of a free wheel: a length, or modules.")
+        str | None, typer.Option("--largest-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
     ] = None,
-    addendum: Annotated[str | None, typer.Option("--addendum", help="Of wheels, in modules.")] = None,
-    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Of rings, in modules.")] = None,
-    minimum: Annotated[int | None, typer.Option("--least", help="Least teeth of a free wheel.")] = None,
-    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Most teeth of a free wheel.")] = None,
+    addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels [modules].")] = None,
+    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings [modules].")] = None,
+    minimum: Annotated[int | None, typer.Option("--least", help="Minimum tooth count of a free wheel.")] = None,
+    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Maximum tooth count of a free wheel.")] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Half modules by which centre distances may differ.")
+        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
     ] = 0,
     coaxial: Annotated[
-        bool | None, typer.Option("--coaxial/--no-coaxial", help="Wheels between the same axes fit in one module.")
+        bool | None,
+        typer.Option("--coaxial/--no-coaxial", help="Require equal centre distances between the same axes."),
     ] = None,
-    hunting: Annotated[Flag, typer.Option("--hunting", help="Wheels that mesh have no common divisor.")] = False,
-    different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
-    closure: Annotated[Flag, typer.Option("--closure", help="Teeth of loops meet at the declared positions.")] = False,
+    hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
+    different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
+    closure: Annotated[
+        Flag, typer.Option("--closure", help="Require that teeth of loops mesh at the declared positions.")
+    ] = False,
     where: Annotated[
-        Names, typer.Option("--where", help="Where an assignment stands: wheel=32,wheel=50; may be repeated.")
+        Names, typer.Option("--where", help="Report the rank of an assignment: wheel=32,wheel=50; may be repeated.")
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,

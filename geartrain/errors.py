@@ -112,7 +112,7 @@ def first_problems(problems: Iterable[Problem], count: int | None = None) -> tup
     if count is None and isinstance(problems, list | tuple):
         count = len(problems)
     told = tuple(islice(problems, MOST_TOLD + 2))
-    if len(told) <= MOST_TOLD + 1:  # a single further problem is reported itself
+    if len(told) <= MOST_TOLD + 1:  # one further problem is reported itself
         return told
     more = "more problems were found" if count is None else f"{count - MOST_TOLD} more problems were found"
     rest = Problem(f"and {more}", f"only the first {MOST_TOLD} are reported", "correct these, and run again")
@@ -241,7 +241,7 @@ def check_choice(kind: str, name: str, known: Iterable[str]) -> None:
     """Raise `QuestionError` if a name is not one of the known names."""
     known = tuple(known)
     if name not in known:
-        raise QuestionError(Problem(f"unknown {kind} '{name}'", "", suggest(name, known)))
+        raise QuestionError(Problem(f"unknown {kind} '{name}'", "names must match exactly", suggest(name, known)))
 
 
 def check_numbers(**given: object) -> None:

@@ -92,7 +92,7 @@ def test_losses_are_told_where_they_are_known(show: Opening) -> None:
     tab(shown, "Wheels")
     wheel = next(wheel for wheel in shipped.built("norton-compound").wheels if wheel.loss)
     shown.page.locator(f"[data-wheel='{wheel.id}']").click()
-    assert f"{100 * float(wheel.loss or 0):.3g} % of the power put in" in shown.page.locator(".detail").inner_text()
+    assert f"{100 * float(wheel.loss or 0):.3g} % of the input power" in shown.page.locator(".detail").inner_text()
     shown = show(SIMPLE)
     shown.page.get_by_label("Colours").select_option("loss")
     assert "declares no loads" in shown.page.locator(".legend").inner_text()

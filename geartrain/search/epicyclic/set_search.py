@@ -192,7 +192,7 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
         (ratio_is, "kind of ratio", get_args(RatioIs)),
     ):
         if word not in words:
-            raise QuestionError(Problem(f"'{word}' is not a valid {what}", "", f"use {' or '.join(words)}"))
+            raise QuestionError(Problem(f"'{word}' is not a valid {what}", "the value must match exactly", f"use {' or '.join(words)}"))
     if not isfinite(clearance):
         raise QuestionError(Problem(f"the clearance is {clearance}", "it must be finite", "give a number of modules"))
 

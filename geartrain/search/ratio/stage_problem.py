@@ -402,7 +402,7 @@ def check_order(by: str) -> None:
     """Raise `QuestionError` if the order is unknown."""
     if by not in get_args(StageOrder):
         known = ", ".join(get_args(StageOrder))
-        raise QuestionError(Problem(f"'{by}' is not an order of solutions", "", f"use one of {known}"))
+        raise QuestionError(Problem(f"'{by}' is not an order of solutions", "the order is one predefined criterion", f"use one of {known}"))
 
 
 @dataclass(frozen=True, slots=True)

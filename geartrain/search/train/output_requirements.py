@@ -277,7 +277,7 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         unknown = [name for name in free if name not in train.wheels]
         if unknown:
             fix = suggest(unknown[0], train.wheels)
-            raise QuestionError(Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "", fix))
+            raise QuestionError(Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "it is not declared", fix))
     found = {}
     for wheel, (link, declared) in train.wheels.items():
         teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)

@@ -408,7 +408,7 @@ def search_train(
     {'JO1': 31, 'JO2': 55, 'JX': 31}
     """
     if by not in ORDERS:
-        raise QuestionError(Problem(f"unknown order '{by}'", "", suggest(by, ORDERS)))
+        raise QuestionError(Problem(f"unknown order '{by}'", "the order is one predefined criterion", suggest(by, ORDERS)))
     domains = find_domains(train, free)
     demands = find_requirements(train, state, domains, tolerance)
     if rules is None or isinstance(rules, ConstraintOptions):

@@ -36,7 +36,7 @@ const app = {
     try {
       app.stages[index] = new Stage(document.createElement("canvas"), machines[index], options);
     } catch (error) {
-      console.warn(`no picture in three dimensions: ${error.message}`);
+      console.warn(`3D graphics are not available: ${error.message}`);
       app.stages[index] = new Plan(machines[index]);
     }
     return app.stages[index];
@@ -50,7 +50,7 @@ const app = {
 
 function named(list, key, name) {
   const index = list.findIndex((each) => each[key] === name);
-  if (index < 0) throw new RangeError(`there is no "${name}"`);
+  if (index < 0) throw new RangeError(`unknown name "${name}"`);
   return index;
 }
 

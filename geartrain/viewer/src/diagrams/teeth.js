@@ -22,7 +22,7 @@ export function teeth(host, { pairs }) {
   const sheet = new Sheet(host, {
     height: 470,
     label: "Triangular teeth of two wheels in contact",
-    hint: "Drag the driver, at the left, downwards; or use the arrow keys.",
+    hint: "Drag the driver (left) downwards, or use the arrow keys.",
   });
   const pane = sheet.pane([0, 0, WIDE, PANE]);
   const below = svg("g");
@@ -48,7 +48,7 @@ export function teeth(host, { pairs }) {
       ],
       [TELLS],
     );
-    sheet.say(TOUCHES[moment.at(-1)] ?? "No tooth touches: the driven wheel stands.");
+    sheet.say(TOUCHES[moment.at(-1)] ?? "No teeth are in contact: the driven wheel is at rest.");
   }
 
   sheet.choice("Teeth", Object.entries(pairs).map(([name, { title }]) => [name, title]), open);

@@ -31,7 +31,7 @@ export function copyable(text, say) {
     const done = await copy(text);
     if (focus instanceof HTMLElement) focus.focus({ preventScroll: true });
     button.classList.toggle("copied", done);
-    say(done ? `${text} copied` : "the browser does not let this page copy");
+    say(done ? `${text} copied` : "the browser does not permit copying");
     setTimeout(() => button.classList.remove("copied"), 1200);
   });
   return button;

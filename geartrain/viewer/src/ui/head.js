@@ -70,7 +70,7 @@ export class Head {
     const { sides } = this;
     const many = sides.length > 1;
     const titles = [...new Set(sides.map(({ scene }) => scene.title || scene.name))];
-    this.title.textContent = titles.join(" beside ");
+    this.title.textContent = titles.join(" and ");
     const names = [...new Set(sides.map(({ scene }) => scene.name))].join(", ");
     this.names.replaceChildren(names, ...sides.filter(({ steps }) => steps.length).slice(0, 1).map((side) => this.#told(side)));
     this.verdicts.replaceChildren(

@@ -18,7 +18,7 @@ export class Strip {
     this.node = el("canvas", {
       class: "strip",
       role: "img",
-      "aria-label": "contacts around this moment; the table under Contacts tells them in words",
+      "aria-label": "contacts near this moment; the table under Contacts lists them",
       style: `height: ${this.height}px`,
     });
     this.node.addEventListener("pointerdown", (event) => this.#grab(event));

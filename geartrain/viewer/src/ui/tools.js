@@ -43,7 +43,7 @@ export class Tools {
     this.row = el(
       "div",
       { class: "tools", role: "group", "aria-label": "picture" },
-      el("div", { class: "group", role: "group", "aria-label": "look from" }, this.looks),
+      el("div", { class: "group", role: "group", "aria-label": "view from" }, this.looks),
       field("Colours", this.colour),
       field("Apart", this.apart),
       field("Hide front", this.front, { class: "field tick" }),

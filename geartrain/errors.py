@@ -22,8 +22,8 @@ Marks = Callable[[Loc], str]
 
 
 _STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""Characters that could control a terminal: control characters except tab and line feed, other line ends, changes of the
-writing direction, lone surrogates.
+"""Characters that could control a terminal: control characters except tab and line feed, other line ends, changes of
+the writing direction, lone surrogates.
 """
 
 
@@ -47,7 +47,7 @@ def dotted(loc: Loc) -> str:
 def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[str]:
     """Return the known names that are most similar to an unknown one, the most similar first.
 
-    wide   True for long names with several parts, such as those of periods and files: one more name, with less similarity
+    wide   True for long names with several parts, such as those of periods and files: one more name, less similarity
     """
     from difflib import get_close_matches  # slow to import, and most runs have no unknown name
 
@@ -55,9 +55,7 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name: the most similar known names, else `otherwise`, else all if they are
-    few.
-    """
+    """Return a suggestion for an unknown name: similar known names, else `otherwise`, else all if few."""
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
         return f"did you mean {' or '.join(map(repr, close))}?"
@@ -100,23 +98,24 @@ class Problem:
         return printable("\n".join(lines))
 
 
-MOST_TOLD = 20
+MOST_REPORTED = 20
 """Maximum number of problems reported at once."""
 
 
 def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:
-    """Return the first `MOST_TOLD` problems, and one more that reports the number of the others (of `count`, if known).
+    """Return the first `MOST_REPORTED` problems, and one more that reports the number of the others (of `count`, if
+    known).
 
     An iterator is consumed only as far as is needed to know that there are more.
     """
     if count is None and isinstance(problems, list | tuple):
         count = len(problems)
-    told = tuple(islice(problems, MOST_TOLD + 2))
-    if len(told) <= MOST_TOLD + 1:  # one further problem is reported itself
-        return told
-    more = "more problems were found" if count is None else f"{count - MOST_TOLD} more problems were found"
-    rest = Problem(f"and {more}", f"only the first {MOST_TOLD} are reported", "correct these, and run again")
-    return (*told[:MOST_TOLD], rest)
+    first = tuple(islice(problems, MOST_REPORTED + 2))
+    if len(first) <= MOST_REPORTED + 1:  # one further problem is reported itself
+        return first
+    more = "more problems were found" if count is None else f"{count - MOST_REPORTED} more problems were found"
+    rest = Problem(f"and {more}", f"only the first {MOST_REPORTED} are reported", "correct these, and run again")
+    return (*first[:MOST_REPORTED], rest)
 
 
 class GearTrainError(Exception):
@@ -194,7 +193,8 @@ _MEGABYTES = {
 def install_command(extra: str) -> str:
     """Return the command that installs the packages of an extra, as listed by the metadata of geartrain.
 
-    The packages are named individually, because the name of an extra is only valid if geartrain is in the package index.
+    The packages are named individually, because the name of an extra is only valid if geartrain is in the package
+    index.
     """
     from importlib.metadata import PackageNotFoundError, requires
 

@@ -41,7 +41,7 @@ def wing(name: str) -> Any:
 
 @dataclass(frozen=True)
 class WingResult:
-    """Annotation of a field whose value is a result of a wing: `Annotated[Any, WingResult("simulation", "TimeRun")]`."""
+    """Annotation of a field that holds a result of a wing: `Annotated[Any, WingResult("simulation", "TimeRun")]`."""
 
     wing: str
     """Name of the wing."""

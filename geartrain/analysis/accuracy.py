@@ -242,7 +242,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for torques: the exact balance with losses, and the mean torque over a revolution by samples."""
+    """Yield the methods for torques: the exact balance with losses, and mean torque over a revolution by samples."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     seconds, found = _best_of(lambda: GearTrain(train.declaration).torques(state))

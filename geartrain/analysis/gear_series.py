@@ -221,7 +221,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
         choices = list(combinations(elements, size))
-        answers = _answered(train, choices)
+        answers = _solve_choices(train, choices)
         found = list(_gears(choices, answers, (source, link), names))
         if found:
             free = _with_verdict({"free"}, choices, answers)
@@ -230,7 +230,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     return _AllGears(len(elements), [])
 
 
-def _answered(train: GearTrain, choices: Sequence[_Choice]) -> list[Answer]:
+def _solve_choices(train: GearTrain, choices: Sequence[_Choice]) -> list[Answer]:
     """Solve the speeds of the train with each choice of closed elements."""
     first = next(iter(train.declaration.states.values()))
     states = {_JOINER.join(each) or "none": State(engaged=each, inputs=first.inputs) for each in choices}

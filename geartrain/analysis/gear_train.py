@@ -51,9 +51,9 @@ class GearTrain:
 
     Notes
     -----
-    Speeds follow from the Willis equation of each gear pair, docs/theory.md (4). Torques follow from the transpose of that
-    system, docs/torques.md (1) to (3). Motion with real teeth follows from their transmission functions, composed in the
-    solved order of the train, docs/motion.md (3).
+    Speeds follow from the Willis equation of each gear pair, docs/theory.md (4). Torques follow from the transpose of
+    that system, docs/torques.md (1) to (3). Motion with real teeth follows from their transmission functions, composed
+    in the solved order of the train, docs/motion.md (3).
 
     Examples
     --------
@@ -74,7 +74,8 @@ class GearTrain:
     """Validated declaration. `geartrain.load` and `declare` build it from files and plain data."""
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Solve the speeds in one state, by propagation along components and exact elimination, and evaluate the outputs.
+        """Solve the speeds in one state, by propagation along components and exact elimination, and evaluate the
+        outputs.
 
         Parameters
         ----------
@@ -83,15 +84,15 @@ class GearTrain:
         output : str, optional
             An output or a link; only the circuits that drive it are solved.
         method : {"auto", "exact", "sparse"}
-            "auto" is exact unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in float64 and
-            reports residuals, condition numbers and errors; "floats" is its older name. If a train mixes speeds in radians
-            and in turns, those in radians are rounded to floats with any method.
+            "auto" is exact unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in
+            float64 and reports residuals, condition numbers and errors; "floats" is its older name. If a train mixes
+            speeds in radians and in turns, those in radians are rounded to floats with any method.
 
         Returns
         -------
         Answer
-            Speeds by link, outputs compared with their expected and requested values, and the verdict. A locked or free train
-            is not an error.
+            Speeds by link, outputs compared with their expected and requested values, and the verdict. A locked or free
+            train is not an error.
 
         Raises
         ------
@@ -123,15 +124,17 @@ class GearTrain:
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
     ) -> Torques | TorqueCycle:
-        """Compute torques on links and pairs, and the power flow, under the loads of one state: mean values, or over a run.
+        """Compute torques on links and pairs, and the power flow, under the loads of one state: mean values, or over a
+        run.
 
         Parameters
         ----------
         state : str, optional
             A declared state; None only if the train has no states.
         turns : float, optional
-            Revolutions of the input, above 0. The torque is computed at every position of this run, with the instantaneous
-            ratio and friction of real teeth, pins and bearings. Without it, torques are exact at mean speeds.
+            Revolutions of the input, above 0. The torque is computed at every position of this run, with the
+            instantaneous ratio and friction of real teeth, pins and bearings. Without it, torques are exact at mean
+            speeds.
         samples : int
             Number of positions of such a run, at least 2; kinks and jumps are added.
         of : str, optional
@@ -165,7 +168,8 @@ class GearTrain:
         tolerance: float | None = None,
         fast: bool | None = None,
     ) -> Motion:
-        """Compute the motion of some outputs or links with real teeth and pins, by composition of transmission functions.
+        """Compute the motion of some outputs or links with real teeth and pins, by composition of transmission
+        functions.
 
         Parameters
         ----------
@@ -176,10 +180,12 @@ class GearTrain:
         without : sequence of str
             Pairs to ignore, so that real teeth do not contradict each other around a loop.
         tolerance : float, optional
-            Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than evaluation.
+            Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
+            evaluation.
         fast : bool, optional
-            True to use compiled kernels, equal to 1e-12 rad and about ten times as fast. By default they are used if numba is
-            installed and there are enough positions to justify loading it. Pairs that depend on each other never use them.
+            True to use compiled kernels, equal to 1e-12 rad and about ten times as fast. By default they are used if
+            numba is installed and there are enough positions to justify loading it. Pairs that depend on each other
+            never use them.
 
         Returns
         -------
@@ -302,8 +308,8 @@ class GearTrain:
     def meshes(self) -> tuple[GearMesh, ...]:
         """Gear pairs with real teeth, each with its transmission function; empty if no pair declares a tooth form.
 
-        The driving side of each pair is that of the first state in which it is determined. `mechanics.meshes_in` returns the
-        pairs of another state.
+        The driving side of each pair is that of the first state in which it is determined. `mechanics.meshes_in`
+        returns the pairs of another state.
         """
         return self.mechanics.meshes
 
@@ -431,7 +437,7 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """Parts of the train that cannot be built or are inadvisable, by the declaration only (docs/buildability.md)."""
+        """Parts of the train that cannot be built or are inadvisable, by its declaration (docs/buildability.md)."""
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
@@ -471,7 +477,8 @@ class GearTrain:
         wear: tuple[float, float] | None = None,
         over: float | None = None,
     ) -> Any:
-        """Compute contact pressures, root stresses, safety factors and wear under the loads of one state (docs/strength.md).
+        """Compute contact pressures, root stresses, safety factors and wear under the loads of one state
+        (docs/strength.md).
 
         Parameters
         ----------
@@ -480,12 +487,13 @@ class GearTrain:
         turns : float, optional
             Revolutions of the input over which wear accumulates, above 0.
         years : float, optional
-            The same duration in years of 365.25 days; the unit of speeds or a `rate` must determine the speed of the train.
+            The same duration in years of 365.25 days; the unit of speeds or a `rate` must determine the speed of the
+            train.
         wear : tuple of float, optional
             Minimum and maximum wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
         over : float, optional
-            Revolutions of the input from which the maximum torque of each pair is taken, with the instantaneous ratios and
-            friction of teeth and pins. By default stresses are computed from the mean torque.
+            Revolutions of the input from which the maximum torque of each pair is taken, with the instantaneous ratios
+            and friction of teeth and pins. By default stresses are computed from the mean torque.
 
         Returns
         -------
@@ -518,15 +526,15 @@ class GearTrain:
     ) -> Any:
         """Simulate the motion in time with inertia, backlash, impacts, drag and friction (docs/dynamics.md).
 
-        Rigid teeth are simulated by nonsmooth time stepping. Compliant teeth have stiffness and damping; their results are
-        peak torques and dynamic factors instead of impulses. Two runs are made, with steps h and h/2. Figures that differ
-        between the runs are marked, and all results are those of the second run.
+        Rigid teeth are simulated by nonsmooth time stepping. Compliant teeth have stiffness and damping; their results
+        are peak torques and dynamic factors instead of impulses. Two runs are made, with steps h and h/2. Figures that
+        differ between the runs are marked, and all results are those of the second run.
 
         Parameters
         ----------
         rate : str or float, optional
-            Speed of the first input that turns, in its declared sense, as text such as "1 turn/s" or a number [rad/s]; by
-            default the declared drive.
+            Speed of the first input that turns, in its declared sense, as text such as "1 turn/s" or a number [rad/s];
+            by default the declared drive.
         turns : float
             Revolutions of that input that are evaluated, in its mean motion.
         state : str, optional
@@ -546,8 +554,8 @@ class GearTrain:
         fast : bool, optional
             True to compile kernels (extra `fast`); by default if the run is long and numba is installed.
         on_done : callable
-            Progress function, called with the additional share of the work that is done [0 to 1]. If it returns True, the
-            run stops and the results of the first run are reported.
+            Progress function, called with the additional share of the work that is done [0 to 1]. If it returns True,
+            the run stops and the results of the first run are reported.
         model : {"rigid", "compliant"}
             Model of the teeth. With "compliant" each pair that does not keep its ratio needs a `stiffness`.
 
@@ -580,7 +588,8 @@ class GearTrain:
         without: Sequence[str] = (),
         fast: bool | None = False,
     ) -> Any:
-        """Build a simulation that advances step by step and can be controlled in between; the steps are those of `dynamics`.
+        """Build a simulation that advances step by step and can be controlled in between; the steps are those of
+        `dynamics`.
 
         Parameters
         ----------
@@ -650,9 +659,9 @@ class GearTrain:
         Parameters
         ----------
         changes : mapping, optional
-            Keys of a declaration with their values, applied in the same way as by `extends`. Entries of `links`, `gears`,
-            `outputs` and the like are merged by name, other values such as `inputs` and `tooth_form` are replaced, None
-            deletes a key, and `remove` deletes entries.
+            Keys of a declaration with their values, applied in the same way as by `extends`. Entries of `links`,
+            `gears`, `outputs` and the like are merged by name, other values such as `inputs` and `tooth_form` are
+            replaced, None deletes a key, and `remove` deletes entries.
         **more : object
             The same for keys that are Python identifiers.
 

@@ -55,18 +55,18 @@ class GearState(Result):
     step: Fraction | None
     """Ratio of this state over the ratio of the next; None if their senses differ or one of them has no ratio."""
     driven_by: str
-    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first input that turns if that is at rest.
-    Empty if no input turns; speeds are then those declared.
+    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first input that turns if that is at
+    rest. Empty if no input turns; speeds are then those declared.
     """
     speeds: Mapping[str, Fraction]
     """Determined link -> its speed over the speed of `driven_by`."""
     slips: Mapping[str, Fraction]
-    """Open element -> slip over the speed of `driven_by`: the speed of the link that it fixes, or of the first link that it
-    locks relative to the second.
+    """Open element -> slip over the speed of `driven_by`: the speed of the link that it fixes, or of the first link
+    that it locks relative to the second.
     """
     torques: Mapping[str, Fraction | None]
-    """Closed element -> torque that it exerts on the link that it fixes, or on the first link that it locks, over the torque
-    of the input; None if it is statically indeterminate.
+    """Closed element -> torque that it exerts on the link that it fixes, or on the first link that it locks, over the
+    torque of the input; None if it is statically indeterminate.
     """
     efficiency: Fraction | float | None
     """Output power over input power."""
@@ -152,10 +152,10 @@ class Gearbox(Tabular, Result):
         """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
-            name: [_told(getattr(each, name)) for each in self.states]
+            name: [_optional_float(getattr(each, name)) for each in self.states]
             for name in ("ratio", "step", "efficiency", "recirculating")
         }
-        speeds = {link: [_told(each.speeds.get(link)) for each in self.states] for link in links}
+        speeds = {link: [_optional_float(each.speeds.get(link)) for each in self.states] for link in links}
         return {
             "state": [each.state for each in self.states],
             "engaged": [", ".join(each.engaged) for each in self.states],
@@ -170,7 +170,7 @@ class Gearbox(Tabular, Result):
         return max(ratios) / min(ratios) if ratios else None
 
 
-def _told(value: Fraction | None) -> float | None:
+def _optional_float(value: Fraction | None) -> float | None:
     return None if value is None else as_float(value)
 
 

@@ -67,10 +67,10 @@ class _Attributes(LazyDict):
 def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
     """Build the train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and couplings are edges.
 
-    Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that carries
-    its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`, `carrier`, `ratio`,
-    `form`, `mesh` and `efficiency` (docs/library.md, 2). All attributes except the declared ones are computed when they
-    are read, so a train that cannot be solved has a graph too.
+    Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that
+    carries its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`,
+    `carrier`, `ratio`, `form`, `mesh` and `efficiency` (docs/library.md, 2). All attributes except the declared ones
+    are computed when they are read, so a train that cannot be solved has a graph too.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | PinMesh | None:
-        """Return a pair with real teeth as it is driven in the state, or a pin with dimensions; None for other pairs."""
+        """Return a pair with real teeth as driven in the state, or a pin with dimensions; None for other pairs."""
         return self._meshes.get(name)
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:

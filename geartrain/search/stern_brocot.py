@@ -147,7 +147,7 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
             raise RangeError(
                 Problem(
                     f"more than {_MOST_LISTED} fractions approximate this ratio",
-                    f"the run of the Stern-Brocot tree from {run.at(1)} to {run.at(run.length)} has {run.length} of them",
+                    f"the run of the tree from {run.at(1)} to {run.at(run.length)} has {run.length} of them",
                     "reduce the bound, or request only the convergents",
                 )
             )
@@ -160,8 +160,8 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
 def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> tuple[IntegerPair, IntegerPair]:
     """Return the largest fraction below `value` > 0 and the smallest one not below it, within the bounds.
 
-    (0, 1) is returned if none is below, (1, 0) if none is above. The two are neighbours: bc - ad = 1. The cost grows with
-    the logarithm of the bounds.
+    (0, 1) is returned if none is below, (1, 0) if none is above. The two are neighbours: bc - ad = 1. The cost grows
+    with the logarithm of the bounds.
 
     >>> neighbours(Fraction(191, 23), 100, 100)
     ((83, 10), (25, 3))
@@ -213,8 +213,9 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
     """Return the minimum k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, at most `length` + 1.
 
     The fractions of a run approach the number monotonically, and all fractions between them and the number have larger
-    denominators. Each therefore has to be compared only with the end on the opposite side. Zero and infinity are excluded,
-    because they are not gear ratios. An integer is compared with the next integer, which has the same denominator.
+    denominators. Each therefore has to be compared only with the end on the opposite side. Zero and infinity are
+    excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
+    denominator.
     """
     if not far[1]:
         return length if value - length < Fraction(1, 2) else length + 1

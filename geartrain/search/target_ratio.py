@@ -1,4 +1,4 @@
-"""Parser of a requested ratio: a number, a fraction, a pair of counts, a quotient of periods, or the name of a period."""
+"""Parser of a requested ratio: a number, a fraction, a pair of counts, a quotient of periods, or a name."""
 
 from __future__ import annotations
 
@@ -93,7 +93,8 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     ----------
     text : str
         A number, a fraction, a pair of counts, a quotient of two periods, or a name listed by `geartrain periods`; see
-        Notes. A leading sign requests a sense of rotation: + the same, - the opposite. Without a sign either is accepted.
+        Notes. A leading sign requests a sense of rotation: + the same, - the opposite. Without a sign either is
+        accepted.
     per : str, optional
         A second period if `text` is a single period. The ratio is the number of revolutions in one period `per`.
 
@@ -110,16 +111,16 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     Notes
     -----
     "13.368267", "235/19", "1:30"      the number, exactly as written
-    "235 months / 19 years"            a pair of counts: while the second (years) makes 19 revolutions, the first (months)
-                                       makes 235, so its pointer is 235/19 times as fast
+    "235 months / 19 years"            a pair of counts: while the second (years) makes 19 revolutions, the first
+                                       (months) makes 235, so its pointer is 235/19 times as fast
     "365.2422 d / 29.53059 d"          a quotient of two periods: the number of revolutions of the second during one
-    "year_julian / month_metonic"      revolution of the first, so the ratio is the speed with the second period over the
-                                       speed with the first. Each side is a time or a name from the table of periods.
+    "year_julian / month_metonic"      revolution of the first, so the ratio is the speed with the second period over
+                                       the speed with the first. Each side is a time or the name of a period.
     "metonic_months_per_year"          a name from that table whose row is a speed (revolutions per year) or a count
     "month_synodic_J2000" and `per`    a single period: its number of revolutions in one period `per`
 
-    Units of time are d, h, min, s and the like. Any other word names counted objects. Retrograde speeds of the table are
-    taken by their magnitude.
+    Units of time are d, h, min, s and the like. Any other word names counted objects. Retrograde speeds of the table
+    are taken by their magnitude.
 
     Examples
     --------
@@ -133,7 +134,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     sense: Literal[-1, 0, 1] = -1 if label.startswith("-") else 1 if label.startswith("+") else 0
     terms = [_term(part, label) for part in _parts(label[abs(sense) :].strip(), label)]
     if len(terms) == 1:
-        value, note = _alone(terms[0], label, per)
+        value, note = _single_term(terms[0], label, per)
     elif per is None:
         value, note = _quotient(terms[0], terms[1], label)
     else:
@@ -224,7 +225,7 @@ def _figure(text: str) -> Fraction:
         raise _problem(what, why, f"write {_WAYS}") from None
 
 
-def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
+def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
     if term.kind == "time":
         if per is None:
             period = label.lstrip("+- ")
@@ -235,7 +236,7 @@ def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
                 "a ratio needs two periods",
                 f"write for example '{pair}'",
             )
-        return _in_one(per, term)
+        return _per_period(per, term)
     if term.kind == "things":
         raise _problem(
             f"'{_short(label)}' is only one count",
@@ -247,7 +248,7 @@ def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
     return term.value, term.note or "as given"
 
 
-def _in_one(per: str, term: _Term) -> tuple[Fraction, str]:
+def _per_period(per: str, term: _Term) -> tuple[Fraction, str]:
     """Return the number of revolutions of a period during one period `per`, and its note."""
     whole = _term(" ".join(per.split()), per)
     if whole.kind != "time":
@@ -274,7 +275,7 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
         return first.value / second.value, f"{first.note} over {second.note}"
     raise _problem(
         f"'{_short(label)}' is a quotient of different quantities",
-        f"{_said(first)} over {_said(second)} is not a ratio of speeds",
+        f"{_describe(first)} over {_describe(second)} is not a ratio of speeds",
         "write two numbers, two counts of things, two times (d, h, min, s), or two names of one kind",
     )
 
@@ -288,7 +289,7 @@ def _figure_of(term: _Term) -> Fraction:
     return _figure(term.note.removesuffix(term.word)) if term.kind == "time" else term.value
 
 
-def _said(term: _Term) -> str:
+def _describe(term: _Term) -> str:
     words = {"number": "a plain number", "things": "a count", "time": "a period"}
     return words.get(term.kind, f"a {term.kind}") + (f" ({_short(term.note)})" if term.note else "")
 

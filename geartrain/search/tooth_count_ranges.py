@@ -28,8 +28,8 @@ _PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
 class CountRuns(Sequence[int]):
     """Tooth counts as runs of consecutive integers; the memory does not depend on the length of a run.
 
-    The object is a sequence of integers: it iterates in ascending order, has a length, and can be indexed. `read_counts`
-    parses it from a text, `CountRuns.of` builds it from any counts.
+    The object is a sequence of integers: it iterates in ascending order, has a length, and can be indexed.
+    `read_counts` parses it from a text, `CountRuns.of` builds it from any counts.
 
     Examples
     --------

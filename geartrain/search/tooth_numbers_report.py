@@ -121,7 +121,7 @@ def describe_assignments(found: TrainFindings) -> Document:
     summary += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
     if found.where:
-        sections.append(_standings(found.where))
+        sections.append(_ranks(found.where))
     return Document(f"Tooth numbers of {found.name}", summary, sections)
 
 
@@ -156,7 +156,7 @@ def _assignments(solutions: Sequence[Assignment]) -> Table:
     return Table(header, cut(rows))
 
 
-def _standings(standings: Sequence[Standing]) -> Section:
+def _ranks(standings: Sequence[Standing]) -> Section:
     rows = []
     for one in standings:
         teeth = {} if one.assignment is None else one.assignment.teeth
@@ -193,7 +193,7 @@ def set_rows(found: SetFindings) -> list[dict[str, Any]]:
 def describe_sets(found: SetFindings) -> Document:
     """Build the document of the epicyclic sets for a ratio."""
     summary = [
-        f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in either sense unless one is given.",
+        f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in either sense by default.",
         f"{found.count} combinations of set and mode run"
         + (" within the tolerance." if found.tolerance is not None else "; the best are:" if found.count else "."),
     ]
@@ -210,7 +210,7 @@ def describe_sets(found: SetFindings) -> Document:
             )
             for one in found.solutions
         ]
-        header = ("teeth", "mode", "input/output", "error", "planet positions", "clearance, modules")
+        header = ("teeth", "mode", "input/output", "error", "positions", "clearance, modules")
         sections.append(Section("Sets", (), [Table(header, cut(rows))]))
     return Document(f"Sets of the kind {found.kind}", summary, [*sections, *_shortfall(found.shortfall)])
 

@@ -82,18 +82,18 @@ class LiveServer:
             self.error = str(error)
         self.version += 1
 
-    def run(self, told: Callable[[str], object]) -> None:
+    def run(self, report: Callable[[str], object]) -> None:
         """Serve the pages until interrupted.
 
         Parameters
         ----------
-        told : callable
+        report : callable
             Function called after each change with the error message, empty if it has none.
         """
         with suppress(KeyboardInterrupt):
-            asyncio.run(self._serve(told))
+            asyncio.run(self._serve(report))
 
-    async def _serve(self, told: Callable[[str], object]) -> None:
+    async def _serve(self, report: Callable[[str], object]) -> None:
         from tornado.httpserver import HTTPServer
         from watchdog.events import FileSystemEvent, FileSystemEventHandler
         from watchdog.observers import Observer
@@ -125,7 +125,7 @@ class LiveServer:
                 await asyncio.sleep(_SETTLING)
                 changed.clear()
                 await loop.run_in_executor(None, self.refresh)
-                told(self.error)
+                report(self.error)
                 watch()
                 for each in tuple(self._listening):
                     each.tell()

@@ -77,11 +77,11 @@ def find_constraints(
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
     stand_in = with_counts(train, {wheel: counts[0] for wheel, counts in free.items()})
-    return tuple(_Requesting(train, TrainAssembly.of(stand_in, free), requested).rules()) if free else ()
+    return tuple(_ConstraintBuilder(train, TrainAssembly.of(stand_in, free), requested).rules()) if free else ()
 
 
 @dataclass(frozen=True)
-class _Requesting:
+class _ConstraintBuilder:
     """Builder of the constraints of one train; in `fitting` its free wheels have placeholder counts."""
 
     declared: Train
@@ -132,7 +132,7 @@ class _Requesting:
                 Problem(
                     f"the radius of '{wheel}' cannot be compared with {radius}",
                     f"its module is {declared}" if module else "several modules are declared for it",
-                    "give radius and modules both with units; without declared modules a radius is a plain number of modules",
+                    "give radius and modules with units; without modules a radius is a plain number of modules",
                 )
             )
         return int(2 * radius.base / module)
@@ -140,7 +140,7 @@ class _Requesting:
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Yield the equality of centre distance for meshes between the same two axes with modules of the same measure."""
+        """Yield the equality of centre distances for meshes between the same axes with the same measure."""
         if self.requested.coaxial is False:
             return
         first: dict[object, AssemblyMesh] = {}
@@ -156,7 +156,7 @@ class _Requesting:
             return
         if not total.terms:
             if abs(total.constant) > shift:
-                raise QuestionError(_never(before, mesh))
+                raise QuestionError(_unequal_distances(before, mesh))
             return
         found = plainest(total)
         if not shift:
@@ -171,13 +171,13 @@ class _Requesting:
 
         Modules then differ, or profiles are shifted.
         """
-        counts = {wheel: self._evident(wheel) for wheel in total.terms}
+        counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
         return (
             self.requested.coaxial is None and None not in counts.values() and abs(sum(known) + total.constant) > shift
         )
 
-    def _evident(self, wheel: str) -> int | None:
+    def _declared_count(self, wheel: str) -> int | None:
         """Return the declared count, or None if it is to be searched for, in which case its value is only a
         placeholder.
         """
@@ -229,7 +229,7 @@ class _Requesting:
 
     # --------------------------------------------------------------------------------------------------------- planets
 
-    def _numbered(self) -> Iterator[tuple[PlanetSet, int]]:
+    def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
         """Yield each set of planets with its number of equal planets: the requested number, or that of `copies`."""
         requested = self.requested.planets
         if requested is None:
@@ -246,24 +246,24 @@ class _Requesting:
             number = requested.get(one.carrier) if isinstance(requested, Mapping) else requested
             if number is None:
                 continue
-            if number < 1 or self._declared(one) not in (1, number) or one.planets is None:
-                raise QuestionError(_not_so_many(one, number, self._declared(one)))
+            if number < 1 or self._declared_sets(one) not in (1, number) or one.planets is None:
+                raise QuestionError(_wrong_planet_number(one, number, self._declared_sets(one)))
             yield one, number
 
-    def _declared(self, one: PlanetSet) -> int:
+    def _declared_sets(self, one: PlanetSet) -> int:
         """Return the number of equal sets that are declared, by `copies` or individually."""
         return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
 
     def _equal(self) -> Iterator[CountConstraint]:
         """Yield the equations that give individually declared equal planets the same counts."""
-        for one, _ in self._numbered():
+        for one, _ in self._planet_sets():
             for first, other in self._copied(one):
                 found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
                 if found.terms:
                     yield CountEquation(f"equal planets: {equality(found)}", dict(found.terms), found.constant)
 
     def _planets(self) -> Iterator[CountConstraint]:
-        numbered = list(self._numbered())
+        numbered = list(self._planet_sets())
         for one, number in numbered:
             rule = equal_planets(one, number, reason(one, number))
             if rule is not None:
@@ -283,7 +283,7 @@ class _Requesting:
             yield from room.conditions(one, self.fitting)
 
 
-def _never(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
+def _unequal_distances(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
     return Problem(
         f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
         "they connect the same two axes, and their free counts cancel",
@@ -300,7 +300,7 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
     )
 
 
-def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
+def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
     if one.planets is None:
         why = "planets that mesh with each other in a loop are not supported"
     elif number < 1:
@@ -310,7 +310,7 @@ def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
     return Problem(
         f"{number} equal planets {one.title} on '{one.carrier}' cannot be required",
         why,
-        "give the declared number, or declare one set that represents all; or give numbers by carrier: planets={'arm': 3}",
+        "give the declared number, declare one set that represents all, or use planets={'arm': 3}",
     )
 
 
@@ -335,7 +335,7 @@ class CentreDistanceMatch:
 
 @dataclass(frozen=True)
 class LoopPhasing:
-    """Condition that the teeth of all loops mesh, evaluated for each candidate separately (about a millisecond each)."""
+    """Condition that the teeth of all loops mesh, tested for each candidate (about a millisecond each)."""
 
     train: Train
     """Train with placeholder counts; those of `wheels` are replaced."""
@@ -374,14 +374,12 @@ class DeclaredPositions:
         """Yield the conditions on distances, then on loops; `QuestionError` if the positions of no loop are known."""
         found = self.closure
         if found.kind == "open" and not found.rigid:
-            raise QuestionError(_no_places(self.fitting.train))
-        yield from self._reaching()
-        yield from self._meeting()
+            raise QuestionError(_no_positions(self.fitting.train))
+        yield from self._distance_conditions()
+        yield from self._loop_condition()
 
-    def _reaching(self) -> Iterator[Condition]:
-        """Yield the conditions on distances. Meshes that share a wheel or the measure of their modules share a unit of
-        length.
-        """
+    def _distance_conditions(self) -> Iterator[Condition]:
+        """Yield the conditions on distances. Meshes with a common wheel or measure of modules share a unit."""
         groups: dict[int, list[AssemblyMesh]] = {}
         for mesh in self.fitting.meshes:
             if mesh.spur and self._length(mesh):
@@ -393,14 +391,14 @@ class DeclaredPositions:
     def _by_module(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
         for mesh in meshes:
             assert mesh.module is not None
-            yield from self._as(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
+            yield from self._match(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
 
     def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
         fixed = [mesh for mesh in meshes if not mesh.is_free]
         for mesh in meshes:
             first = (fixed or meshes)[0]
             if mesh is not first:
-                yield from self._as(
+                yield from self._match(
                     mesh, teeth_of(first), self._length(mesh) / self._length(first), f"that of '{first.name}'"
                 )
 
@@ -413,7 +411,7 @@ class DeclaredPositions:
             mesh.measure == "plain"
         }
 
-    def _as(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
+    def _match(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
         one, two = whole(teeth_of(mesh), other)
         wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
         if wheels:
@@ -431,8 +429,8 @@ class DeclaredPositions:
         along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
         return sqrt(max(sum(x * x for x in arm) - along, 0.0))
 
-    def _meeting(self) -> Iterator[Condition]:
-        """Yield one condition on all loops: their divisibility rule if it is known, otherwise a test of each candidate."""
+    def _loop_condition(self) -> Iterator[Condition]:
+        """Yield one condition on all loops: their divisibility rule if known, otherwise a test of each candidate."""
         wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
         if not wheels:
             return
@@ -464,7 +462,7 @@ class DeclaredPositions:
         return list(dict.fromkeys(wheel for circuit in circuits for wheel in circuit.wheels))
 
 
-def _no_places(train: Train) -> Problem:
+def _no_positions(train: Train) -> Problem:
     return Problem(
         f"the axes of no loop of '{train.name}' have known positions",
         "phase closure requires the positions of the axes of a loop",
@@ -482,8 +480,8 @@ def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
     pressure   pressure angle alpha [turns], 0 to 1/4
     addendum   addendum h of the rack [modules]
 
-    Examples with h = 1: 18 teeth at 20 degrees (17.1), 32 at 14.5. The tip line of the rack lies h below the pitch line;
-    the involute ends at the point where the line of action touches the base circle, r sin(alpha)^2 below it.
+    Examples with h = 1: 18 teeth at 20 degrees (17.1), 32 at 14.5. The tip line of the rack lies h below the pitch
+    line; the involute ends at the point where the line of action touches the base circle, r sin(alpha)^2 below it.
     """
     with localcontext(prec=50):
         limit = decimal(2 * addendum) / sine(pressure) ** 2
@@ -492,18 +490,19 @@ def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
 
 
 def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), which is >= 0 without interference of tip 2 at wheel 1.
+    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), >= 0 if tip 2 does not interfere with wheel 1.
 
     The tip circle of 2 must intersect the line of action before the point where that touches the base circle of 1:
     r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares of z2
-    cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1 it gives the
-    minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15 with 45).
+    cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1 it gives
+    the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15 with 45).
     """
     return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
 
 
 def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 without interference of the ring's tip.
+    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 without interference of the ring's
+    tip.
 
     h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
     independently: the ring's tip circle must intersect the line of action beyond the point where that touches the base
@@ -568,7 +567,7 @@ def _square(pressure: Fraction) -> Decimal:
 def interference(
     mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
 ) -> Iterator[Condition]:
-    """Yield the interference condition of a spur pair with a free count; pressure angle in turns, addenda in modules."""
+    """Yield the interference condition of a spur pair with a free count; angle in turns, addenda in modules."""
     wheels = free_of(*mesh.parts)
     if not wheels or not mesh.spur:
         return

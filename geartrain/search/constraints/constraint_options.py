@@ -30,15 +30,15 @@ class ConstraintOptions:
     """
 
     coaxial: bool | None = None
-    """Requirement that spur wheels of the same module between the same two axes have equal centre distances. Wheels without a
-    declared module are assumed to have the same one. None requires it unless declared counts, none of them searched for,
-    already violate it; modules then differ, or profiles are shifted.
+    """Requirement that spur wheels of the same module between the same two axes have equal centre distances. Wheels
+    without a declared module are assumed to have the same one. None requires it unless declared counts, none of them
+    searched for, already violate it; modules then differ, or profiles are shifted.
     """
     shift: int = 0
     """Maximum difference between such distances [half modules], to be compensated by profile shift."""
     planets: int | Mapping[str, int] | None = None
-    """Number of equal, equally spaced planets on every carrier that moves planets, or a mapping carrier -> number. Equal
-    planets also have the same relative orientation of the wheels on their arbors.
+    """Number of equal, equally spaced planets on every carrier that moves planets, or a mapping carrier -> number.
+    Equal planets also have the same relative orientation of the wheels on their arbors.
     """
     clearance: Fraction | None = None
     """Minimum clearance between the tips of neighbouring planets [modules], exclusive."""
@@ -49,8 +49,8 @@ class ConstraintOptions:
     addendum: Fraction = Fraction(1)
     """Addendum of external wheels and of the rack [modules]."""
     ring_addendum: Fraction | None = None
-    """Addendum of rings [modules]; None for that of external wheels. The teeth of rings are often shortened: with addendum 1
-    at 20 deg, 18 teeth in a ring of 60 interfere.
+    """Addendum of rings [modules]; None for that of external wheels. The teeth of rings are often shortened: with
+    addendum 1 at 20 deg, 18 teeth in a ring of 60 interfere.
     """
     minimum: int | None = None
     """Minimum tooth count of every free wheel, inclusive; worms are exempt."""

@@ -66,8 +66,8 @@ class CountEquation:
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
         """Return the count of one wheel from those of the others, and whether it is an integer; both (candidates,).
 
-        `columns` need not include `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer. If the
-        equation has only one wheel, both arrays have one entry.
+        `columns` need not include `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer.
+        If the equation has only one wheel, both arrays have one entry.
         """
         others = [factor * columns[name] for name, factor in self.coefficients.items() if name != wheel]
         total = reduce(np.add, others, np.array(self.constant, dtype=np.int64))
@@ -160,7 +160,7 @@ class WholeSum:
         return tuple(wheel for wheel, _ in self.terms)
 
     def of(self, columns: CandidateColumns) -> Ints:
-        """Return the values of the sum, (candidates,), or one number if it has no free wheel. Sums above 2^63 overflow."""
+        """Return the values of the sum, (candidates,), or one number without free wheels. Sums above 2^63 overflow."""
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
             total = total + weight * columns[wheel]

@@ -167,18 +167,18 @@ class PlanetRoom:
     def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
         """Yield the conditions of one set of planets: tips of neighbouring equal wheels, then of planets that mesh.
 
-        Wheels of planets are as far apart as their axes. In a set of two planets, if one meshes only with external central
-        wheels and the other only with rings, these are assumed to lie in one plane with both planets.
+        Wheels of planets are as far apart as their axes. In a set of two planets, if one meshes only with external
+        central wheels and the other only with rings, these are assumed to lie in one plane with both planets.
         """
         assert found.planets is not None
         _check(found)
         for planet in found.planets.walk():
-            yield from self._alone(planet)
+            yield from self._neighbour_conditions(planet)
             for mesh, other in planet.outward:
-                yield from self._both(mesh, planet, other)
+                yield from self._passing_conditions(mesh, planet, other)
 
-    def _alone(self, planet: Planet) -> Iterator[Condition]:
-        for mesh in _once(planet):
+    def _neighbour_conditions(self, planet: Planet) -> Iterator[Condition]:
+        for mesh in _wheel_meshes(planet):
             wheel, part, reach = planet.own(mesh), mesh.parts[planet.side(mesh)], _reach(planet, planet.own(mesh))
             if reach is None:
                 continue
@@ -187,7 +187,7 @@ class PlanetRoom:
             name = f"neighbours: tip clearance of {self.number} planets '{wheel}' above {_shown(self.clearance)}"
             yield from _condition(name, NeighbourClearance(self.number, *whole(reach, tips)))
 
-    def _both(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
+    def _passing_conditions(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
         A, B = _reach(planet), _reach(other)
         if A is None or B is None or mesh.ring is not None:
             return
@@ -198,9 +198,9 @@ class PlanetRoom:
         yield from _condition(name, PassingClearance(self.number, *whole(A, B, distance_of(mesh), tips)))
         for inner, outer in ((planet, other), (other, planet)):
             if _is_plain(inner, True) and _is_plain(outer, False):
-                yield from self._between(inner, outer)
+                yield from self._gap_conditions(inner, outer)
 
-    def _between(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
+    def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
         """Yield the clearance of the outer planet to the inner one's central wheels, and of the inner one to the
         outer's rings.
         """
@@ -238,7 +238,7 @@ def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
     return distance_of(meshes[0]) if meshes else None
 
 
-def _once(planet: Planet) -> list[AssemblyMesh]:
+def _wheel_meshes(planet: Planet) -> list[AssemblyMesh]:
     """Return one mesh for each wheel of a planet."""
     inward = [planet.inward] if planet.inward else []
     meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
@@ -247,7 +247,7 @@ def _once(planet: Planet) -> list[AssemblyMesh]:
 
 def _meshes(found: PlanetSet) -> list[AssemblyMesh]:
     assert found.planets is not None
-    return [mesh for planet in found.planets.walk() for mesh in _once(planet)]
+    return [mesh for planet in found.planets.walk() for mesh in _wheel_meshes(planet)]
 
 
 def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveRoom) -> Iterator[Condition]:

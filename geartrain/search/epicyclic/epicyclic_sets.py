@@ -247,7 +247,11 @@ def epicyclic_kind(name: str) -> EpicyclicKind:
     """Return a type of epicyclic set by name; `QuestionError` if it does not exist."""
     if name in kinds():
         return kinds()[name]
-    raise QuestionError(Problem(f"unknown kind of epicyclic set '{name}'", "the kinds are predefined", f"use one of {', '.join(kinds())}"))
+    raise QuestionError(
+        Problem(
+            f"unknown kind of epicyclic set '{name}'", "the kinds are predefined", f"use one of {', '.join(kinds())}"
+        )
+    )
 
 
 # ------------------------------------------------------------------------------------------------ sets that were found

@@ -89,10 +89,11 @@ def find_sets(
     clearance: Fraction | float = 0.0,
     slack: int = 0,
 ) -> SetFindings:
-    """Find the best tooth counts of an epicyclic type for a ratio over all modes, by enumeration of all sets within bounds.
+    """Find the best tooth counts of an epicyclic type for a ratio over all modes, by enumeration of all sets within
+    bounds.
 
-    The coaxial equations leave at most three independent counts (Willis 1841; Mueller, Epicyclic Drive Trains, 1982). All
-    modules are equal.
+    The coaxial equations leave at most three independent counts (Willis 1841; Mueller, Epicyclic Drive Trains, 1982).
+    All modules are equal.
 
     Parameters
     ----------
@@ -192,7 +193,9 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
         (ratio_is, "kind of ratio", get_args(RatioIs)),
     ):
         if word not in words:
-            raise QuestionError(Problem(f"'{word}' is not a valid {what}", "the value must match exactly", f"use {' or '.join(words)}"))
+            raise QuestionError(
+                Problem(f"'{word}' is not a valid {what}", "the value must match exactly", f"use {' or '.join(words)}")
+            )
     if not isfinite(clearance):
         raise QuestionError(Problem(f"the clearance is {clearance}", "it must be finite", "give a number of modules"))
 
@@ -225,10 +228,10 @@ class _Search:
         """Return the sets whose planets can be assembled with equal spacing and sufficient clearance."""
         even = places(self.kind, columns) % self.planets == 0
         self.charge(NO_SPACING, int((~even).sum()) * modes)
-        columns = _kept(columns, even)
+        columns = _select(columns, even)
         clear = clears(self.kind, columns, self.planets, clearance)
         self.charge(NO_ROOM, int((~clear).sum()) * modes)
-        return _kept(columns, clear)
+        return _select(columns, clear)
 
     def judge(self, columns: Columns, at: int, mode: EpicyclicMode) -> None:
         """Evaluate all sets of a block in one mode."""
@@ -239,7 +242,7 @@ class _Search:
         self.charge(NO_SENSE, int((runs & ~right).sum()))
         if not right.any():
             return
-        columns, top, beneath = _kept(columns, right), np.abs(top[right]), np.abs(beneath[right])
+        columns, top, beneath = _select(columns, right), np.abs(top[right]), np.abs(beneath[right])
         ratios = top / beneath if self.ratio_is == "input/output" else beneath / top
         errors = np.abs(ratios / float(self.wanted) - 1)
         self._look(columns, at, mode, errors)
@@ -255,7 +258,7 @@ class _Search:
                 self.nearest = nearest
         if not inside.any():
             return
-        columns, errors = _kept(columns, inside), errors[inside]
+        columns, errors = _select(columns, inside), errors[inside]
         first = self._first(columns, errors)
         for row in np.flatnonzero(first <= self._worst(first)):
             found = self._set(columns, int(row), mode)
@@ -343,11 +346,11 @@ def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> S
             what = f"unknown wheel '{unknown[0]}'" if unknown else f"wheel '{missing[0]}' has no counts"
             why = f"the wheels of the kind '{kind.name}' are {', '.join(kind.wheels)}"
             raise QuestionError(Problem(what, why, "give counts for each of them"))
-        return {wheel: _usable(f"of wheel '{wheel}' ", counts[wheel]) for wheel in kind.wheels}
-    return dict.fromkeys(kind.wheels, _usable("", counts))
+        return {wheel: _check_counts(f"of wheel '{wheel}' ", counts[wheel]) for wheel in kind.wheels}
+    return dict.fromkeys(kind.wheels, _check_counts("", counts))
 
 
-def _usable(whose: str, counts: Counts) -> tuple[int, ...]:
+def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
     found = tuple(sorted(set(counts))) if len(counts) <= MOST_TEETH else ()
     if found and found[0] >= 1 and found[-1] <= MOST_TEETH:
         return found
@@ -385,7 +388,7 @@ def blocks(
         columns = [np.repeat(head, len(inner[0])), *(np.tile(column, len(head)) for column in inner)]
         chosen = dict(zip(kind.free, columns, strict=True))
         for extra in product(range(-slack, slack + 1), repeat=len(_followers(kind))):
-            yield len(columns[0]), _completed(kind, bounds, chosen, extra, planets, clearance)
+            yield len(columns[0]), _add_dependent_counts(kind, bounds, chosen, extra, planets, clearance)
 
 
 def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
@@ -399,7 +402,7 @@ def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
     return found
 
 
-def _completed(
+def _add_dependent_counts(
     kind: EpicyclicKind,
     bounds: SetBounds,
     chosen: Columns,
@@ -412,10 +415,10 @@ def _completed(
     for (first, other), more in zip(_followers(kind), extra, strict=True):
         distance = columns[first.wheel] + (-1 if first.internal else 1) * columns[first.mesh] + more
         columns[other.wheel] = distance + (1 if other.internal else -1) * columns[other.mesh]
-        columns = _kept(columns, _allowed(columns[other.wheel], bounds[other.wheel]))
+        columns = _select(columns, _allowed(columns[other.wheel], bounds[other.wheel]))
     if kind.idle:
         columns = _with_idle(kind, bounds, columns, planets, clearance)
-    return _kept(columns, fits(kind, columns) & _is_stepped(kind, columns))
+    return _select(columns, fits(kind, columns) & _is_stepped(kind, columns))
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
@@ -447,10 +450,10 @@ def _with_idle(
         tried |= {wheel: np.full(len(open_), count, dtype=np.int64) for wheel in kind.idle}
         at = np.flatnonzero(fits(kind, tried))
         if clearance is not None:
-            at = at[clears(kind, _kept(tried, at), planets, clearance)]
+            at = at[clears(kind, _select(tried, at), planets, clearance)]
         found[open_[at]] = count
     full = {**columns, **dict.fromkeys(kind.idle, found)}
-    return _kept(full, found > 0)
+    return _select(full, found > 0)
 
 
 def _allowed(column: Ints, allowed: tuple[int, ...]) -> NDArray[np.bool_]:
@@ -459,15 +462,15 @@ def _allowed(column: Ints, allowed: tuple[int, ...]) -> NDArray[np.bool_]:
     return np.isin(column, allowed)
 
 
-def _kept(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]:
+def _select(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]:
     return {wheel: column[good] for wheel, column in columns.items()}
 
 
 def ratio_terms(kind: EpicyclicKind, mode: EpicyclicMode, columns: Columns) -> tuple[Ints, Ints]:
     """Return numerator and denominator of the ratio of input to output speed, exact and not reduced.
 
-    The ratio is (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for the carrier.
-    If one of them is 0 the mode does not run: the output is at rest, or the input is locked.
+    The ratio is (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for the
+    carrier. If one of them is 0 the mode does not run: the output is at rest, or the input is locked.
     """
     (n1, d1), (n2, d2), (n0, d0) = (
         _relative(kind.member(link), columns) for link in (mode.input, mode.output, mode.held)
@@ -489,11 +492,11 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
 
     n equal planets, equally spaced, can be assembled exactly if n divides this number; 0 permits any position.
 
-    Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its teeth
-    must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n must be an
-    integer. If they mesh with two steps, the planet may also be rotated by whole teeth of the first step, each of which
-    shifts the second by P_y/P_x of a tooth, so (z_y P_x -+ z_x P_y)/(n gcd(P_x, P_y)) must be an integer. Well known cases
-    are (s + r)/n and, for stepped planets, (s1 p2 + r2 p1)/(n gcd(p1, p2)).
+    Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
+    teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n
+    must be an integer. If they mesh with two steps, the planet may also be rotated by whole teeth of the first step,
+    each of which shifts the second by P_y/P_x of a tooth, so (z_y P_x -+ z_x P_y)/(n gcd(P_x, P_y)) must be an integer.
+    Well known cases are (s + r)/n and, for stepped planets, (s1 p2 + r2 p1)/(n gcd(p1, p2)).
     """
     number: Ints = np.zeros_like(columns[kind.members[0].wheel])
     for x, y in combinations(kind.members, 2):
@@ -508,8 +511,9 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
 def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
     """Return the sets in which one planet (or pair of planets) fits between the central wheels.
 
-    Planets are smaller than their ring. Planets in mesh extend from wheel to wheel and clear all wheels with which they do
-    not mesh. Cones of bevel wheels open outwards. The addendum is one module; interference of flanks is not tested here.
+    Planets are smaller than their ring. Planets in mesh extend from wheel to wheel and clear all wheels with which they
+    do not mesh. Cones of bevel wheels open outwards. The addendum is one module; interference of flanks is not tested
+    here.
     """
     good = np.ones(columns[kind.members[0].wheel].shape, dtype=bool)
     for member in kind.members:
@@ -555,10 +559,11 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
 
 
 def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
-    """Return the sets in which the clearance between the tips of neighbouring planets is at least `clearance` [modules].
+    """Return the sets in which the clearance between the tips of neighbouring planets is at least `clearance`
+    [modules].
 
-    Near ties are decided exactly, as for the clearance of a declared train. For bevel wheels, whose clearance is an angle,
-    floats decide.
+    Near ties are decided exactly, as for the clearance of a declared train. For bevel wheels, whose clearance is an
+    angle, floats decide.
     """
     found, minimum = room(kind, columns, planets), float(clearance)
     good = np.asarray(found >= minimum - _BEVEL)

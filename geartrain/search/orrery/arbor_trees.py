@@ -56,14 +56,14 @@ class PeriodTargets:
         """Bit mask of all targets."""
         return (1 << len(self.periods)) - 1
 
-    def meets(self, aim: int, ratio: Fraction) -> bool:
-        """Return whether an arbor of this period shows target number `aim`; exact."""
-        low, high = self.bounds[aim]
+    def meets(self, target: int, ratio: Fraction) -> bool:
+        """Return whether an arbor of this period shows target number `target`; exact."""
+        low, high = self.bounds[target]
         return low <= ratio <= high
 
-    def error(self, aim: int, ratio: Fraction) -> Fraction:
+    def error(self, target: int, ratio: Fraction) -> Fraction:
         """Return the speed over the requested speed, minus 1; positive if fast."""
-        return self.periods[aim] / ratio - 1
+        return self.periods[target] / ratio - 1
 
 
 def read_period_targets(
@@ -196,32 +196,32 @@ class ReachablePeriods:
     """Bit masks of the targets reached, (m,)."""
 
 
-def reach(table: PairRatios, aims: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
+def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
     """Find all intermediate arbors from which one pair reaches at least one requested target.
 
-    If several ratios lead to a target, one of them is returned. Floats select with a margin; ratios are compared exactly
-    where they are used. The table and the queries are sorted, so one target costs one pass over the table.
+    If several ratios lead to a target, one of them is returned. Floats select with a margin; ratios are compared
+    exactly where they are used. The table and the queries are sorted, so one target costs one pass over the table.
     """
     logs, size = table.logs, len(table)
-    found = np.full((len(aims.periods), size), -1, dtype=np.int32)
+    found = np.full((len(targets.periods), size), -1, dtype=np.int32)
     falling = -logs[::-1]
-    for aim in members(requested):
-        low, high = aims.logs[aim][0] - log_period - ROUNDING, aims.logs[aim][1] - log_period + ROUNDING
+    for target in members(requested):
+        low, high = targets.logs[target][0] - log_period - ROUNDING, targets.logs[target][1] - log_period + ROUNDING
         # ratios from which no single pair reaches the target are skipped
         begin, end = np.searchsorted(falling, [logs[0] - high, logs[-1] - low + ROUNDING])
         start = np.searchsorted(logs, falling[begin:end] + low)
         good = np.append(logs, np.inf)[start] <= falling[begin:end] + high
-        found[aim, size - 1 - begin - np.flatnonzero(good)] = start[good]
+        found[target, size - 1 - begin - np.flatnonzero(good)] = start[good]
     first = np.flatnonzero((found >= 0).any(axis=0))
     further = found[:, first].T.astype(np.int64)
-    sets = ((further >= 0) << np.arange(len(aims.periods))).sum(axis=1)
+    sets = ((further >= 0) << np.arange(len(targets.periods))).sum(axis=1)
     return ReachablePeriods(requested, first, further, sets)
 
 
-def reached_sets(table: PairRatios, aims: PeriodTargets, log_period: float, requested: int) -> Ints:
+def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
     """Return the bit mask of the targets one pair beyond the arbor that each ratio of the table leads to, (n,)."""
     sets = np.zeros(len(table), dtype=np.int64)
-    found = reach(table, aims, log_period, requested)
+    found = reach(table, targets, log_period, requested)
     sets[found.first] = found.sets
     return sets
 
@@ -305,7 +305,7 @@ class _Search:
 class TreeArbor:
     """Arbor of a tree."""
 
-    aim: int
+    target: int
     """Index of the period that it shows; -1 if none."""
     parent: int
     """Index of the arbor that drives it; -1 for the first."""
@@ -334,10 +334,10 @@ ArborTree = tuple[TreeArbor, ...]
 FIRST = TreeArbor(-1, -1, 1, 1, 1, 1)
 
 
-def grown(tree: ArborTree, aim: int, parent: int, driven: int, driver: int) -> TreeArbor:
+def grown(tree: ArborTree, target: int, parent: int, driven: int, driver: int) -> TreeArbor:
     """Return the arbor that a pair with this ratio drives from an arbor of the tree."""
     n, d = times(tree[parent].n, tree[parent].d, driven, driver)
-    return TreeArbor(aim, parent, driven, driver, n, d)
+    return TreeArbor(target, parent, driven, driver, n, d)
 
 
 def edges(tree: ArborTree) -> list[Edge]:
@@ -348,23 +348,23 @@ def edges(tree: ArborTree) -> list[Edge]:
 class TreeEnumeration:
     """Enumeration of every tree with exactly `extra` arbors that do not show a period.
 
-    A tree grows from the first arbor. Whenever targets are in reach of an arbor, each of them is either driven from there
-    or left for later arbors, and all combinations are visited. The tree then receives one more additional arbor.
+    A tree grows from the first arbor. Whenever targets are in reach of an arbor, each of them is either driven from
+    there or left for later arbors, and all combinations are visited. The tree then receives one more additional arbor.
     Additional arbors without a target in reach are visited as long as another one can follow. Each tree is visited once
     for each order in which its additional arbors can be added.
     """
 
     def __init__(
-        self, table: PairRatios, aims: PeriodTargets, extra: int, tell: Callable[[int, int], None] | None = None
+        self, table: PairRatios, targets: PeriodTargets, extra: int, tell: Callable[[int, int], None] | None = None
     ) -> None:
-        self.table, self.aims, self.extra, self.tell = table, aims, extra, tell
-        self.closures = _closures(table, aims)
+        self.table, self.targets, self.extra, self.tell = table, targets, extra, tell
+        self.closures = _closures(table, targets)
 
     def trees(self) -> Iterator[ArborTree]:
         """Yield all trees of the enumeration."""
-        yield from self._converged((FIRST,), self.aims.everything, self.extra, 0)
+        yield from self._with_targets((FIRST,), self.targets.everything, self.extra, 0)
 
-    def _converged(
+    def _with_targets(
         self, tree: ArborTree, left: int, extra: int, requested: int, blank: bool = True
     ) -> Iterator[ArborTree]:
         """Yield the ways to drive targets from the arbors with index `requested` and above; earlier arbors are done.
@@ -373,47 +373,47 @@ class TreeEnumeration:
         """
         if requested == len(tree):
             if left:
-                yield from self._extended(tree, left, extra)
+                yield from self._with_extra_arbor(tree, left, extra)
             elif not extra and _useful(tree):
                 yield tree
             return
         from_here = []
-        for aim in members(left):
-            low, high = self.aims.bounds[aim]
+        for target in members(left):
+            low, high = self.targets.bounds[target]
             period = tree[requested].period
             found = self.table.between(low / period, high / period)
             if found:
-                from_here.append([None, *(grown(tree, aim, requested, *self.table.terms(at)) for at in found)])
+                from_here.append([None, *(grown(tree, target, requested, *self.table.terms(at)) for at in found)])
         for taken in product(*from_here):
             arbors = tuple(arbor for arbor in taken if arbor is not None)
             if not arbors and not blank:
                 continue
-            rest = left & ~sum(1 << arbor.aim for arbor in arbors)
-            yield from self._converged(tree + arbors, rest, extra, requested + 1)
+            rest = left & ~sum(1 << arbor.target for arbor in arbors)
+            yield from self._with_targets(tree + arbors, rest, extra, requested + 1)
 
-    def _extended(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
+    def _with_extra_arbor(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
         """Yield the trees with one more additional arbor on any arbor of the tree."""
         if not extra:
             return
         for parent, arbor in enumerate(tree):
             ways: Sequence[int] = range(len(self.table))
             if extra <= 2:
-                sets = reached_sets(self.table, self.aims, arbor.log, left)
+                sets = reached_sets(self.table, self.targets, arbor.log, left)
                 good = self.closures[sets] & left == left if extra == 1 else sets > 0
                 ways = np.flatnonzero(good).tolist()
             for done, at in enumerate(ways):
                 if self.tell and extra == self.extra:
                     self.tell(parent * len(ways) + done, len(tree) * len(ways))
                 new = grown(tree, -1, parent, *self.table.terms(at))
-                yield from self._converged((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
+                yield from self._with_targets((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
             if extra == 2:
-                yield from self._chained(tree, left, parent)
+                yield from self._with_extra_chain(tree, left, parent)
 
-    def _chained(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
+    def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
         """Yield the trees whose last two additional arbors form a chain; the first of them drives only the second.
 
-        The second is determined from the targets: it drives one of them, and all others must be reachable from those that it
-        drives.
+        The second is determined from the targets: it drives one of them, and all others must be reachable from those
+        that it drives.
         """
         low, high = self._ends(left)
         logs, start = self.table.logs, tree[parent].log
@@ -426,18 +426,18 @@ class TreeEnumeration:
         for one, two in sorted(seen):
             inner = (*tree, grown(tree, -1, parent, *self.table.terms(one)))
             outer = (*inner, grown(inner, -1, len(tree), *self.table.terms(two)))
-            yield from self._converged(outer, left, 0, len(inner))
+            yield from self._with_targets(outer, left, 0, len(inner))
 
     def _ends(self, left: int) -> tuple[Floats, Floats]:
         """Return intervals of the logarithm of the period of an arbor that include all from which the targets can be
         reached.
         """
         logs, ranges = self.table.logs, []
-        for aim in members(left):
-            low, high = self.aims.logs[aim][0] - logs, self.aims.logs[aim][1] - logs
-            sets = np.full(len(logs), 1 << aim)
-            for other in members(left & ~(1 << aim)):
-                minimum, most = self.aims.logs[other][0] - high, self.aims.logs[other][1] - low
+        for target in members(left):
+            low, high = self.targets.logs[target][0] - logs, self.targets.logs[target][1] - logs
+            sets = np.full(len(logs), 1 << target)
+            for other in members(left & ~(1 << target)):
+                minimum, most = self.targets.logs[other][0] - high, self.targets.logs[other][1] - low
                 found = np.searchsorted(logs, most + ROUNDING) > np.searchsorted(logs, minimum - ROUNDING)
                 sets |= found.astype(np.int64) << other
             good = self.closures[sets] & left == left
@@ -449,25 +449,25 @@ class TreeEnumeration:
 def _useful(tree: ArborTree) -> bool:
     """Return whether every arbor shows a period or drives another arbor."""
     driving = {arbor.parent for arbor in tree}
-    return all(arbor.aim >= 0 or at in driving for at, arbor in enumerate(tree))
+    return all(arbor.target >= 0 or at in driving for at, arbor in enumerate(tree))
 
 
-def _closures(table: PairRatios, aims: PeriodTargets) -> Ints:
+def _closures(table: PairRatios, targets: PeriodTargets) -> Ints:
     """Return a table from each bit mask of targets to the targets that chains of single pairs reach from them.
 
     The targets themselves are included. The period of an arbor may be anywhere within its tolerance, so the result is a
     superset.
     """
     beside = []
-    for low, high in aims.bounds:
-        near = (bool(table.between(other_low / high, other_high / low)) for other_low, other_high in aims.bounds)
+    for low, high in targets.bounds:
+        near = (bool(table.between(other_low / high, other_high / low)) for other_low, other_high in targets.bounds)
         beside.append(sum(yes << at for at, yes in enumerate(near)))
-    found = np.zeros(aims.everything + 1, dtype=np.int64)
-    for start in range(1, aims.everything + 1):
+    found = np.zeros(targets.everything + 1, dtype=np.int64)
+    for start in range(1, targets.everything + 1):
         bits, before = start, 0
         while bits != before:
             before = bits
-            for aim in members(before):
-                bits |= beside[aim]
+            for target in members(before):
+                bits |= beside[target]
         found[start] = bits
     return found

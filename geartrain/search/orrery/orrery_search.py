@@ -132,7 +132,8 @@ class Orrery(Result):
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """Return a declaration as plain data: the first arbor turns once per `unit`, every output expects its exact speed.
+        """Return a declaration as plain data: the first arbor turns once per `unit`, every output expects its exact
+        speed.
 
         A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
 
@@ -204,9 +205,9 @@ def find_orrery(
 ) -> Orrery:
     """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger ones.
 
-    The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumerated trees give proofs, and
-    wider beams give better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and `complete`. The result
-    is deterministic unless the search was ended by time or by the user.
+    The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumerated trees give proofs,
+    and wider beams give better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and `complete`.
+    The result is deterministic unless the search was ended by time or by the user.
 
     Parameters
     ----------
@@ -249,17 +250,17 @@ def find_orrery(
     >>> found.wheels, found.complete, found.worst
     (6, True, Fraction(0, 1))
     """
-    aims = read_period_targets(periods, tolerance)
-    if first in aims.names or "frame" in (first, *aims.names):
+    targets = read_period_targets(periods, tolerance)
+    if first in targets.names or "frame" in (first, *targets.names):
         raise QuestionError(
             Problem(
                 "two arbors have the same name", f"the first arbor is {first!r}, and 'frame' is reserved", "rename one"
             )
         )
-    search = _Sharing(pair_ratios(counts), aims, seconds, tell)
+    search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)
     ended = search.run(effort, walk)
     if search.best is None:
-        raise _nothing(search, ended)
+        raise _not_found(search, ended)
     return _orrery(search, first, ended)
 
 
@@ -267,16 +268,16 @@ class _TimeUpError(Exception):
     """Internal signal that the time limit of the search was reached."""
 
 
-class _Sharing:
+class _OrrerySearch:
     """State of one search: the best tree so far, and the proved bounds."""
 
-    def __init__(self, table: PairRatios, aims: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
-        self.table, self.aims, self.tell = table, aims, tell
+    def __init__(self, table: PairRatios, targets: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
+        self.table, self.targets, self.tell = table, targets, tell
         self.end = None if seconds is None else time.monotonic() + seconds
         self.best: tuple[tuple[int, int, Fraction], ArborTree] | None = None
         self.sure = True
         self.walked = -1
-        self.minimum_pairs = len(aims.periods)
+        self.minimum_pairs = len(targets.periods)
 
     def run(self, effort: int, walk: int | None) -> str:
         """Run the search and return the reason for its end."""
@@ -306,18 +307,18 @@ class _Sharing:
 
     def _walk(self, extra: int) -> None:
         found = False
-        for tree in TreeEnumeration(self.table, self.aims, extra, self._pulse).trees():
+        for tree in TreeEnumeration(self.table, self.targets, extra, self._report_progress).trees():
             found = True
             self._offer(tree)
         self.walked = extra
-        if not found and self.minimum_pairs == len(self.aims.periods) + extra:
+        if not found and self.minimum_pairs == len(self.targets.periods) + extra:
             self.minimum_pairs += 1
 
     def _widen(self, width: int) -> None:
-        for part in BeamSearch(self.table, self.aims, self._pulse).run(width, _SEEDS_A_PART * width):
+        for part in BeamSearch(self.table, self.targets, self._report_progress).run(width, _SEEDS_A_PART * width):
             self._offer(part.tree)
 
-    def _pulse(self, done: int, total: int) -> None:
+    def _report_progress(self, done: int, total: int) -> None:
         if self.end is not None and time.monotonic() > self.end:
             raise _TimeUpError
         if self.tell:
@@ -330,7 +331,7 @@ class _Sharing:
         cost = wheels, len(tree)
         if self.best is not None and cost > self.best[0][:2]:
             return
-        worst = max(abs(self.aims.error(arbor.aim, arbor.period)) for arbor in tree if arbor.aim >= 0)
+        worst = max(abs(self.targets.error(arbor.target, arbor.period)) for arbor in tree if arbor.target >= 0)
         if self.best is None or (*cost, worst) < self.best[0]:
             self.best = ((*cost, worst), tree)
 
@@ -338,11 +339,11 @@ class _Sharing:
     def minimum_wheels(self) -> int:
         """Proved lower bound of the number of wheels.
 
-        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period has two,
-        because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated have more
-        additional arbors than those that were.
+        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period has
+        two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated
+        have more additional arbors than those that were.
         """
-        unseen = len(self.aims.periods) + 1 + 2 * (self.walked + 1)
+        unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
 
     @property
@@ -351,25 +352,25 @@ class _Sharing:
         return self.best is not None and self.best[0][0] <= self.minimum_wheels
 
 
-def _orrery(search: _Sharing, first: str, ended: str) -> Orrery:
+def _orrery(search: _OrrerySearch, first: str, ended: str) -> Orrery:
     """Build the result of the best tree, with names, senses and wheels."""
     assert search.best is not None
-    tree, aims = search.best[1], search.aims
+    tree, targets = search.best[1], search.targets
     _, meshes, _ = fewest_wheels(search.table, edges(tree))
-    names = _names(tree, aims, first)
+    names = _names(tree, targets, first)
     pairs = tuple(
         OrreryPair(*mesh, names[arbor.parent], name)
         for arbor, name, mesh in zip(tree[1:], names[1:], meshes, strict=True)
     )
     return Orrery(
-        dict(zip(aims.names, aims.periods, strict=True)),
-        dict(zip(aims.names, aims.tolerances, strict=True)),
+        dict(zip(targets.names, targets.periods, strict=True)),
+        dict(zip(targets.names, targets.tolerances, strict=True)),
         _arbors(tree, names, pairs),
         pairs,
         {
-            aims.names[arbor.aim]: aims.error(arbor.aim, arbor.period)
-            for arbor in sorted(tree, key=lambda arbor: arbor.aim)
-            if arbor.aim >= 0
+            targets.names[arbor.target]: targets.error(arbor.target, arbor.period)
+            for arbor in sorted(tree, key=lambda arbor: arbor.target)
+            if arbor.target >= 0
         },
         search.minimum_pairs,
         search.minimum_wheels,
@@ -377,10 +378,10 @@ def _orrery(search: _Sharing, first: str, ended: str) -> Orrery:
     )
 
 
-def _names(tree: ArborTree, aims: PeriodTargets, first: str) -> list[str]:
+def _names(tree: ArborTree, targets: PeriodTargets, first: str) -> list[str]:
     """Return the names of the arbors: the period shown, or a number."""
-    free = (name for name in map("arbor {}".format, count(1)) if name not in (first, *aims.names))
-    return [first, *(aims.names[arbor.aim] if arbor.aim >= 0 else next(free) for arbor in tree[1:])]
+    free = (name for name in map("arbor {}".format, count(1)) if name not in (first, *targets.names))
+    return [first, *(targets.names[arbor.target] if arbor.target >= 0 else next(free) for arbor in tree[1:])]
 
 
 def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) -> tuple[OrreryArbor, ...]:
@@ -392,14 +393,14 @@ def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) 
         wheels[pair.child].add(pair.driven)
         senses[pair.child] = -senses[pair.parent]
     return tuple(
-        OrreryArbor(name, arbor.period, senses[name], tuple(sorted(wheels[name])), arbor.aim >= 0)
+        OrreryArbor(name, arbor.period, senses[name], tuple(sorted(wheels[name])), arbor.target >= 0)
         for name, arbor in zip(names, tree, strict=True)
     )
 
 
-def _nothing(search: _Sharing, ended: str) -> QuestionError:
+def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     """Return the error for a search without a result, with the proved bounds."""
-    table, size = search.table, len(search.aims.periods)
+    table, size = search.table, len(search.targets.periods)
     minimum, most = table.counts[0], table.counts[-1]
     walked = f"all trees with up to {size + search.walked} pairs were enumerated; " if search.walked >= 0 else ""
     stopped = {"time": "the time limit was reached; ", "interrupted": "the search was interrupted; "}.get(ended, "")
@@ -436,24 +437,27 @@ class PartialTree:
     @property
     def key(self) -> _Key:
         """Key for duplicates, equal for trees whose arbors show the same targets with the same periods."""
-        return frozenset((arbor.aim, arbor.n, arbor.d) for arbor in self.tree)
+        return frozenset((arbor.target, arbor.n, arbor.d) for arbor in self.tree)
 
 
 class BeamSearch:
-    """Beam search that extends trees by at least one target at a time and keeps the `width` best with equally many targets.
+    """Beam search that extends trees by at least one target at a time and keeps the `width` best with equally many
+    targets.
 
     A move drives a target directly, or adds an arbor together with all targets in its reach. Wheels that a new pair can
-    share with pairs on the same arbor are counted when moves are ranked: for all moves by least common multiples in numpy,
-    and exactly for the selected ones. The search is deterministic.
+    share with pairs on the same arbor are counted when moves are ranked: for all moves by least common multiples in
+    numpy, and exactly for the selected ones. The search is deterministic.
     """
 
-    def __init__(self, table: PairRatios, aims: PeriodTargets, tell: Callable[[int, int], None] | None = None) -> None:
-        self.table, self.aims, self.tell = table, aims, tell
+    def __init__(
+        self, table: PairRatios, targets: PeriodTargets, tell: Callable[[int, int], None] | None = None
+    ) -> None:
+        self.table, self.targets, self.tell = table, targets, tell
         self._reaches: dict[tuple[int, int], ReachablePeriods] = {}
         self._entries = 0
         plain = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
         self._bulk = plain
-        self._windows = np.array(aims.logs).T
+        self._windows = np.array(targets.logs).T
         # stable sort: ties are ordered by ratio, on every machine
         self._plainest = np.argsort(plain, kind="stable")
 
@@ -461,10 +465,10 @@ class BeamSearch:
         """Yield complete trees as they are found; `seeds` additional arbors driven by the first are further initial
         trees.
         """
-        size = len(self.aims.periods)
-        root = PartialTree((FIRST,), self.aims.everything, 0, 0.0)
+        size = len(self.targets.periods)
+        root = PartialTree((FIRST,), self.targets.everything, 0, 0.0)
         # initial arbors without a period lead to targets that two pairs from the first arbor cannot reach
-        chosen = [root, *self._direct(root, 0), *self._blanks(root, seeds)]
+        chosen = [root, *self._direct(root, 0), *self._seed_trees(root, seeds)]
         levels: list[dict[_Key, PartialTree]] = [{} for _ in range(size)]
         for shown in range(size):
             for at, part in enumerate(chosen):
@@ -478,11 +482,11 @@ class BeamSearch:
             if shown + 1 < size:
                 chosen = _best(levels[shown + 1], width)
 
-    def _blanks(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
+    def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
         """Yield trees with an additional arbor much nearer to the periods than the last arbor, smallest ratio terms
         first.
         """
-        side = math.copysign(1.0, sum(low for low, _ in self.aims.logs))
+        side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
         nearer = self._plainest[side * self.table.logs[self._plainest] >= self.table.logs[-1] / 3]
         for at in nearer[:most].tolist():
             yield self._part((*part.tree, grown(part.tree, -1, len(part.tree) - 1, *self.table.terms(at))), part.left)
@@ -493,13 +497,13 @@ class BeamSearch:
         return PartialTree(tree, left, wheels, bulk)
 
     def _reach(self, arbor: TreeArbor, left: int) -> ReachablePeriods:
-        """Return the moves from an arbor to the remaining targets, cached for trees with the same arbor."""
+        """Return the moves from an arbor to the remaining targets, cached by arbor."""
         known = self._reaches.pop((arbor.n, arbor.d), None)
         if known is not None and left & ~known.requested:
             self._entries -= known.next.size
             known = None
         if known is None:
-            known = reach(self.table, self.aims, arbor.log, left)
+            known = reach(self.table, self.targets, arbor.log, left)
             self._entries += known.next.size
             while self._reaches and self._entries > _KEPT_ENTRIES:
                 self._entries -= self._reaches.pop(next(iter(self._reaches))).next.size
@@ -507,7 +511,7 @@ class BeamSearch:
         return known
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the most promising extensions of a partial tree by one additional arbor, and their direct extensions."""
+        """Yield the most promising extensions of a partial tree by one arbor, and their direct extensions."""
         reaches = [self._reach(arbor, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
         # separately for each gain: moves with more targets need more wheels, and would always be ranked lower
@@ -525,30 +529,30 @@ class BeamSearch:
         for parent in range(fresh, len(part.tree)):
             arbor = part.tree[parent]
             begin, end = self.table.logs.searchsorted(self._windows - arbor.log)
-            for aim in np.flatnonzero(end > begin).tolist():
-                if not part.left >> aim & 1:
+            for target in np.flatnonzero(end > begin).tolist():
+                if not part.left >> target & 1:
                     continue
-                for at in range(begin[aim], end[aim]):
-                    new = grown(part.tree, aim, parent, *self.table.terms(at))
-                    if self.aims.meets(aim, new.period):
-                        child = self._part((*part.tree, new), part.left & ~(1 << aim))
+                for at in range(begin[target], end[target]):
+                    new = grown(part.tree, target, parent, *self.table.terms(at))
+                    if self.targets.meets(target, new.period):
+                        child = self._part((*part.tree, new), part.left & ~(1 << target))
                         yield child
                         yield from self._direct(child, parent)
 
     def _moves(
         self, part: PartialTree, parent: int, known: ReachablePeriods
     ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-        """Return a table of moves, (moves, 5): targets gained, wheels needed, bulk, parent, row of the parent's reach."""
+        """Return a table of moves, (moves, 5): targets gained, wheels needed, bulk, parent, row of its reach."""
         sets = known.sets & part.left
         rows = np.flatnonzero(sets)
         gained = np.bitwise_count(sets[rows]).astype(np.int64)
         first = known.first[rows]
         wheels = 2 + 2 * gained - self._sharing(part.tree, parent, first)
         bulk = self._bulk[first].copy()
-        for aim in range(len(self.aims.periods)):
-            if not part.left >> aim & 1:
+        for target in range(len(self.targets.periods)):
+            if not part.left >> target & 1:
                 continue
-            further = known.next[rows, aim]
+            further = known.next[rows, target]
             good = further >= 0
             mine, own = first[good], further[good]
             wheels[good] -= self._joint(
@@ -582,22 +586,22 @@ class BeamSearch:
         """Build the tree after a move; None if exact arithmetic rejects all its targets."""
         tree = (*part.tree, grown(part.tree, -1, parent, *self.table.terms(int(known.first[at]))))
         extra, left = len(tree) - 1, part.left
-        for aim, further in enumerate(known.next[at]):
-            if further < 0 or not left >> aim & 1:
+        for target, further in enumerate(known.next[at]):
+            if further < 0 or not left >> target & 1:
                 continue
-            new = grown(tree, aim, extra, *self.table.terms(int(further)))
-            if self.aims.meets(aim, new.period):
-                tree, left = (*tree, new), left & ~(1 << aim)
+            new = grown(tree, target, extra, *self.table.terms(int(further)))
+            if self.targets.meets(target, new.period):
+                tree, left = (*tree, new), left & ~(1 << target)
         return self._part(tree, left) if left != part.left else None
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """Select the best partial trees. At most a few that show the same targets with the same periods are selected first."""
+    """Select the best partial trees, first at most a few with the same targets and periods."""
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []
     alike: Counter[_Key] = Counter()
     for part in sorted(level.values(), key=lambda part: part.rank):
-        shown = frozenset((arbor.aim, arbor.n, arbor.d) for arbor in part.tree if arbor.aim >= 0)
+        shown = frozenset((arbor.target, arbor.n, arbor.d) for arbor in part.tree if arbor.target >= 0)
         alike[shown] += 1
         (kept if alike[shown] <= _ALIKE else spare).append(part)
     kept = (kept[:width] + spare)[:width]

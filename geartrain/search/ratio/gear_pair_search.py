@@ -37,15 +37,15 @@ def find_pairs(
 ) -> tuple[GearStages, ...]:
     """Return all pairs of tooth counts whose ratio approximates `wanted`, nearest first; complete and exact.
 
-    wheels, pinions  tooth counts of the larger and of the smaller wheel. A ratio of 1 or more has a count of `wheels` as
-                     numerator and one of `pinions` as denominator; a ratio below 1 has the opposite.
+    wheels, pinions  tooth counts of the larger and of the smaller wheel. For a ratio of 1 or more, `wheels` are the
+                     numerators and `pinions` the denominators; for a ratio below 1 the opposite.
     tolerance        maximum absolute relative error; None for no limit
     best             maximum number of pairs. None lists all pairs within the tolerance, or 20 without a tolerance.
 
-    Pairs with equal absolute error are ordered by the sum of the counts, then by the larger count, then by the numerator.
-    The sense of rotation is not checked: an external pair reverses it, an internal pair keeps it. Ranges may extend to
-    10^12. `RangeError` is raised if more than a million pairs would have to be listed (`count_pairs` counts them), and for
-    a ratio more than 10^12 times beyond all pairs.
+    Pairs with equal absolute error are ordered by the sum of the counts, then by the larger count, then by the
+    numerator. The sense of rotation is not checked: an external pair reverses it, an internal pair keeps it. Ranges may
+    extend to 10^12. `RangeError` is raised if more than a million pairs would have to be listed (`count_pairs` counts
+    them), and for a ratio more than 10^12 times beyond all pairs.
     """
     boxes = _boxes(wanted, wheels, pinions)
     _check_reach(wanted.value, boxes)
@@ -53,7 +53,7 @@ def find_pairs(
     number = 20 if best is None and bound is None else best
     if number is not None and number < 1:
         raise QuestionError(Problem(f"best is {number}", "a list has at least one solution", "give 1 or more"))
-    found = [pair for box in boxes for pair in _found(wanted.value, box, bound, number)]
+    found = [pair for box in boxes for pair in _box_pairs(wanted.value, box, bound, number)]
     found.sort(key=lambda pair: _rank(wanted.value, pair))
     return tuple(_stages(wanted.value, pair) for pair in found[:number])
 
@@ -61,7 +61,8 @@ def find_pairs(
 def count_pairs(wanted: TargetRatio, wheels: Counts, pinions: Counts, tolerance: Fraction) -> int:
     """Return the number of pairs that `find_pairs` would list within `tolerance`, without listing them.
 
-    For contiguous ranges the grid points between two lines are counted. The time grows with the logarithm of the counts.
+    For contiguous ranges the grid points between two lines are counted. The time grows with the logarithm of the
+    counts.
     """
     bound = _checked(tolerance)
     return sum(box.number(*_limits(wanted.value, bound)) for box in _boxes(wanted, wheels, pinions))
@@ -81,8 +82,8 @@ class _Box:
     def windows(self, low: Fraction, high: Fraction) -> Iterator[tuple[int, bool, int, int]]:
         """Yield the windows of counts for which low <= top/beneath <= high.
 
-        Each window is a tuple of a count of the wheel with fewer counts in reach, True if that count is the numerator, and
-        the first and last count of the other wheel.
+        Each window is a tuple of a count of the wheel with fewer counts in reach, True if that count is the numerator,
+        and the first and last count of the other wheel.
         """
         (a, b), (c, d) = (low.numerator, low.denominator), (high.numerator, high.denominator)
         beneath = (-(-self.top.minimum * d // c), self.top.most * b // a if a > 0 else self.beneath.most)
@@ -105,8 +106,8 @@ class _Box:
     def number(self, low: Fraction, high: Fraction) -> int:
         """Count the pairs for which low <= top/beneath <= high, where high > 0."""
         if self.contiguous:
-            below = _under(self, low, strictly=True) if low > 0 else 0
-            return _under(self, high) - below
+            below = _count_below(self, low, strictly=True) if low > 0 else 0
+            return _count_below(self, high) - below
         return sum(
             _size(self.beneath if on_top else self.top, (first, last))
             for _, on_top, first, last in self.windows(low, high)
@@ -141,7 +142,7 @@ def _check_reach(value: Fraction, boxes: list[_Box]) -> None:
         raise RangeError(Problem(what, made, "use more stages, or a wider range of counts"))
 
 
-def _found(value: Fraction, box: _Box, tolerance: Fraction | None, number: int | None) -> list[_Pair]:
+def _box_pairs(value: Fraction, box: _Box, tolerance: Fraction | None, number: int | None) -> list[_Pair]:
     """Return the pairs of one box that are within the tolerance, or its `number` best pairs."""
     if tolerance is not None:
         inside = box.number(*_limits(value, tolerance))
@@ -164,8 +165,9 @@ def _found(value: Fraction, box: _Box, tolerance: Fraction | None, number: int |
 def _tree_is_shorter(value: Fraction, box: _Box, number: int) -> bool:
     """Return whether the Stern-Brocot tree needs fewer steps than a scan; both find the same pairs.
 
-    Let x be the ratio, and let the pairs in reach have denominators from L to U. A scan takes min(x, 1) (U - L) steps. The
-    tree visits all fractions with a denominator up to U; about a share 2 (U/L - 1) of them has a multiple in the ranges.
+    Let x be the ratio, and let the pairs in reach have denominators from L to U. A scan takes min(x, 1) (U - L) steps.
+    The tree visits all fractions with a denominator up to U; about a share 2 (U/L - 1) of them has a multiple in the
+    ranges.
     """
     if not box.contiguous:
         return False
@@ -207,7 +209,7 @@ def _by_scan(value: Fraction, box: _Box, number: int) -> list[_Pair]:
     return nsmallest(number, box.pairs(*_limits(value, tolerance)), key=lambda pair: _rank(value, pair))
 
 
-def _under(box: _Box, ratio: Fraction, strictly: bool = False) -> int:
+def _count_below(box: _Box, ratio: Fraction, strictly: bool = False) -> int:
     """Count the pairs of two ranges for which top/beneath <= ratio, or < ratio if `strictly`."""
     (first, last), (low, high) = box.top.spans[0], box.beneath.spans[0]
     n, d = ratio.numerator, ratio.denominator

@@ -241,7 +241,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
-    """Return every multiset of `below` numbers with a number not less than them: product, counts, index of that number."""
+    """Return every multiset of `below` numbers with a number >= all of them: product, counts, index of that number."""
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
     lows = np.concatenate([np.concatenate(parts), numbers[table][:, None]], axis=1)

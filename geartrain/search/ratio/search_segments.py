@@ -65,9 +65,7 @@ class SegmentPlan:
 
 
 def lay_out(question: StageProblem) -> SegmentPlan:
-    """Divide the search into segments with about two blocks of products each, denominators and matching numerators
-    together.
-    """
+    """Divide the search into segments of about two blocks of products each, numerators and denominators together."""
     size, value = question.stages, question.value
     spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
     # a single count has a span of 0
@@ -94,7 +92,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
 
 
 def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
-    """Return the number of multisets by the logarithm of their product, in bins of `width` from the smallest product."""
+    """Return the number of multisets by the logarithm of their product, in bins of `width` from the minimum."""
     places = np.array([log(count / counts[0]) / width for count in counts])
     one = np.bincount(places.astype(np.int64)).astype(np.float64)
     found = np.ones(1)
@@ -154,7 +152,7 @@ def block_of(question: StageProblem) -> int:
 
 
 def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
-    """Yield ranges of denominator and numerator products that cover every pair within the tolerance exactly once."""
+    """Yield ranges of denominator and numerator products that cover every pair within the tolerance once."""
     if not question.reachable:
         return
     most = block_of(question)
@@ -184,7 +182,7 @@ _CLOSE = Fraction(1, 10**40)  # at this distance only pairs with the same ratio 
 
 
 class ValueFinder:
-    """Count of all solutions by runs of equal products, and list of the best by error, sum, largest count and counts."""
+    """Count of all solutions by runs of equal products, and list of the best by error, sum and largest count."""
 
     def __init__(self, question: StageProblem, hint: Fraction, bound: tuple[int, Fraction, int] | None) -> None:
         self.question, self.hint = question, hint
@@ -277,9 +275,7 @@ class ValueFinder:
 
 
 def distinct(values: Ints) -> Span:
-    """Return the distinct values of an ascending array, (n,), and the index of their first occurrences and the end, (n
-    + 1,).
-    """
+    """Return the distinct values of an ascending array, (n,), and their first indices with the length, (n + 1,)."""
     fresh = np.ones(len(values), dtype=bool)
     fresh[1:] = values[1:] != values[:-1]
     at = np.flatnonzero(fresh)
@@ -287,7 +283,7 @@ def distinct(values: Ints) -> Span:
 
 
 def weight(under: Span, over: Span, span: Span) -> int:
-    """Count the pairs of multisets: for each denominator product, the multisets of the numerator products in its range."""
+    """Count the pairs of multisets: those of all numerator products in the range of each denominator product."""
     return int(((over[1][span[1]] - over[1][span[0]]) * (under[1][1:] - under[1][:-1])).sum())
 
 
@@ -337,15 +333,15 @@ class RowFinder:
         # numerator products within some window: number of windows opened minus number closed so far
         opened, closed = (np.bincount(ends, minlength=len(above[0]) + 1) for ends in span)
         needed = np.cumsum(opened - closed)[:-1] > 0
-        under = self._useful(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
-        over = self._useful(sets_of(*question.over.members(*top, above[0][needed])), question.beneath[0])
+        under = self._prune(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
+        over = self._prune(sets_of(*question.over.members(*top, above[0][needed])), question.beneath[0])
         if len(over.products) and len(under.products):
             first, last = cuts(over.products, under.products, low, high)
             for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
                 self.judge.see(over, under, j, i)
 
-    def _useful(self, sets: CountSets, minimum: int) -> CountSets:
-        """Remove the multisets that cannot be in a solution better than the list; only if every pair is a solution."""
+    def _prune(self, sets: CountSets, minimum: int) -> CountSets:
+        """Remove multisets that cannot be in a better solution than those listed, if every pair is a solution."""
         bound, by = self.judge.best.bound, self.question.by
         if not self.loose or bound is None or by not in ("total", "largest"):
             return sets
@@ -398,7 +394,7 @@ class StageFilter:
             near = np.flatnonzero(self._first(over, under, j, i) <= bound[0])
             self._rank(over, under, j[near], i[near], None)
         else:
-            good, found = self._suits(over, under, j, i)
+            good, found = self._feasible(over, under, j, i)
             self.count += len(good)
             self._rank(over, under, j[good], i[good], found)
 
@@ -422,26 +418,26 @@ class StageFilter:
         if len(rows):
             self.best.add(rows)
 
-    def _suits(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
-        """Return the indices of the pairs that satisfy the constraints, and their pairings; count the others by reason."""
+    def _feasible(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
+        """Return the pairs (indices) that satisfy the constraints, and their pairings; count the others by reason."""
         fit, at = self.fit, np.arange(len(j))
         top, beneath = over.counts[j], under.counts[i]
         if fit.different:
             # equal counts are neighbours after sorting
             both = np.sort(np.concatenate([top, beneath], axis=1), axis=1)
-            at = self._left(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "repeated count")
+            at = self._filter(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "repeated count")
         if fit.totals_matter:
             total, (minimum, most) = top[at].sum(axis=1) + beneath[at].sum(axis=1), fit.totals
-            at = self._left(at, (total >= minimum) & (total <= most), "sum of counts out of bounds")
+            at = self._filter(at, (total >= minimum) & (total <= most), "sum of counts out of bounds")
         by = self.question.by
         if not fit.pairs_matter and by not in ("hunting", "centres"):
             return at, None
         found = suited(top[at], beneath[at], fit, coprime=by == "hunting", centres=by == "centres")
         good = np.flatnonzero(found.possible)
-        at = self._left(at, found.possible, pairing_reason(self.question))
+        at = self._filter(at, found.possible, pairing_reason(self.question))
         return at, found.taken(good)
 
-    def _left(self, at: Ints, good: Bools, reason: str) -> Ints:
+    def _filter(self, at: Ints, good: Bools, reason: str) -> Ints:
         """Return the indices for which `good` is true, and count the others under the reason."""
         gone = len(at) - int(good.sum())
         if gone:

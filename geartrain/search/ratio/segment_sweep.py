@@ -76,7 +76,8 @@ def tally(question: StageProblem) -> dict[str, int]:
 def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
     """Search all reverted trains whose stages have a sum of counts in [low, high); same result as `search_segment`.
 
-    Every multiset of stages is visited once, as a lower and an upper half: meet in the middle on the products of ratios.
+    Every multiset of stages is visited once, as a lower and an upper half: meet in the middle on the products of
+    ratios.
     """
     question = stage_problem_of(task["question"])
     judge = StageFilter(question)
@@ -178,8 +179,8 @@ def within(question: StageProblem, means: Execution) -> SweepOutcome:
 def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     """Find the best solutions by absolute error, with proof.
 
-    The tolerance is increased until it includes enough solutions, so that all others have larger errors. The tolerance of
-    the problem is ignored.
+    The tolerance is increased until it includes enough solutions, so that all others have larger errors. The tolerance
+    of the problem is ignored.
     """
     search = _search_for(question)
     minimum, most = reach_of_errors(question.value, *question.reach)
@@ -224,7 +225,7 @@ class _ByProducts:
             raise RangeError(
                 Problem(
                     f"about {pairs:.1g} candidates are within the tolerance",
-                    f"these constraints, this order or the length of the list require a test of each; at most {_MOST:.0g} are tested",
+                    f"constraints, order or list length require a test of each, and at most {_MOST:.0g} are tested",
                     f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
                 )
             )
@@ -238,7 +239,7 @@ class _ByProducts:
             return None
         bound = None
         for number in (0, self.plan.densest):
-            reached = self._reached(tolerance, number, bound)[0]
+            reached = self._segment_bound(tolerance, number, bound)[0]
             bound = min((each for each in (bound, reached) if each), default=None)
         return bound
 
@@ -249,14 +250,14 @@ class _ByProducts:
         found = []
         for number in {0, self.plan.densest} if self.many else ():
             at = self.start()
-            bound, inside = self._reached(at, number)
+            bound, inside = self._segment_bound(at, number)
             while bound is None and at < _PILOT and (self.question.loose or _WIDER * inside < _ENOUGH):
                 at *= _WIDER
-                bound, inside = self._reached(at, number)
+                bound, inside = self._segment_bound(at, number)
             found.append(bound)
         return min((bound for bound in found if bound), default=None)
 
-    def _reached(self, tolerance: Fraction, number: int, known: Bound | None = None) -> tuple[Bound | None, int]:
+    def _segment_bound(self, tolerance: Fraction, number: int, known: Bound | None = None) -> tuple[Bound | None, int]:
         """Return the rank of the last solution kept from one segment, and the number of pairs that were inspected."""
         question = self.question
         result = search_segment(self._task(tolerance, self.plan.segments[number], known))
@@ -267,7 +268,7 @@ class _ByProducts:
     def sweep(self, tolerance: Fraction, bound: Bound | None, means: Execution) -> SweepOutcome:
         """Search all segments within a tolerance."""
         tasks = [self._task(tolerance, segment, bound) for segment in self.plan.segments]
-        return _swept(search_segment, tasks, self.question, tolerance, means)
+        return _run_tasks(search_segment, tasks, self.question, tolerance, means)
 
 
 class _BySums:
@@ -309,14 +310,14 @@ class _BySums:
             {"question": plain, "low": low, "high": min(low + step, sums.stop)}
             for low in range(sums.start, sums.stop, min(step, len(sums)))
         ]
-        return _swept(search_sums, tasks, question, tolerance, means)
+        return _run_tasks(search_sums, tasks, question, tolerance, means)
 
 
 def _search_for(question: StageProblem) -> _ByProducts | _BySums:
     return _BySums(question) if question.fit.reverted and not question.fit.internal else _ByProducts(question)
 
 
-def _swept(
+def _run_tasks(
     work: Callable[[Any], dict[str, Any]],
     tasks: list[Any],
     question: StageProblem,

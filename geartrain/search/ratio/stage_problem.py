@@ -47,14 +47,14 @@ class StageConstraints(Result):
     hunting: bool = False
     """Requirement that the two counts of every stage are coprime, so that every tooth meets every tooth of its mate."""
     reverted: bool = False
-    """Requirement that all stages have the same centre distance at the same module: equal sums of their counts, or equal
-    differences for a stage with a ring.
+    """Requirement that all stages have the same centre distance at the same module: equal sums of their counts, or
+    equal differences for a stage with a ring.
     """
     different: bool = False
     """Requirement that all counts are distinct."""
     internal: int = 0
-    """Number of internal meshes, 0 to the number of stages. An internal mesh keeps the sense of rotation, an external mesh
-    reverses it. The ring has more teeth than its pinion.
+    """Number of internal meshes, 0 to the number of stages. An internal mesh keeps the sense of rotation, an external
+    mesh reverses it. The ring has more teeth than its pinion.
     """
     minimum_total: int | None = None
     """Minimum sum of all counts."""
@@ -257,13 +257,13 @@ def suited(
     step = max(_CHUNK // (len(_arrangements(size, fit.internal)[0]) * size), 1)
     # at least one chunk, so that an empty result has its columns too
     parts = [
-        _judged(tops[at : at + step], beneaths[at : at + step], fit, coprime, centres)
+        _evaluate_chunk(tops[at : at + step], beneaths[at : at + step], fit, coprime, centres)
         for at in range(0, max(len(tops), 1), step)
     ]
     return FeasiblePairings(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def _judged(
+def _evaluate_chunk(
     tops: Ints, beneaths: Ints, fit: StageConstraints, coprime: bool, centres: bool
 ) -> tuple[Bools, Ints, Ints]:
     """Return the columns of `FeasiblePairings` for one chunk."""
@@ -335,9 +335,9 @@ def best_pairing(
 ) -> Pairs | None:
     """Return the best pairing that satisfies the constraints, or None if there is none.
 
-    The criteria are, in this order, the number of distinct centre distances (only if `centres`), the number of stages with
-    coprime counts, and the quotient of the maximum and the minimum ratio of a stage. The last `fit.internal` of the pairs
-    are internal; external and internal pairs are ascending.
+    The criteria are, in this order, the number of distinct centre distances (only if `centres`), the number of stages
+    with coprime counts, and the quotient of the maximum and the minimum ratio of a stage. The last `fit.internal` of
+    the pairs are internal; external and internal pairs are ascending.
 
     >>> best_pairing((39, 73, 91), (15, 34, 38))  # 39 and 15 have a common divisor
     ((39, 34), (73, 15), (91, 38))
@@ -402,7 +402,11 @@ def check_order(by: str) -> None:
     """Raise `QuestionError` if the order is unknown."""
     if by not in get_args(StageOrder):
         known = ", ".join(get_args(StageOrder))
-        raise QuestionError(Problem(f"'{by}' is not an order of solutions", "the order is one predefined criterion", f"use one of {known}"))
+        raise QuestionError(
+            Problem(
+                f"'{by}' is not an order of solutions", "the order is one predefined criterion", f"use one of {known}"
+            )
+        )
 
 
 @dataclass(frozen=True, slots=True)

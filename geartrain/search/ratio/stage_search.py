@@ -76,8 +76,8 @@ class StageFindings(Result):
     by: str
     """Order of `solutions`."""
     tolerance: Fraction | None
-    """Maximum absolute error as a fraction of the ratio: the requested one, or the one that proves the list. None if the
-    best pairs of long ranges were found without a tolerance.
+    """Maximum absolute error as a fraction of the ratio: the requested one, or the one that proves the list. None if
+    the best pairs of long ranges were found without a tolerance.
     """
     complete: bool
     """True if all candidates within the tolerance were examined; False if the search was interrupted."""
@@ -136,8 +136,8 @@ def find_stages(
 ) -> StageFindings:
     """Find and count the solutions of a ratio by stages of gear pairs, and list the best; meet in the middle.
 
-    For every denominator product the window of numerator products within the tolerance is found in a sorted list. The ends
-    of the windows are determined in integers, and the search is exhaustive.
+    For every denominator product the window of numerator products within the tolerance is found in a sorted list. The
+    ends of the windows are determined in integers, and the search is exhaustive.
 
     Parameters
     ----------
@@ -150,14 +150,14 @@ def find_stages(
         Admissible tooth counts of the numerator and the denominator for a ratio of 1 or more, and the opposite for a
         ratio below 1.
     tolerance : Fraction, optional
-        Maximum absolute error as a fraction of the ratio, 0 or more. Without it, the order by error finds and proves the
-        best, within a tolerance that includes enough of them; other orders use 1e-6, which `note` reports.
+        Maximum absolute error as a fraction of the ratio, 0 or more. Without it, the order by error finds and proves
+        the best, within a tolerance that includes enough of them; other orders use 1e-6, which `note` reports.
     best : int
         Maximum length of the list, 1 or more.
     by : {"error", "total", "largest", "distinct", "hunting", "centres"}
-        Primary criterion: minimum absolute error, sum of counts, largest count, number of distinct counts, maximum number
-        of stages with coprime counts, minimum number of centre distances. Ties are broken by absolute error, sum, largest
-        count, and the counts.
+        Primary criterion: minimum absolute error, sum of counts, largest count, number of distinct counts, maximum
+        number of stages with coprime counts, minimum number of centre distances. Ties are broken by absolute error,
+        sum, largest count, and the counts.
     fit : StageConstraints, optional
         Constraints on the counts.
     executor : concurrent.futures.Executor, optional
@@ -177,8 +177,8 @@ def find_stages(
     QuestionError
         If an argument is invalid.
     RangeError
-        If the tables of products would not fit in memory (more than about 400 counts for four or more stages), or if the
-        ratio is far out of reach.
+        If the tables of products would not fit in memory (more than about 400 counts for four or more stages), or if
+        the ratio is far out of reach.
 
     Examples
     --------
@@ -236,11 +236,11 @@ def _question(
     """Return the problem as plain data, the number of pairs of multisets, and a note on assumptions."""
     check_order(by)
     if not 1 <= stages <= MOST_STAGES:
-        raise _refused(f"stages is {stages}", f"it must be from 1 to {MOST_STAGES}", f"give 1 to {MOST_STAGES}")
+        raise _question_error(f"stages is {stages}", f"it must be from 1 to {MOST_STAGES}", f"give 1 to {MOST_STAGES}")
     if best < 1:
-        raise _refused(f"best is {best}", "a list has at least one solution", "give 1 or more")
+        raise _question_error(f"best is {best}", "a list has at least one solution", "give 1 or more")
     if tolerance is not None and tolerance < 0:
-        raise _refused(
+        raise _question_error(
             f"the tolerance is {tolerance}", "a tolerance must not be negative", "give 0 or more, such as 1e-6"
         )
     fit.check(stages)
@@ -319,7 +319,7 @@ def _check_reach(question: StageProblem) -> None:
         )
 
 
-def _refused(what: str, why: str, fix: str) -> QuestionError:
+def _question_error(what: str, why: str, fix: str) -> QuestionError:
     return QuestionError(Problem(what, why, fix))
 
 

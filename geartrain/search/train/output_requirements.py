@@ -46,7 +46,7 @@ class SpeedRequirement:
 
     @classmethod
     def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """Build the requirement of a target, with a relative tolerance `share` or, if None, with the error minimised."""
+        """Build the requirement of a target with a relative tolerance `share`; None minimises the error."""
         said = "" if share is None else f" within {decimal(share, 3)}"
         demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
         if share is None:
@@ -133,7 +133,7 @@ class OutputRequirement:
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
-        """Return the constraint on the function, graded requirements within `share`; None if all speeds are admissible."""
+        """Return the constraint on the function, graded requirements within `share`; None if unconstrained."""
         common: tuple[Interval, ...] = ((None, None),)
         for demand in self.demands:
             near = demand.within(share)
@@ -241,7 +241,7 @@ class SearchPart:
 
     domains: Domains
     """Wheel -> its admissible counts, ascending, in the order of declaration."""
-    askings: tuple[OutputRequirement, ...]
+    requirements: tuple[OutputRequirement, ...]
     """Outputs that the wheels influence."""
     conditions: tuple[IntervalConstraint, ...]
     """Conditions on loops and locks for the train to turn."""
@@ -258,7 +258,7 @@ class SearchPart:
 class TrainRequirements:
     """Requirements of a train in one or several states."""
 
-    askings: tuple[OutputRequirement, ...]
+    requirements: tuple[OutputRequirement, ...]
     conditions: tuple[IntervalConstraint, ...]
     remarks: tuple[str, ...]
     """Remarks on outputs that no free wheel influences and that violate their requirements, and on undetermined
@@ -317,37 +317,37 @@ def find_requirements(
     """Return all requirements on the outputs, in one state or in all states."""
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
-    askings: list[OutputRequirement] = []
+    requirements: list[OutputRequirement] = []
     conditions: dict[IntervalConstraint, None] = {}
     remarks: list[str] = []
     for one in states:
         prefix = f"{one}: " if len(states) > 1 else ""
         case, formulas = train.case(one), find_formulas(train, one, domains)
         conditions |= dict.fromkeys(find_turning_conditions(train, formulas))
-        for asking in find_output_requirements(train, case, formulas.outputs, tolerance):
-            asking = OutputRequirement(prefix + asking.name, asking.function, asking.demands)
-            if asking.function.wheels:
-                askings.append(asking)
+        for requirement in find_output_requirements(train, case, formulas.outputs, tolerance):
+            requirement = OutputRequirement(prefix + requirement.name, requirement.function, requirement.demands)
+            if requirement.function.wheels:
+                requirements.append(requirement)
             else:
-                remarks.extend(_idle(asking))
+                remarks.extend(_idle(requirement))
         remarks.extend(f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined)
-    return TrainRequirements(tuple(askings), tuple(conditions), tuple(remarks))
+    return TrainRequirements(tuple(requirements), tuple(conditions), tuple(remarks))
 
 
-def _idle(asking: OutputRequirement) -> Iterator[str]:
+def _idle(requirement: OutputRequirement) -> Iterator[str]:
     """Yield a remark on an output that no free wheel influences, if it violates its requirements."""
-    speed = asking.function.value({})
+    speed = requirement.function.value({})
     if speed is not None:
-        reached = asking.reached(speed)
+        reached = requirement.reached(speed)
         if not reached.met:
             said = f"its speed is {speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
-            yield f"no free wheel influences '{asking.name}', which violates its requirement: {said}"
+            yield f"no free wheel influences '{requirement.name}', which violates its requirement: {said}"
 
 
 def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
-    """Yield the connected components of the free wheels, in the order of declaration; idle wheels are separate parts."""
+    """Yield the connected components of the free wheels in the order of declaration; idle wheels are parts."""
     scopes = chain(
-        (asking.function.wheels for asking in demands.askings),
+        (requirement.function.wheels for requirement in demands.requirements),
         (condition.function.wheels for condition in demands.conditions),
         (rule.wheels for rule in rules),
     )
@@ -355,7 +355,9 @@ def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[Cou
         group = set(wheels)
         yield SearchPart(
             {wheel: domains[wheel] for wheel in wheels},
-            tuple(asking for asking in demands.askings if not group.isdisjoint(asking.function.wheels)),
+            tuple(
+                requirement for requirement in demands.requirements if not group.isdisjoint(requirement.function.wheels)
+            ),
             tuple(one for one in demands.conditions if not group.isdisjoint(one.function.wheels)),
             tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
         )

@@ -300,7 +300,7 @@ class PassResult:
 
     @property
     def removed(self) -> dict[str, int]:
-        """Reason -> number of assignments it rejected, in the order of evaluation; constraints of one name are summed."""
+        """Reason -> number of assignments it rejected, in the order of evaluation, summed by name."""
         found: dict[str, int] = {}
         for at in self.order:
             reason = self.reasons[at]
@@ -321,7 +321,7 @@ class PartSearch:
     runner: PassRunner
     limit: float
     """Maximum number of steps of one pass."""
-    alone: tuple[tuple[str, int], ...] = field(init=False)
+    removed_first: tuple[tuple[str, int], ...] = field(init=False)
     domains: Domains = field(init=False)
     rules: tuple[CountConstraint, ...] = field(init=False)
     _sample: SelectivitySample | None = field(init=False, default=None)
@@ -335,7 +335,7 @@ class PartSearch:
                 narrowed = narrow(domains, rule)
                 alone.append((rule.name, size_of(domains) - size_of(narrowed)))
                 domains = narrowed
-        self.alone, self.domains = tuple(alone), domains
+        self.removed_first, self.domains = tuple(alone), domains
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
 
     @property
@@ -345,18 +345,18 @@ class PartSearch:
             self._sample = SelectivitySample.of(self.domains)
         return self._sample
 
-    def without(self, *, rule: str = "", asking: OutputRequirement | None = None) -> PartSearch:
+    def without(self, *, rule: str = "", requirement: OutputRequirement | None = None) -> PartSearch:
         """Return the search without the constraints of one name, or without one output."""
         part = replace(
             self.part,
             rules=tuple(one for one in self.part.rules if one.name != rule),
-            askings=tuple(one for one in self.part.askings if one is not asking),
+            requirements=tuple(one for one in self.part.requirements if one is not requirement),
         )
         return PartSearch(part, self.order, self.runner, self.limit)
 
     def requested(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
         """Return all interval constraints of a pass."""
-        found = [asking.requested(share, strict) for asking in self.part.askings]
+        found = [requirement.requested(share, strict) for requirement in self.part.requirements]
         return (*self.part.conditions, *(one for one in found if one is not None))
 
     def chances(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
@@ -406,7 +406,7 @@ class AssignmentOrder:
     """Primary criterion; ties are broken by error, total, largest, and the counts in the order of the wheels."""
     best: int
     """Number of assignments to keep."""
-    askings: tuple[OutputRequirement, ...]
+    requirements: tuple[OutputRequirement, ...]
     """Outputs whose errors are compared."""
     declared: Mapping[str, int]
     """Wheel -> declared count, if it has one."""
@@ -414,16 +414,16 @@ class AssignmentOrder:
     @property
     def level(self) -> bool:
         """True if all solutions have the same error, because an exact speed is required of every output."""
-        return all(asking.exact for asking in self.askings)
+        return all(requirement.exact for requirement in self.requirements)
 
     def assignment(self, teeth: Mapping[str, int]) -> Assignment | None:
         """Evaluate the outputs for some counts; None if one has no speed."""
         outputs = {}
-        for asking in self.askings:
-            speed = asking.function.value(teeth)
+        for requirement in self.requirements:
+            speed = requirement.function.value(teeth)
             if speed is None:
                 return None
-            outputs[asking.name] = asking.reached(speed)
+            outputs[requirement.name] = requirement.reached(speed)
         changed = tuple(wheel for wheel, count in teeth.items() if self.declared.get(wheel, count) != count)
         return Assignment(dict(teeth), outputs, changed)
 
@@ -447,8 +447,8 @@ class AssignmentOrder:
         size = len(next(iter(columns.values())))
         minimum, maximum = np.zeros(size), np.zeros(size)
         if not self.level:
-            for asking in self.askings:
-                low, high = _errors(asking, columns)
+            for requirement in self.requirements:
+                low, high = _errors(requirement, columns)
                 minimum, maximum = np.maximum(minimum, low), np.maximum(maximum, high)
         return minimum, maximum
 
@@ -457,22 +457,22 @@ class AssignmentOrder:
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
         if self.level:
             return found
-        exact = [_exact_errors(asking, columns) for asking in self.askings]
+        exact = [_exact_errors(requirement, columns) for requirement in self.requirements]
         rank = {error: at for at, error in enumerate(sorted({error for errors, _ in exact for error in errors}))}
         for errors, which in exact:
             found = np.maximum(found, np.array([rank[error] for error in errors], dtype=np.int64)[which])
         return found
 
 
-def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
+def _errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
     """Return lower and upper bounds of the maximum absolute error of one output."""
-    function = asking.function
+    function = requirement.function
     # a count is rounded at most once, if it exceeds 2^53
     quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
     speed, off = quotient.bounded(products_of([columns[wheel].astype(np.float64) for wheel in function.wheels]))
     size = len(next(iter(columns.values())))
     minimum, maximum = np.zeros(size), np.zeros(size)
-    for demand in (demand for demand in asking.demands if demand.graded):
+    for demand in (demand for demand in requirement.demands if demand.graded):
         wanted = as_float(demand.wanted)
         if wanted is None:
             return np.zeros(size), np.full(size, inf)
@@ -487,14 +487,14 @@ def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floa
     return minimum, maximum
 
 
-def _exact_errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
+def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
     """Return the exact absolute error of each distinct speed of an output, and the index of the speed of each
     assignment.
     """
-    function = asking.function
+    function = requirement.function
     above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
     speeds, which = distinct_quotients(above, below)
-    return [abs(asking.reached(speed).error) for speed in speeds], which
+    return [abs(requirement.reached(speed).error) for speed in speeds], which
 
 
 def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:

@@ -36,8 +36,8 @@ class ReachedSpeed(Result):
     label: str
     """Requirement with the maximum error, such as "period 583.92 d"."""
     error: Fraction
-    """Relative error of that requirement: |speed| / requested - 1 for a target, speed / expected - 1 for an `expect` (the
-    speed itself if 0 is expected).
+    """Relative error of that requirement: |speed| / requested - 1 for a target, speed / expected - 1 for an `expect`
+    (the speed itself if 0 is expected).
     """
     met: bool
     """True if the output satisfies all its requirements."""
@@ -132,8 +132,8 @@ class PartFindings(Result):
     solutions: tuple[Assignment, ...]
     """Best assignments, best first."""
     shortfall: Shortfall
-    """Numbers of rejected assignments. Each is counted under the constraint at which the search rejected it; the constraints
-    are listed in the order of evaluation.
+    """Numbers of rejected assignments. Each is counted under the constraint at which the search rejected it; the
+    constraints are listed in the order of evaluation.
     """
 
 
@@ -222,7 +222,8 @@ class TrainFindings(Result):
         Parameters
         ----------
         teeth : mapping of str to int
-            Free wheel -> tooth count. `QuestionError` is raised for wheels that are not free, and if no part is complete.
+            Free wheel -> tooth count. `QuestionError` is raised for wheels that are not free, and if no part is
+            complete.
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
@@ -260,8 +261,8 @@ class TrainFindings(Result):
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
     """Yield the best combinations of one solution of each part, best first, by a search with a priority queue.
 
-    The solutions of every part are sorted, so the next best combination is one step in one part from a combination that was
-    already visited. (Numbers of distinct counts do not add over parts; that order is therefore only approximate.)
+    The solutions of every part are sorted, so the next best combination is one step in one part from a combination that
+    was already visited. (Numbers of distinct counts do not add over parts; that order is therefore only approximate.)
     """
     if not parts or not all(parts):
         return

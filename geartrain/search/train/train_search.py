@@ -1,4 +1,4 @@
-"""Search for tooth counts in a train: all assignments of its free wheels for which all outputs meet their requirements."""
+"""Search for tooth counts in a train: all assignments of its free wheels that satisfy all requirements."""
 
 from __future__ import annotations
 
@@ -43,22 +43,22 @@ _WIDEST = Fraction(10**6)
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
     """Return the pass that counts, the best assignments, and whether they are proved to be the best."""
-    if any(asking.approached for asking in search.part.askings):
+    if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.tally.best, passed.tally.listed and passed.complete
     by_error = search.order.by == "error" and not search.order.level
-    passed = search.run(None, _most(search) if by_error else search.limit / 8)
+    passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.tally.listed or not passed.complete:
         return passed, passed.tally.best, passed.tally.listed and passed.complete
-    top, some = _top(search), ceil(sqrt(search.order.best * _most(search)))
-    guess = top * Fraction(some, passed.tally.count) if _powers(search) == 1 else top / 10
+    top, some = _error_bound(search), ceil(sqrt(search.order.best * _list_limit(search)))
+    guess = top * Fraction(some, passed.tally.count) if _count_inexact(search) == 1 else top / 10
     narrowed = _fitting(search, guess, top, some)
     return passed, narrowed.tally.best, by_error and narrowed.tally.listed and narrowed.complete
 
 
 def widened(search: PartSearch) -> PassResult:
     """Run passes until the tolerance includes the requested number of assignments, or all."""
-    return _fitting(search, _first(search), None, 3 * search.order.best)
+    return _fitting(search, _initial_tolerance(search), None, 3 * search.order.best)
 
 
 def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: int) -> PassResult:
@@ -75,7 +75,7 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
         share = _rounded(guess)
         if share < _MINIMUM or share > _WIDEST or (long is not None and not short < share < long):
             break
-        passed = search.run(share, _most(search))
+        passed = search.run(share, _list_limit(search))
         enough = passed.tally.count >= search.order.best
         if not passed.complete or (enough and passed.tally.listed):
             return passed
@@ -93,23 +93,23 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
     return search.run(long if short else Fraction(0), search.limit / 8)
 
 
-def _most(search: PartSearch) -> int:
+def _list_limit(search: PartSearch) -> int:
     """Return the maximum number of assignments that are enumerated to find the best by error."""
     return max(_LISTED, 4 * search.order.best)
 
 
-def _powers(search: PartSearch) -> int:
+def _count_inexact(search: PartSearch) -> int:
     """Return the number of outputs that have an error."""
-    return sum(not asking.exact for asking in search.part.askings)
+    return sum(not requirement.exact for requirement in search.part.requirements)
 
 
-def _first(search: PartSearch) -> Fraction:
+def _initial_tolerance(search: PartSearch) -> Fraction:
     """Estimate the tolerance that includes about the requested number of assignments."""
     trial = Fraction(1, 1000)
     # the number of hits is proportional to the tolerance to the power of the number of outputs with errors
     hits = size_of(search.domains) * prod(search.chances(search.requested(trial)).values())
     # 1e-300: a forecast may underflow to 0 in float64
-    guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_powers(search), 1))
+    guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_count_inexact(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))
 
 
@@ -117,7 +117,7 @@ def _growth(search: PartSearch, count: int, some: int) -> Fraction:
     """Return the factor by which to increase the tolerance if only `count` assignments were found."""
     # nothing found: the maximum step
     missing = some / count if count else 1e9
-    return Fraction(min(10.0, max(1.5, missing ** (1 / max(_powers(search), 1)))))
+    return Fraction(min(10.0, max(1.5, missing ** (1 / max(_count_inexact(search), 1)))))
 
 
 def _rounded(share: Fraction) -> Fraction:
@@ -125,26 +125,26 @@ def _rounded(share: Fraction) -> Fraction:
     return Fraction(f"{float(share):.1e}")
 
 
-def _top(search: PartSearch) -> Fraction:
+def _error_bound(search: PartSearch) -> Fraction:
     """Return an upper bound of the error of all solutions."""
     largest = Fraction(0)
-    for asking in search.part.askings:
-        requested = asking.requested(None)
+    for requirement in search.part.requirements:
+        requested = requirement.requested(None)
         for interval in requested.intervals if requested else ():
             for end in interval:
-                errors = [abs(one.error(end)) for one in asking.demands if one.graded and end is not None]
+                errors = [abs(one.error(end)) for one in requirement.demands if one.graded and end is not None]
                 largest = max([largest, *errors])
     return largest or Fraction(1)
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:
     """Return the search with every graded requirement replaced by the minimisation of its error."""
-    askings = tuple(
-        replace(asking, demands=tuple(one.loosened() if one.graded else one for one in asking.demands))
-        for asking in search.part.askings
+    requirements = tuple(
+        replace(requirement, demands=tuple(one.loosened() if one.graded else one for one in requirement.demands))
+        for requirement in search.part.requirements
     )
-    part = replace(search.part, askings=askings)
-    order = replace(search.order, by="error", best=1, askings=askings)
+    part = replace(search.part, requirements=requirements)
+    order = replace(search.order, by="error", best=1, requirements=requirements)
     return PartSearch(part, order, search.runner, search.limit)
 
 
@@ -157,45 +157,45 @@ def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
     if passed.tally.count or not passed.complete:
         return found
     # the explanation must not cost more than the search
-    nearest, advice = _explained(PartSearch(search.part, search.order, search.runner, search.limit / 4))
+    nearest, advice = _explain(PartSearch(search.part, search.order, search.runner, search.limit / 4))
     return found if search.runner.stopped else replace(found, nearest=nearest, advice=advice)
 
 
 def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
     """Return the number of assignments that each constraint and requirement rejected, in the order of evaluation."""
-    removed = dict(search.alone)
+    removed = dict(search.removed_first)
     for reason, number in passed.removed.items():
         removed[reason] = removed.get(reason, 0) + number
     return Shortfall(search.part.considered, removed)
 
 
-def _explained(search: PartSearch) -> tuple[str, str]:
+def _explain(search: PartSearch) -> tuple[str, str]:
     """Describe the nearest miss, and the constraints to relax."""
-    wrong = [asking for asking in search.part.askings if _turns_wrong(asking)]
+    wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(requirement)]
     if wrong:
-        names = ", ".join(f"'{asking.name}'" for asking in wrong)
+        names = ", ".join(f"'{requirement.name}'" for requirement in wrong)
         return f"{names} turn in the opposite sense for all counts", "change the required sign, or add an idler"
     best = _nearest(search)
-    others = "; ".join(_without(search))
+    others = "; ".join(_relaxations(search))
     if best is None:
         return "", others or "no single requirement is the cause: widen the ranges of the wheels"
-    alone = "; ".join(_alone(search)) if len(search.part.askings) > 1 else ""
+    alone = "; ".join(_individual_errors(search)) if len(search.part.requirements) > 1 else ""
     nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (individually, {alone})" if alone else "")
-    advice = f"a relative tolerance of {_up(best.error)} includes it"
+    advice = f"a relative tolerance of {_rounded_up(best.error)} includes it"
     return nearest, advice + (f"; {others}" if others else "")
 
 
-def _turns_wrong(asking: OutputRequirement) -> bool:
+def _has_wrong_sense(requirement: OutputRequirement) -> bool:
     """Return whether the required sense of rotation cannot be obtained with any counts."""
-    requested = asking.requested(None)
-    senses = [_sense(terms) for terms in (asking.function.numerator, asking.function.denominator)]
+    requested = requirement.requested(None)
+    senses = [_sense(terms) for terms in (requirement.function.numerator, requirement.function.denominator)]
     if requested is None or not all(senses):
         return False
     lasting = senses[0] * senses[1]
-    return bool(requested.intervals) and all(_against(interval, lasting) for interval in requested.intervals)
+    return bool(requested.intervals) and all(_is_opposite(interval, lasting) for interval in requested.intervals)
 
 
-def _against(interval: Interval, sense: int) -> bool:
+def _is_opposite(interval: Interval, sense: int) -> bool:
     """Return whether an interval has only speeds of the opposite sense."""
     low, high = interval
     # an interval that ends at 0 includes rest, so it is not only of the opposite sense
@@ -213,38 +213,38 @@ def _nearest(search: PartSearch) -> Assignment | None:
     """Return the assignment with the minimum error that satisfies all constraints; None if none was found within the
     limit.
     """
-    if not search.part.askings or not size_of(search.domains):
+    if not search.part.requirements or not size_of(search.domains):
         return None
     best = widened(relaxed_search(search)).tally.best
     return search.order.assignment(best[0].teeth) if best else None
 
 
-def _alone(search: PartSearch) -> Iterator[str]:
+def _individual_errors(search: PartSearch) -> Iterator[str]:
     """Yield the minimum error of each output without the requirements on the others."""
-    for asking in search.part.askings:
-        part = replace(search.part, askings=(asking,))
-        order = replace(search.order, askings=(asking,))
+    for requirement in search.part.requirements:
+        part = replace(search.part, requirements=(requirement,))
+        order = replace(search.order, requirements=(requirement,))
         best = _nearest(PartSearch(part, order, search.runner, search.limit))
         if best is not None:
-            yield f"{asking.name} has an error of {decimal(best.error, 3)}"
+            yield f"{requirement.name} has an error of {decimal(best.error, 3)}"
 
 
-def _without(search: PartSearch) -> Iterator[str]:
+def _relaxations(search: PartSearch) -> Iterator[str]:
     """Yield the number of solutions without one constraint, or without one output, if there are several."""
     names = dict.fromkeys(rule.name for rule in search.part.rules)
-    if len(names) + len(search.part.askings) < 2:
+    if len(names) + len(search.part.requirements) < 2:
         return
     for name in names:
         passed = search.without(rule=name).run(None, 0)
         if passed.tally.count:
-            yield f'without the constraint "{name}" there {_are(passed)}'
-    for asking in search.part.askings:
-        passed = search.without(asking=asking).run(None, 0)
+            yield f'without the constraint "{name}" there {_solution_count(passed)}'
+    for requirement in search.part.requirements:
+        passed = search.without(requirement=requirement).run(None, 0)
         if passed.tally.count:
-            yield f"without the requirement on '{asking.name}' there {_are(passed)}"
+            yield f"without the requirement on '{requirement.name}' there {_solution_count(passed)}"
 
 
-def _are(passed: PassResult) -> str:
+def _solution_count(passed: PassResult) -> str:
     count = passed.tally.count
     minimum = "" if passed.complete else "at least "
     return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
@@ -261,7 +261,7 @@ def _errors(assignment: Assignment) -> str:
     )
 
 
-def _up(error: Fraction) -> str:
+def _rounded_up(error: Fraction) -> str:
     """Format a magnitude rounded up to two digits."""
     if not error:
         return "0"
@@ -340,13 +340,14 @@ def search_train(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> TrainFindings:
-    """Find all tooth counts of the free wheels of a train that satisfy every requirement, count them, and list the best.
+    """Find all tooth counts of the free wheels of a train that satisfy every requirement, count them, and list the
+    best.
 
     The algorithm is an exact join of lists of products of counts along the factors that the outputs share, so that many
     more assignments can be counted than listed; all comparisons are in integers. The requirements on an output are its
-    `expect` and `published`, at their digits and in their sense; every target that has a tolerance; and, with `tolerance`,
-    the first target if none has one. The error of an output with targets but without any of these is minimised: the
-    `best` assignments by error are found, and proved by increasing a common tolerance.
+    `expect` and `published`, at their digits and in their sense; every target that has a tolerance; and, with
+    `tolerance`, the first target if none has one. The error of an output with targets but without any of these is
+    minimised: the `best` assignments by error are found, and proved by increasing a common tolerance.
 
     Parameters
     ----------
@@ -355,8 +356,8 @@ def search_train(
     state : str, optional
         State of a train with states; by default the requirements of all states.
     free : str or sequence of str
-        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those, and all wheels whose count has a `range` or
-        `choices`. Otherwise names of wheels, each of which must have one of the three. Wheels without any count are
+        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those, and all wheels whose count has a `range`
+        or `choices`. Otherwise names of wheels, each of which must have one of the three. Wheels without any count are
         always free.
     rules : ConstraintOptions or sequence of constraints, optional
         Further constraints on the counts; by default `ConstraintOptions()`.
@@ -366,11 +367,11 @@ def search_train(
         Maximum number of solutions to list.
     by : {"error", "total", "largest", "distinct", "change"}
         Primary criterion of their order: maximum error of an output, sum of counts, largest count, number of distinct
-        counts, or number of wheels changed from their declared count. Ties are broken by error, total, largest count, and
-        the counts.
+        counts, or number of wheels changed from their declared count. Ties are broken by error, total, largest count,
+        and the counts.
     limit : int
-        Maximum number of steps (partial assignments examined) of a pass. If it is exceeded, a random sample is searched,
-        and `complete` is False.
+        Maximum number of steps (partial assignments examined) of a pass. If it is exceeded, a random sample is
+        searched, and `complete` is False.
     executor : concurrent.futures.Executor, optional
         Executor of the tasks; this process by default. It does not change the result.
     journal : Journal, optional
@@ -408,12 +409,14 @@ def search_train(
     {'JO1': 31, 'JO2': 55, 'JX': 31}
     """
     if by not in ORDERS:
-        raise QuestionError(Problem(f"unknown order '{by}'", "the order is one predefined criterion", suggest(by, ORDERS)))
+        raise QuestionError(
+            Problem(f"unknown order '{by}'", "the order is one predefined criterion", suggest(by, ORDERS))
+        )
     domains = find_domains(train, free)
     demands = find_requirements(train, state, domains, tolerance)
     if rules is None or isinstance(rules, ConstraintOptions):
         rules = find_constraints(train, domains, rules or ConstraintOptions())
-    if not demands.askings and not rules:
+    if not demands.requirements and not rules:
         fix = "declare `targets`, or an `expect`, at an output that the wheels influence"
         raise QuestionError(
             Problem("nothing is required of the free wheels", "no output with a requirement depends on them", fix)
@@ -421,7 +424,7 @@ def search_train(
     declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
     runner = PassRunner(executor, journal, tell)
     searches = [
-        PartSearch(part, AssignmentOrder(by, max(best, 1), part.askings, declared), runner, float(limit))
+        PartSearch(part, AssignmentOrder(by, max(best, 1), part.requirements, declared), runner, float(limit))
         for part in find_parts(demands, domains, rules)
     ]
     parts = tuple(_found(one) for one in searches)
@@ -440,8 +443,8 @@ def _found(search: PartSearch) -> PartFindings:
     part = search.part
     return PartFindings(
         tuple(part.domains),
-        tuple(asking.name for asking in part.askings),
-        tuple(asking.text for asking in part.askings),
+        tuple(requirement.name for requirement in part.requirements),
+        tuple(requirement.text for requirement in part.requirements),
         tuple(dict.fromkeys(rule.name for rule in part.rules)),
         part.considered,
         passed.tally.count,
@@ -468,7 +471,8 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
         return "interrupted: the count covers only the finished part"
     if passed.searched < 1:
         share = decimal(Fraction(passed.searched), 2)
-        return f"about {passed.steps:.1e} steps, above the limit of {search.limit:.1e}: a random share of {share} was searched"
+        limit = f"{search.limit:.1e}"
+        return f"about {passed.steps:.1e} steps, above the limit of {limit}: a random share of {share} was searched"
     if passed.tally.cut:
         return f"the limit of {search.limit:.1e} steps was reached"
     if not ranked and search.runner.stopped:
@@ -509,16 +513,16 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
             found.append(requested.name)
     if assignment is None:
         return [*found, "the train is locked or free"]
-    askings = {asking.name: asking for asking in part.askings}
+    requirements = {requirement.name: requirement for requirement in part.requirements}
     for name, reached in assignment.outputs.items():
         if not reached.met:
-            found.append(f"{askings[name].text}: error {decimal(reached.error, 3)}")
+            found.append(f"{requirements[name].text}: error {decimal(reached.error, 3)}")
     return found
 
 
 def _rank(search: PartSearch, assignment: Assignment) -> int | None:
     """Return one plus the number of assignments with a smaller error; None if the count is not complete."""
-    if not assignment.error or not search.part.askings:
+    if not assignment.error or not search.part.requirements:
         return 1
     passed = search.run(assignment.error, 0, strict=True)
     return passed.tally.count + 1 if passed.complete else None

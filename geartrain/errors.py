@@ -202,6 +202,7 @@ def install_command(extra: str) -> str:
         needs = requires("geartrain") or ()
     except PackageNotFoundError:  # a copy of the sources that is not installed
         needs = ()
+    # requirements have the form `numpy>=2; extra == "fast"`
     split = [need.replace('"', "'").partition(";") for need in needs]
     packages = [f"'{package.strip()}'" for package, _, marker in split if f"extra == '{extra}'" in marker]
     return f"pip install {' '.join(packages)}" if packages else f"pip install -e '.[{extra}]'"

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 Stage = Literal["speeds", "transmission functions", "motion", "torques"]
 
 _TURNS = 20.0  # revolutions of the input over which motion is computed
-_TOLERANCES = (1e-6, 1e-12)  # of tables [pitch]
-_SAMPLES = (20_000, 2_000, 200, 20)  # of torque over a revolution; the first is the reference
+_TOLERANCES = (1e-6, 1e-12)  # tolerances of tables [pitch]
+_SAMPLES = (20_000, 2_000, 200, 20)  # numbers of positions per revolution for torque; the first is the reference
 _PASSAGES = 6_000  # tooth engagements in a run, times the number of evaluated pairs
 _ENOUGH, _LONG = 0.1, 5.0  # [s] total time after which a task is not repeated; the second even after one run
 _REFERENCE = "reference for the other methods"

@@ -215,6 +215,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     names: dict[frozenset[str], list[str]] = {}
     for name, state in train.declaration.states.items():
         names.setdefault(frozenset(state.engaged), []).append(name)
+    # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(elements) + 1):
         if comb(len(elements), size) > MOST_COMBINATIONS:
             what = f"{comb(len(elements), size):,} ways to close {size} of {len(elements)} elements"

@@ -287,6 +287,7 @@ def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
     net: dict[tuple[PowerNode, PowerNode], Fraction] = {}
     for stream in flow.streams:
         ends = node(stream.source), node(stream.target)
+        # opposite streams between the same nodes cancel
         net[ends] = net.get(ends, Fraction(0)) + stream.power - net.pop(ends[::-1], Fraction(0))
     directed = ((ends, power) if power > 0 else (ends[::-1], -power) for ends, power in net.items() if power)
     return [PowerStream(source, target, power) for (source, target), power in directed]

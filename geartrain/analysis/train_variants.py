@@ -98,6 +98,7 @@ def find_variants(
     grid = np.meshgrid(*(np.array(each, dtype=np.int64) for each in choices.values()), indexing="ij")
     columns = {wheel: axis.ravel() for wheel, axis in zip(choices, grid, strict=True)}
     speeds, errors = (np.empty((number, len(names))) for _ in range(2))
+    # combinations for which the train is neither locked nor free
     turns = np.ones(number, dtype=bool)
     for condition in formulas.conditions:
         turns &= condition.values(columns) == 0

@@ -32,10 +32,10 @@ def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints
     total = int(upto[-1]) if len(upto) else 0
     for begin in range(0, total, most):
         stop = min(begin + most, total)
-        # the ranges that hold `begin` and `stop` - 1; empty ranges before the first of them are stepped over
+        # the ranges that include `begin` and `stop` - 1; empty ranges before them are skipped
         first, last = np.searchsorted(upto, begin, side="right"), np.searchsorted(upto, stop, side="left") + 1
         low, high = starts[first:last].copy(), ends[first:last].copy()
-        # the first and the last range of a block may be cut by it
+        # the block may include only a part of its first and last range
         low[0] = high[0] - (upto[first] - begin)
         high[-1] -= upto[last - 1] - stop
         owner, numbers = spread(low, high)
@@ -49,10 +49,10 @@ def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction]
     """
     if above.dtype != below.dtype:
         above, below = above.astype(object), below.astype(object)
-    # in lowest terms with the sign above, equal quotients are equal pairs
+    # in lowest terms with positive denominators, equal quotients are equal pairs
     common = np.gcd(above, below) * np.where(below < 0, -1, 1)
     above, below = above // common, below // common
-    if above.dtype == object:  # lexsort takes no Python integers
+    if above.dtype == object:  # lexsort does not support Python integers
         pairs = list(zip(above.tolist(), below.tolist(), strict=True))
         order = np.array(sorted(range(len(pairs)), key=pairs.__getitem__), dtype=np.int64)
     else:

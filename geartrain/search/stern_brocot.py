@@ -99,6 +99,7 @@ def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
         length = min(term, room)
         if length:
             yield SternBrocotRun(near, far, term, length, _first_best(value, near, far, length))
+        # the bounds end the path before the end of the run
         if room < term:
             return
         near, far = far, (near[0] + term * far[0], near[1] + term * far[1])
@@ -173,8 +174,10 @@ def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> t
     while True:
         below, above = n * low[1] - d * low[0], d * high[0] - n * high[1]
         room = _room(low, high, most)
+        # as many steps along the run as keep the lower neighbour below the value
         step = min(room, (below - 1) // above) if above else room
         low = (low[0] + step * high[0], low[1] + step * high[1])
+        # likewise the upper neighbour, which may be equal to the value
         back = min(_room(high, low, most), above // (below - step * above))
         high = (high[0] + back * low[0], high[1] + back * low[1])
         if not step and not back:
@@ -238,6 +241,7 @@ def _onward(before: IntegerPair, at: IntegerPair, most: IntegerPair) -> Iterator
     (a, b), (c, d) = before, at
     while d:
         yield c, d
+        # recurrence of the Farey sequence
         k = min((most[0] + a) // c, (most[1] + b) // d)
         a, b, c, d = c, d, k * c - a, k * d - b
 

@@ -130,6 +130,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     """
     if len(text) > _MOST_CHARACTERS:
         raise _problem(f"the ratio has {len(text)} characters", "a number has at most 400 characters", f"write {_WAYS}")
+    # a typographic minus sign is accepted
     label = " ".join(text.replace("−", "-").split())
     sense: Literal[-1, 0, 1] = -1 if label.startswith("-") else 1 if label.startswith("+") else 0
     terms = [_term(part, label) for part in _parts(label[abs(sense) :].strip(), label)]
@@ -194,6 +195,7 @@ def _with_word(number: str, word: str) -> _Term:
     except PydanticCustomError:
         return _Term("things", _figure(number), word, shown)
     if quantity.dimension == "time":
+        # [s] to [d], the unit of the table of periods
         return _Term("time", quantity.base / 86400, word, shown)
     if word in _TURNS:
         return _Term("things", quantity.value, word, shown)

@@ -72,6 +72,7 @@ class CountRuns(Sequence[int]):
         """
         found: list[tuple[int, int]] = []
         for first, last in sorted(spans):
+            # adjacent spans are merged too
             if found and first <= found[-1][1] + 1:
                 found[-1] = (found[-1][0], max(found[-1][1], last))
             else:

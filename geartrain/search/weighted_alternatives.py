@@ -126,6 +126,7 @@ class WeightedAlternatives(Generic[Node]):
         self._ways: dict[Node, list[Any]] = {}
         self._below: dict[Node, list[Any]] = {}
         self._inside: dict[Node, Any] = {}
+        # depth-first traversal with a stack, because the graph may be deeper than the recursion limit
         waiting = [(root, False)]
         while waiting:
             node, known = waiting.pop()
@@ -152,7 +153,7 @@ class WeightedAlternatives(Generic[Node]):
         outside: dict[Node, Any] = dict.fromkeys(self._inside, 0)
         outside[self.root] = self._inside[self.root] ** 0  # 1 for each row
         found: dict[Hashable, Any] = {}
-        for node in reversed(self._inside):  # each after all that lead to it
+        for node in reversed(self._inside):  # in reverse order, every node comes after all nodes that refer to it
             for way, below in zip(self._ways[node], self._below[node], strict=True):
                 around, inside = way.around(outside[node]), way.below(self._inside)
                 way.tell(found, around, below)
@@ -175,6 +176,7 @@ class WeightedAlternatives(Generic[Node]):
 
 def draw_index(weights: list[int], chance: Random) -> int:
     """Draw an index with a probability proportional to its integer weight, exactly; at least one weight is positive."""
+    # integers, because floats would round the probabilities of large weights
     left = chance.randrange(sum(weights))
     return next(at for at, reached in enumerate(accumulate(weights)) if left < reached)
 
@@ -192,7 +194,7 @@ def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
 def relative_entropy(after: Iterable[float], before: Iterable[float | Fraction]) -> float:
     """Return the Kullback-Leibler divergence of the probabilities `after` from the probabilities `before` [bit]."""
     pairs = zip(after, before, strict=False)
-    # never negative but for rounding
+    # rounding may make it slightly negative
     return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
 
 

@@ -105,6 +105,7 @@ class LiveServer:
                 if event.event_type in ("modified", "created", "moved", "deleted"):
                     paths = {Path(str(path)).resolve() for path in (event.src_path, event.dest_path) if path}
                     if paths & {path.resolve() for path in known}:
+                        # the observer runs in its own thread
                         loop.call_soon_threadsafe(changed.set)
 
         server = HTTPServer(self._application())
@@ -113,6 +114,7 @@ class LiveServer:
 
         def watch() -> None:
             known[:] = self.watched()
+            # folders are watched, because editors may replace a file instead of writing it
             for folder in {path.resolve().parent for path in known} - folders:
                 observer.schedule(Saved(), str(folder))
                 folders.add(folder)

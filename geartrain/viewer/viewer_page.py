@@ -174,6 +174,7 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
 
 def json_in_script(data: object) -> str:
     """Return JSON that is safe inside a script element, whatever its strings contain."""
+    # NaN is not valid JSON
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.translate(str.maketrans(_IN_SCRIPTS))
 

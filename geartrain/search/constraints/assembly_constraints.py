@@ -135,6 +135,7 @@ class _ConstraintBuilder:
                     "give radius and modules with units; without modules a radius is a plain number of modules",
                 )
             )
+        # pitch radius r = m z / 2
         return int(2 * radius.base / module)
 
     # --------------------------------------------------------------------------------------------------------- coaxial
@@ -146,6 +147,7 @@ class _ConstraintBuilder:
         first: dict[object, AssemblyMesh] = {}
         for mesh in self.fitting.meshes:
             if mesh.spur and mesh.module is not None:
+                # all meshes of a group are compared with its first one
                 before = first.setdefault((mesh.carrier, frozenset(mesh.axes), mesh.measure), mesh)
                 yield from self._one_distance(before, mesh)
 
@@ -154,6 +156,7 @@ class _ConstraintBuilder:
         shift = self.requested.shift * min(before.module or 1, mesh.module or 1)
         if not (before.is_free or mesh.is_free) or self._is_broken(total, shift):
             return
+        # the free counts cancel, so the constraint depends on fixed counts only
         if not total.terms:
             if abs(total.constant) > shift:
                 raise QuestionError(_unequal_distances(before, mesh))
@@ -348,6 +351,7 @@ class LoopPhasing:
     def __call__(self, columns: CandidateColumns) -> Bools:
         """Return the candidates for which no loop fails or is undecided, (candidates,)."""
         rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
+        # each distinct combination of counts is tested once
         each, back = np.unique(rows, axis=0, return_inverse=True)
         found = [self.holds(dict(zip(self.wheels, row, strict=True))) for row in each.tolist()]
         return np.array(found, dtype=bool)[back.reshape(-1)]
@@ -426,6 +430,7 @@ class DeclaredPositions:
             return 0.0
         way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
         arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
+        # component along the axes, which does not count
         along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
         return sqrt(max(sum(x * x for x in arm) - along, 0.0))
 

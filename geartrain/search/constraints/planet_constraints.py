@@ -136,6 +136,7 @@ class PassingClearance:
         A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
         # the triangle of the central axis and the two planets must close
         found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
+        # partners of all other planets, not only of the adjacent ones
         for step in range(1, self.number):
             turn = Fraction(step, self.number)
             found = found & is_positive(passing_terms, [A, B, D, tips], [cosine(turn), sine(turn)], True)

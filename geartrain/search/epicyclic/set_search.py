@@ -385,6 +385,7 @@ def blocks(
     step = max(1, 20_000 // max(1, len(inner[0])))
     for at in range(0, len(first), step):
         head = first[at : at + step]
+        # Cartesian product of the independent counts
         columns = [np.repeat(head, len(inner[0])), *(np.tile(column, len(head)) for column in inner)]
         chosen = dict(zip(kind.free, columns, strict=True))
         for extra in product(range(-slack, slack + 1), repeat=len(_followers(kind))):
@@ -415,6 +416,7 @@ def _add_dependent_counts(
     for (first, other), more in zip(_followers(kind), extra, strict=True):
         distance = columns[first.wheel] + (-1 if first.internal else 1) * columns[first.mesh] + more
         columns[other.wheel] = distance + (1 if other.internal else -1) * columns[other.mesh]
+        # early, because the other tests cost more
         columns = _select(columns, _allowed(columns[other.wheel], bounds[other.wheel]))
     if kind.idle:
         columns = _with_idle(kind, bounds, columns, planets, clearance)
@@ -551,6 +553,7 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     # avoids a division by 0 for a planet on the central axis, which does not fit anyway
     cosine = (first**2 + second**2 - (columns[a] + columns[b]) ** 2) / np.maximum(2 * first * second, 1)
     angle = np.arccos(np.clip(cosine, -1, 1))
+    # planets of the second kind at all positions other than that of the own partner
     for turn in range(1, planets):
         cosine = np.cos(2 * pi * turn / planets - angle)
         apart = np.sqrt(np.maximum(first**2 + second**2 - 2 * first * second * cosine, 0))

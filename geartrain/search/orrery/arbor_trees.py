@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 ROUNDING = 1e-12
 """Error bound of logarithms of periods and ratios whose magnitude is below 100."""
-_MOST_PAIRS = 2 * 10**7  # of counts in the table
-_MOST_STEPS = 4000  # of one tree; a first complete assignment is always found
+_MOST_PAIRS = 2 * 10**7  # maximum number of pairs of counts in the table
+_MOST_STEPS = 4000  # maximum for one tree; a first complete assignment is always found
 
 
 @dataclass(frozen=True)
@@ -98,6 +98,7 @@ def read_period_targets(
     return PeriodTargets(
         tuple(periods),
         tuple(Fraction(value) for value in periods.values()),
+        # the shortest decimal of a float, so that 1e-6 is exactly 1/1000000
         tuple(Fraction(str(slack[name])) for name in periods),
     )
 
@@ -204,6 +205,7 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
     """
     logs, size = table.logs, len(table)
     found = np.full((len(targets.periods), size), -1, dtype=np.int32)
+    # remainders after a first pair, up to a constant, in ascending order
     falling = -logs[::-1]
     for target in members(requested):
         low, high = targets.logs[target][0] - log_period - ROUNDING, targets.logs[target][1] - log_period + ROUNDING
@@ -279,6 +281,7 @@ class _Search:
                 self.best = (wheels, tuple(self.taken))
             return
         parent, child = self.edges[at][:2]
+        # choices that share most wheels first, so that good bounds are found early
         ranked = sorted(
             (int(not self.used[parent, driver]) + int(not self.used[child, driven]), driver + driven, driver, driven)
             for driver, driven in self.options[at]
@@ -287,6 +290,7 @@ class _Search:
             self.steps += 1
             if self.steps > _MOST_STEPS and self.best[1]:
                 return
+            # the remaining pairs need at least `rest` further wheels
             if wheels + fresh + self.rest[at + 1] >= self.best[0]:
                 continue
             for wheel in ((parent, driver), (child, driven)):
@@ -397,6 +401,7 @@ class TreeEnumeration:
             return
         for parent, arbor in enumerate(tree):
             ways: Sequence[int] = range(len(self.table))
+            # with one or two arbors left, a new arbor must have targets in reach
             if extra <= 2:
                 sets = reached_sets(self.table, self.targets, arbor.log, left)
                 good = self.closures[sets] & left == left if extra == 1 else sets > 0

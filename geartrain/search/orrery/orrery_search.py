@@ -36,11 +36,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Ints
 
 
-_KEPT_ENTRIES = 3 * 10**7  # of the cache of reaches: 240 MB of int64
-_TRIED = 20  # moves of each gain that are evaluated exactly
+_KEPT_ENTRIES = 3 * 10**7  # maximum size of the cache of reaches: 240 MB of int64
+_TRIED = 20  # number of moves of each gain that are evaluated exactly
 _ALIKE = 3  # trees with the same targets and periods that are selected before others
 _Key = frozenset[tuple[int, int, int]]
-_WALKABLE = 2 * 10**5  # steps of an enumeration by default
+_WALKABLE = 2 * 10**5  # maximum number of steps of an enumeration by default
 _SEEDS_A_PART = 4  # initial additional arbors for each tree of the beam
 
 Tell = Callable[[int, int], None]
@@ -327,6 +327,7 @@ class _OrrerySearch:
     def _offer(self, tree: ArborTree) -> None:
         """Keep a tree if it is better: fewer wheels, then fewer pairs, then a smaller maximum error."""
         wheels, _, proved = fewest_wheels(self.table, edges(tree))
+        # an unproved number of wheels is only an upper bound, so it proves nothing
         self.sure = self.sure and proved
         cost = wheels, len(tree)
         if self.best is not None and cost > self.best[0][:2]:

@@ -21,7 +21,7 @@ from geartrain.search.stern_brocot import nearest_first
 from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import CountRuns, Counts
 
-_MOST_PAIRS = 10**6  # listed
+_MOST_PAIRS = 10**6  # maximum length of a list of pairs
 _MOST_SCANNED = 10**6  # counts that are scanned if a list has gaps
 _MOST_BOXES = 400  # pairs of runs, for longer lists with gaps
 _FAR = 10**12  # factor beyond the ratios of all counts
@@ -86,6 +86,7 @@ class _Box:
         and the first and last count of the other wheel.
         """
         (a, b), (c, d) = (low.numerator, low.denominator), (high.numerator, high.denominator)
+        # counts of each wheel for which some count of the other wheel may be in reach
         beneath = (-(-self.top.minimum * d // c), self.top.most * b // a if a > 0 else self.beneath.most)
         top = (-(-self.beneath.minimum * a // b), self.beneath.most * c // d)
         if _size(self.beneath, beneath) <= _size(self.top, top):
@@ -154,6 +155,7 @@ def _box_pairs(value: Fraction, box: _Box, tolerance: Fraction | None, number: i
                     "request only the best, or reduce the tolerance",
                 )
             )
+        # no more pairs are requested than exist, otherwise the algorithms would not terminate
         number = min(inside, number or inside)
     else:
         number = min(number or 0, len(box.top) * len(box.beneath))
@@ -190,6 +192,7 @@ def _by_tree(value: Fraction, box: _Box, number: int) -> list[_Pair]:
         p, q = fraction.numerator, fraction.denominator
         first = max(-(-box.top.minimum // p), -(-box.beneath.minimum // q))
         multiples = range(first, min(box.top.most // p, box.beneath.most // q) + 1)
+        # of one fraction only the `number` smallest multiples can be among the best
         found += [(k * p, k * q) for k in islice(multiples, number)]
         if last is None and len(found) >= number:
             # a fraction with the same error on the other side may have fewer teeth

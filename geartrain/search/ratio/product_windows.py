@@ -124,8 +124,8 @@ def rounded_up(bound: float | Fraction) -> Fraction:
 MOST_STAGES = 5
 PLAIN = 1 << 52
 """Limit of products as int64, which float64 represents exactly; larger products are Python integers (dtype object)."""
-_MOST_OBJECTS = 2 * 10**6  # products as Python integers in memory
-_MOST_ROWS = 12 * 10**6  # of the tables in memory
+_MOST_OBJECTS = 2 * 10**6  # maximum number of products as Python integers in memory
+_MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -183,6 +183,7 @@ class ProductWindows:
         """Return the products in [low, high), ascending, one for each multiset."""
         row, column = self._places(low, high)
         found = self.rows[row]
+        # in place, because a window is the largest array of the search
         found *= self.highs[column]
         found.sort()
         return found
@@ -193,6 +194,7 @@ class ProductWindows:
         found = self.rows[row] * self.highs[column]
         if not len(among):
             return found[:0], np.empty((0, self.size), dtype=self.lows.dtype)
+        # clipped, so that products above all of `among` have a valid index
         at = np.minimum(np.searchsorted(among, found), len(among) - 1)
         here = np.flatnonzero(among[at] == found)
         here = here[np.argsort(found[here], kind="stable")]
@@ -220,6 +222,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
     plain = counts[-1] ** size < PLAIN if plain is None else plain
     check_memory(counts, size, plain)
     numbers = np.array(counts, dtype=np.int64 if plain else object)
+    # low and high parts of about equal size minimise the memory
     below = (size - 1) // 2
     rows, lows, table = _rows(numbers, below)
     if size - 1 - below < 2:
@@ -277,8 +280,10 @@ def _factor(
         return
     for at in range(start, len(counts)):
         count = counts[at]
+        # counts ascend, so all further products exceed `rest`
         if count**size > rest:
             return
+        # the other counts must be able to reach the quotient
         if rest % count == 0 and rest // count <= counts[-1] ** (size - 1):
             _factor(rest // count, counts, at, size - 1, (*chosen, count), found)
 

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     Span = tuple[Ints, Ints]
 
 
-_BINS = 256  # of the histogram of logarithms of counts
+_BINS = 256  # number of bins of the histogram of logarithms of counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +72,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     width = max(*spans, 1e-6) / _BINS
     over, under = (_spread(counts, size, width) for counts in (question.top, question.beneath))
     start = size * log(question.beneath[0])
+    # offset between the bins of numerators and denominators with the requested ratio
     shift = (size * log(question.beneath[0] / question.top[0]) + log(value.numerator) - log(value.denominator)) / width
     at = np.arange(len(under))
     beside = np.interp(at + shift, np.arange(len(over)), over, left=0.0, right=0.0)
@@ -79,6 +80,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     minimum, most = question.beneath[0] ** size, question.beneath[-1] ** size
     if not len(used):
         return SegmentPlan((minimum, most + 1), 0, 0.0)
+    # the cost of a segment is the number of its products on both sides
     work = np.cumsum((under + beside)[used])
     number = max(ceil(work[-1] / (2 * block_of(question))), 1)
     places = np.searchsorted(work, work[-1] * np.arange(1, number) / number) + used[0] + 1
@@ -261,6 +263,7 @@ class ValueFinder:
             beneaths = expand(int(under[at]), self.question.beneath, size)
             tops = expand(int(over[at]), self.question.top, size)
             fresh += [key_of(0, top, beneath, value) for top in tops for beneath in beneaths]
+            # merged in batches, which limits the cost of sorting
             if len(fresh) >= best:
                 self.keys, fresh = merged([*self.keys, *fresh], best), []
         self.keys = merged([*self.keys, *fresh], best)
@@ -327,6 +330,7 @@ class RowFinder:
         below, above = distinct(question.under.values(*beneath)), distinct(question.over.values(*top))
         span = cuts(above[0], below[0], low, high)
         self.count += weight(below, above, span)
+        # denominators with at least one numerator within the tolerance
         used = span[1] > span[0]
         if not used.any():
             return

@@ -64,6 +64,7 @@ def tally(question: StageProblem) -> dict[str, int]:
     sums = {APART: question.considered, SHARED: 0, TOTAL: 0}
     for total in sums_of(question):
         stages = stages_of(question, total)
+        # multisets of stages with this sum, before and after the test for common divisors
         whole = multisets(len(stages), size) if stages else 0
         good = sum(gcd(*stage) == 1 for stage in stages) if fit.hunting else len(stages)
         left = multisets(good, size) if good else 0
@@ -124,6 +125,7 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
     """Return whether each over / under is within the tolerance, exactly."""
     if not len(over):
         return np.zeros(0, dtype=bool)
+    # `cuts` requires ascending products
     values = np.unique(over)
     first, last = cuts(values, under, *question.edges)
     at = np.searchsorted(values, over)
@@ -238,6 +240,7 @@ class _ByProducts:
         if not self.many:
             return None
         bound = None
+        # the first segment has the smallest counts, the densest one the smallest errors
         for number in (0, self.plan.densest):
             reached = self._segment_bound(tolerance, number, bound)[0]
             bound = min((each for each in (bound, reached) if each), default=None)
@@ -284,6 +287,7 @@ class _BySums:
         question = self.question
         stages = (len(stages_of(question, total)) for total in sums_of(question))
         number = sum(multisets(count, question.stages) for count in stages if count)
+        # width of the range of the logarithm of the ratio
         span = question.stages * log(question.top[-1] * question.beneath[-1] / question.top[0] / question.beneath[0])
         return rounded_up(min(4 * question.best * max(span, 1e-3) / max(number, 1), 1.0))
 
@@ -325,6 +329,7 @@ def _run_tasks(
     means: Execution,
 ) -> SweepOutcome:
     """Run all segments and merge their results; a keyboard interrupt returns the results so far."""
+    # a single task runs in this process, without the overhead of an executor
     alone = len(tasks) == 1
     results = iter([work(tasks[0])]) if alone else means.run(work, tasks)
     count, keys, complete = 0, list[StageRank](), True

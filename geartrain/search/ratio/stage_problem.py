@@ -344,6 +344,7 @@ def best_pairing(
     """
     fit = fit or StageConstraints()
     found: dict[Pairs, tuple[int, int]] = {}
+    # a set, because repeated counts give equal permutations
     for order in set(permutations(beneath)):
         stages = tuple(zip(top, order, strict=True))
         for chosen in combinations(range(len(stages)), fit.internal):
@@ -353,6 +354,7 @@ def best_pairing(
                 found[pairs] = merit
     if not found:
         return None
+    # a common multiple of the denominators, so that ratios are compared as integers
     minimum, scale = min(found.values()), prod(beneath)
     return min((_spread(pairs, scale), pairs) for pairs, merit in found.items() if merit == minimum)[1]
 
@@ -509,6 +511,7 @@ class BestStages:
         """Add rows to the candidates."""
         self._parts.append(rows)
         self._held += len(rows)
+        # several times the list length is stored between two sorts, which amortises their cost
         if self._held > max(4 * self.best, 1 << 17):
             self._settle()
 

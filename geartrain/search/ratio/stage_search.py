@@ -192,6 +192,7 @@ def find_stages(
     """
     fit = fit or StageConstraints()
     larger, smaller = CountRuns.of(wheels), CountRuns.of(pinions)
+    # a single external pair reverses the sense, so a positive sense has no solution
     plain = by == "error" and fit == StageConstraints() and wanted.sense <= 0
     if stages == 1 and plain and max(len(larger), len(smaller)) > _LONG:
         return _long_ranges(wanted, larger, smaller, tolerance, best)
@@ -350,6 +351,7 @@ def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sens
     removed = account(question, considered, outcome)
     if outcome.count:
         return Shortfall(considered, removed)
+    # the journal belongs to the search itself, not to its explanation
     one, means = replace(question, by="error", best=1), replace(means, journal=None)
     try:
         miss = nearest(one, means)

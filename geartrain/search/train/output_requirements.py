@@ -70,6 +70,7 @@ class SpeedRequirement:
         """Return the admissible speeds; for a graded requirement only those within the relative tolerance `share`."""
         if share is None or not self.graded:
             return self.allowed
+        # the tolerance is absolute if the requested speed is 0
         size = abs(self.wanted) or Fraction(1)
         near = (_around(self.wanted, share * size),) if self.signed else _magnitudes(self.wanted, share)
         return near if self.allowed is None else meet(near, self.allowed)
@@ -98,6 +99,7 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
     found = []
     for a, b in left:
         for c, d in right:
+            # None is an unbounded end
             low = a if c is None else c if a is None else max(a, c)
             high = b if d is None else d if b is None else min(b, d)
             if low is None or high is None or low <= high:
@@ -225,6 +227,7 @@ def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interva
         ends = sorted((drive / low, drive / high))
         yield ends[0], ends[1]
         return
+    # the interval of ratios includes 0, so the speeds are unbounded
     rays = [drive / end for end in (low, high) if end]
     yield from ((None, ray) if ray < 0 else (ray, None) for ray in sorted(rays))
 

@@ -107,6 +107,7 @@ class PassWork:
 
 @lru_cache(maxsize=1)
 def _unpacked(packed: bytes) -> tuple[PassWork, ExactJoin]:
+    # unpickled once per process and pass, not once per task
     work = pickle.loads(packed)
     assert isinstance(work, PassWork)
     return work, ExactJoin(work.question)
@@ -240,6 +241,7 @@ class PassRunner:
             return NOTHING
         journal = None if self.journal is None else cast(Journal, _Section(self.journal, self.done))
         before, tell = self.done, self.tell
+        # tasks of later passes have higher numbers in the journal
         self.done += len(tasks)
 
         def told(done: int, total: int) -> None:
@@ -375,6 +377,7 @@ class PartSearch:
         requested = self.requested(share, strict)
         question = find_join_problem(self.domains, requested, self.rules, self.chances(requested))
         tasks, searched = cut(question, self.limit)
+        # `most` may be infinite
         work = PassWork(question, self.order, int(min(most, 1 << 62)))
         tally = self.runner.run(work, tasks)
         return PassResult(share, searched, tally, question.reasons, question.order, question.steps)
@@ -481,6 +484,7 @@ def _errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple
             slack = off / abs(wanted) + 4 * ROUNDING * (1 + error)
         else:
             error, slack = np.abs(speed), off
+        # an error that is not finite has no bound, so it excludes nothing
         slack = np.where(np.isfinite(error), slack, inf)
         error = np.where(np.isfinite(error), error, 0.0)
         minimum, maximum = np.maximum(minimum, error - slack), np.maximum(maximum, error + slack)

@@ -36,7 +36,7 @@ _LISTED = 100_000
 """Maximum number of assignments that are enumerated to find the best by error; if there are more, the tolerance is
 reduced.
 """
-_TRIES = 40  # passes with different tolerances
+_TRIES = 40  # maximum number of passes with different tolerances
 _MINIMUM = Fraction(1, 10**40)  # smaller tolerances include nothing, tolerances above `_WIDEST` include everything
 _WIDEST = Fraction(10**6)
 
@@ -50,7 +50,9 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.tally.listed or not passed.complete:
         return passed, passed.tally.best, passed.tally.listed and passed.complete
+    # geometric mean of the number needed and the number that can be listed
     top, some = _error_bound(search), ceil(sqrt(search.order.best * _list_limit(search)))
+    # with one inexact output the number of solutions is about proportional to the tolerance
     guess = top * Fraction(some, passed.tally.count) if _count_inexact(search) == 1 else top / 10
     narrowed = _fitting(search, guess, top, some)
     return passed, narrowed.tally.best, by_error and narrowed.tally.listed and narrowed.complete

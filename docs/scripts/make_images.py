@@ -118,7 +118,7 @@ def sphere() -> None:
 def report() -> None:
     """Part of the report on the Antikythera train."""
     whole = describe_train(collect_report(geartrain.load("pennestri-2002")))
-    part = Document(whole.title, whole.lead, [section for section in whole.sections if section.title in SECTIONS])
+    part = Document(whole.title, whole.summary, [section for section in whole.sections if section.title in SECTIONS])
     console = Console(record=True, width=100, highlight=False, file=io.StringIO(), force_terminal=True)
     to_terminal([part], console)
     title = "geartrain report trains/antikythera/pennestri-2002.yaml"

@@ -107,10 +107,10 @@ def _turns(text: str, motion: Motion) -> float:
 
 def _partial(to: Sink) -> Sink:
     """Where the figures of an interrupted run go. A table has a partial file of its own, which can be taken up."""
-    from geartrain.numerics.files import partial_name
-
     if to.path is None or to.suffix == ".csv":
         return STANDARD
+    from geartrain.numerics.files import partial_name
+
     return sink(partial_name(to.path), to.force)
 
 

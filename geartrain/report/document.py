@@ -5,14 +5,16 @@ Tables are fitted into a width: columns wrap at words, and a table that is still
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import zip_longest
+from typing import Any
 
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import picture_maker
+from geartrain.numerics.results import field_docs, picture_maker
 
 
 class ExactText(str):
@@ -79,10 +81,42 @@ class Table:
     """True for matrices, which a terminal shows in strips of columns and never wraps."""
 
 
-def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int) -> Table:
+def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
     """A table without the columns in which no row says anything, but for the first so many."""
     used = [at for at in range(len(header)) if at < always or any(row[at] for row in rows)]
-    return Table([header[at] for at in used], [[row[at] for at in used] for row in rows])
+    return _chosen(Table(header, rows, wide), used)
+
+
+_UNIT = re.compile(r"\[(.+?)\]")
+"""The unit in the docstring of a field."""
+_CellColumn = tuple[str, Callable[[Any], str]]
+"""Head of a column, and the function that returns its cell for a result."""
+
+
+def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
+    """Return a table of results of one class, one row for each.
+
+    columns   name of a field, `field:digits` of a number; its head is the name with the unit of the field's docstring,
+              or is given before it, `head=field:digits`; or a head and a function that returns the cell of a result
+    """
+    rows = list(results)
+    kind: type = type(rows[0]) if rows else object
+    heads, cells = zip(*(_field_column(each, field_docs(kind)) for each in columns), strict=True)
+    return Table(heads, [tuple(cell(row) for cell in cells) for row in rows], wide)
+
+
+def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellColumn:
+    if not isinstance(column, str):
+        return column
+    head, given, field = column.rpartition("=")
+    name, _, digits = field.partition(":")
+    unit = _UNIT.search(docs.get(name, ""))
+    head = head if given else f"{name.replace('_', ' ')} ({unit[1]})" if unit else name.replace("_", " ")
+    return head, lambda result: _field_text(getattr(result, name), digits)
+
+
+def _field_text(value: Any, digits: str) -> str:
+    return "-" if value is None else figure(value, int(digits)) if digits else str(value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,12 +263,12 @@ MOST_ROWS = 120
 """Longer tables are cut, and say so; the JSON has everything."""
 
 
-def cut(rows: Sequence[Sequence[str]], of: int | None = None) -> list[Sequence[str]]:
+def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
     """The first rows of a long table (of so many, if not all are given), and how many more there are."""
     count = len(rows) if of is None else of
-    if count <= MOST_ROWS:
+    if count <= most:
         return list(rows)
-    return [*rows[:MOST_ROWS], (f"... {count - MOST_ROWS} more", *("" for _ in rows[0][1:]))]
+    return [*rows[:most], (f"... {count - most} more", *("" for _ in rows[0][1:]))]
 
 
 # ------------------------------------------------------------------------------------------------ tables within a width

@@ -402,19 +402,9 @@ def _phased(run: MotionRun) -> Section:
     rows = []
     for at, tally in enumerate(run.tallies):
         sets = [tallies[at] for tallies in run.phased]
-        peaks, rms = (
-            [degrees(value) for value in values]
-            for values in zip(*((each.peak_to_peak, each.rms) for each in sets), strict=True)
-        )
-        speeds = [each.speeds for each in sets]
-        rows.append(
-            (
-                tally.name,
-                f"{min(peaks):.5g}..{max(peaks):.5g}",
-                f"{min(rms):.5g}..{max(rms):.5g}",
-                f"{min(low for low, _ in speeds):.5f}..{max(high for _, high in speeds):.5f}",
-            )
-        )
+        errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
+        lows, highs = zip(*(each.speeds for each in sets), strict=True)
+        rows.append((tally.name, *errors, f"{min(lows):.5f}..{max(highs):.5f}"))
     header = ("output", "error p-p (deg)", "error rms (deg)", "speed over its mean")
     text = f"{len(run.phased)} sets of random phases of the teeth, seed {run.seed}."
     return Section("Random phases", (text,), (Table(header, rows),))

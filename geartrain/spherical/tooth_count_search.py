@@ -60,7 +60,7 @@ def suggest_tooth_counts(
     ----------
     configuration : Configuration
         The set; its own teeth are not asked for.
-    most, least : int
+    most, minimum : int
         Bounds of the tooth numbers.
     best : int
         How many sets are given.

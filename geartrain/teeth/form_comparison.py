@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, get_args
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.results import Key, Result
-from geartrain.teeth.any_tooth_form import Involute, tooth_forms
+from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.involute import Involute
 from geartrain.teeth.pair_results import ToothFault
 
 if TYPE_CHECKING:

@@ -43,7 +43,7 @@ def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
         (("--best", "error", "--within", "depth=1"), "NAME=LIMIT"),
         (("--best", "error", "--within", "error=1 m"), "an angle belongs here"),
         (("--best", "error", "--within", "stops=5%"), "go together"),
-        (("--best", "error", "--clearance", "1.01"), "does not go with --best"),
+        (("--best", "error", "--clearance-factor", "1.01"), "does not go with --best"),
         (("--best", "error", "--vary", "window=0.1:0.9:3"), "--best asks for something else"),
         (("--best", "loss"), "without friction"),
         (("--free", "radii"), "give --best"),

@@ -42,7 +42,7 @@ class KinkPositions(NamedTuple):
 
     See Also
     --------
-    Motion.corner_positions : what gives these.
+    Motion.kink_positions : what gives these.
     """
 
     turns: Floats

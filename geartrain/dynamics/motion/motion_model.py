@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition, pays
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
 from geartrain.dynamics.motion.kink_positions import KinkPositions, KinkSearch
 from geartrain.dynamics.motion.motion_problem import MotionProblem
@@ -24,14 +23,18 @@ from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.willis_system import axis_sense
+from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.results import Key, Result, picture_maker
 
 if TYPE_CHECKING:
     from numpy.random import Generator
 
+    from geartrain.dynamics.motion.compiled_composition import CompiledComposition
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
+
+_PACE = 2e6  # links per second that numpy computes, in most trains
 
 
 @dataclass(frozen=True)
@@ -334,17 +337,19 @@ class Motion:
             The composition, or its compiled kernel.
         """
         composition = self.ahead if turns >= 0 else self.back
-        if not pays(composition, self.fast, samples):
+        links = sum(len(step.links) for step in composition.steps)
+        if not links or not is_fast(self.fast, samples * links / _PACE):
             return composition
-        return (self._compiled_ahead if turns >= 0 else self._compiled_back) or composition
+        if (turns >= 0) not in self._compiled:
+            from geartrain.dynamics.motion.compiled_composition import compiled_composition
+
+            self._compiled[turns >= 0] = compiled_composition(composition)
+        return self._compiled[turns >= 0] or composition
 
     @cached_property
-    def _compiled_ahead(self) -> CompiledComposition | None:
-        return compiled_composition(self.ahead)
-
-    @cached_property
-    def _compiled_back(self) -> CompiledComposition | None:
-        return compiled_composition(self.back)
+    def _compiled(self) -> dict[bool, CompiledComposition | None]:
+        """Compiled kernels of the compositions forwards (True) and backwards (False), as far as they were requested."""
+        return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Errors and rates of the outputs, turning as declared.
@@ -378,7 +383,7 @@ class Motion:
 
         Returns
         -------
-        CornerPositions
+        KinkPositions
             Turns from the lesser to the greater of the two, both included, in ascending order, with the pair at each.
 
         Raises

@@ -20,7 +20,6 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.extreme_search import ExtremeSearch
 from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
-from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     Complex = NDArray[np.complex128]
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
+    from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition
 
     OnDone = Callable[[int], None]
 
@@ -81,6 +81,8 @@ def find_spectrum(
     Lines are told apart if they differ by two periods over the run; over whole common periods the measure is exact but
     for harmonics beyond half the sampling rate.
     """
+    from geartrain.dynamics.motion.superposition import Superposition
+
     superposed = Superposition(motion.ahead if turns >= 0 else motion.back)
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
     found = {}
@@ -292,6 +294,8 @@ class MotionRun(Tabular, Pictured):
         on_done : callable
             As in `go`.
         """
+        from geartrain.dynamics.motion.superposition import find_estimates
+
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
     def analyse(self, on_done: OnDone = _untold) -> None:

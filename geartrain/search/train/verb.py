@@ -43,7 +43,7 @@ def run(
     ] = None,
     addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels [modules].")] = None,
     ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings [modules].")] = None,
-    minimum: Annotated[int | None, typer.Option("--least", help="Minimum tooth count of a free wheel.")] = None,
+    minimum: Annotated[int | None, typer.Option("--minimum", help="Minimum tooth count of a free wheel.")] = None,
     most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Maximum tooth count of a free wheel.")] = None,
     shift: Annotated[
         int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")

@@ -294,7 +294,7 @@ class FlankWear(Result):
 
 @dataclass(frozen=True)
 class WheelForce(Result):
-    """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
+    """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19).
 
     See Also
     --------
@@ -308,12 +308,12 @@ class WheelForce(Result):
     radius: float
     """Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm]."""
     tangential: float
-    """Along that circle, of the sign of its torque. On parallel axes and on bevels both wheels of a pair bear the
+    """Along that circle, of the sign of its torque [N]. On parallel axes and on bevels both wheels of a pair bear the
     same, that of the wheel with the greater torque over radius: friction takes part of the other's torque."""
     axial: float
-    """Above 0 along the direction of its axis."""
+    """Above 0 along the direction of its axis [N]."""
     radial: float | None
-    """Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known."""
+    """Towards its axis, below 0 of a ring [N]; None of teeth whose pressure angle at the pitch point is not known."""
     torque: float
     """On it [N m]."""
 

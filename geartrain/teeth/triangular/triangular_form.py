@@ -65,8 +65,7 @@ class Triangular(ToothForm):
     )
     excess: Figure | None = Field(
         None,
-        description="The part of that distance by which the wheels are apart, above 0: clearance factor less 1, in a ring "
-        "1 less clearance factor",
+        description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor",
     )
     backlash: Length | None = Field(
         None, description="Least play over a pitch, as an arc of the second wheel's pitch circle"

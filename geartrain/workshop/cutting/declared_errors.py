@@ -97,8 +97,9 @@ def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
     Parameters
     ----------
     texts : iterable of str
-        `KIND=SIZE` or `NAME.KIND=SIZE`, of all or of one wheel or pair: `pitch_deviation=4.13 %`, `m2.eccentricity=value
-        0.2 mm`. What is set is normal, SIZE its standard deviation, unless `value` or `uniform` stands before it.
+        `KIND=SIZE` or `NAME.KIND=SIZE`, of all or of one wheel or pair: `pitch_deviation=4.13 %`,
+        `m2.eccentricity=value 0.2 mm`. The error is normally distributed and SIZE is its standard deviation,
+        unless `value` or `uniform` precedes it.
 
     Returns
     -------

@@ -9,7 +9,7 @@ from math import degrees, inf, isnan
 from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.errors import GearTrainError, check_choice
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Result
 from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.parameter_sweep import phases_of

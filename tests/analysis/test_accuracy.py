@@ -88,7 +88,8 @@ def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAc
         )
     off = degrees(np.abs(total - motion.hung.at(turns).error[0]).max())
     assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
-    lagged, tables = (row_of(moon, MOTION, name).error for name in ("superposed with lag", "composed, tabulated functions"))
+    names = ("superposed with lag", "composed, tabulated functions")
+    lagged, tables = (row_of(moon, MOTION, name).error for name in names)
     assert 0 < tables < 1e-9 < lagged < off
     compiled = row_of(moon, MOTION, "composed, compiled").error
     assert compiled < 1e-11

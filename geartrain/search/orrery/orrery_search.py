@@ -254,7 +254,7 @@ def find_orrery(
     if first in targets.names or "frame" in (first, *targets.names):
         raise QuestionError(
             Problem(
-                "two arbors have the same name", f"the first arbor is {first!r}, and 'frame' is reserved", "rename one of them"
+                "two arbors have the same name", f"the first arbor is {first!r}, and 'frame' is reserved", "rename one"
             )
         )
     search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)

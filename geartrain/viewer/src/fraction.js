@@ -27,7 +27,7 @@ export class Fraction {
     }
   }
 
-  /** The float rounded to so many decimals: a hand can tell no less than nine, and short fractions stay short. */
+  /** The float rounded to `digits` decimals. */
   static near(value, decimals = 9) {
     return new Fraction(BigInt(Math.round(value * 10 ** decimals)), 10n ** BigInt(decimals));
   }

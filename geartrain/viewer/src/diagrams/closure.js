@@ -1,4 +1,4 @@
-// Phase closure: a second planet is dragged round, and meshes with the ring only where its teeth meet the gaps.
+// Phase closure: the user drags a second planet, which meshes with the ring only where its teeth meet gaps.
 
 import { BRASS } from "../colours.js";
 import { Fraction } from "../fraction.js";

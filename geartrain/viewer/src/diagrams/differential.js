@@ -1,4 +1,4 @@
-// The differential from the side: both axle shafts are dragged, and the crown turns by half their sum.
+// The differential from the side: the user drags both axle shafts, and the crown turns by half their sum.
 
 import { BRASS, PARTS } from "../colours.js";
 import { Fraction, partOfProduct } from "../fraction.js";

@@ -1,4 +1,4 @@
-// Self-locking: the basic efficiency of a set is dragged, and what of its power arrives either way.
+// Self-locking: the user drags the basic efficiency of a set; the power transmitted in both directions is shown.
 
 import { Fraction } from "../fraction.js";
 import { svg } from "../ui/element.js";

@@ -1,4 +1,4 @@
-// Pin and slot: a wheel drives another about an axis beside its own, and is seen from there as on an epicycle.
+// Pin and slot: a wheel drives another about a parallel axis, about which its pin moves on an epicycle.
 
 import { BRASS, PARTS } from "../colours.js";
 import { Fraction } from "../fraction.js";

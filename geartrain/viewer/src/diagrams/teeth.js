@@ -1,4 +1,4 @@
-// A pair of triangular teeth: the driver is dragged, an apex rides on a flank, and the ratio of the moment swings.
+// A pair of triangular teeth: the user drags the driver; the apex on the flank and the instantaneous ratio are shown.
 
 import { BRASS } from "../colours.js";
 import { Fraction } from "../fraction.js";
@@ -95,7 +95,7 @@ class Pair {
     return this.mean + this.law.at(angle)[1];
   }
 
-  /** What stands after so many pitches of the driver. */
+  /** State after a number of pitches of the driver. */
   at(passed) {
     const angle = this.law.period * passed.part;
     const count = this.given.moments.length;

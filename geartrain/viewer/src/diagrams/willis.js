@@ -1,4 +1,4 @@
-// Willis' inversion: the same turning seen from the ground and from the carrier, in whose frame the ratio is fixed.
+// Willis' inversion: the same motion relative to the frame and to the carrier, where the ratio is fixed.
 
 import { BRASS, PARTS } from "../colours.js";
 import { Fraction } from "../fraction.js";

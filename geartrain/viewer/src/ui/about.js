@@ -1,4 +1,4 @@
-// What is to be said of a train as a whole: its note, what could not be shown, its sources.
+// General information on a train: note, simplifications of the picture, sources.
 import { el, link } from "./element.js";
 
 function notice(each) {

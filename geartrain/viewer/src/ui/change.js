@@ -1,4 +1,4 @@
-// What was changed here: counts, meshes that no longer fit their axes, outputs beside those declared; and the train as YAML.
+// Changes of tooth counts: meshes that no longer fit their axes, outputs compared with those declared, the train as YAML.
 import { Fraction } from "../fraction.js";
 import { MEAN, countOf } from "../formulas.js";
 import { copy } from "./copying.js";
@@ -32,7 +32,7 @@ export function asYaml(side) {
 
 const wayOf = (further) => (further ? "further apart" : "closer together");
 
-/** How a pair stands on its axes, in words; empty where it fits. */
+/** Describes by how much a pair misfits its axes; empty if it fits. */
 export function misfit({ pair, off, apart, module }) {
   if (off === null && apart === null) return `${pair.id}: its axes intersect, so its wheels must be redesigned and repositioned`;
   if (off === null && !apart) return "";
@@ -114,7 +114,7 @@ export class Change {
   }
 }
 
-/** Buttons and a field for the count of a wheel; nothing where it cannot be changed. `key` tells them from others. */
+/** Buttons and a field for the count of a wheel; null if it cannot be changed. `key` identifies them. */
 export function stepper(side, index, onCounts, key, typed = false) {
   const at = side.formulas?.at(index) ?? null;
   if (at === null) return null;

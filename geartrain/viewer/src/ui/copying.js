@@ -1,4 +1,4 @@
-// Exact values that go to the clipboard by a click.
+// Exact values that a click copies to the clipboard.
 import { el } from "./element.js";
 import { shown } from "./number.js";
 
@@ -18,7 +18,7 @@ export async function copy(text) {
   }
 }
 
-/** A button that shows an exact value and copies it; `say` tells the reader what happened. */
+/** A button that shows an exact value and copies it; `say` announces the result. */
 export function copyable(text, say) {
   const button = el(
     "button",

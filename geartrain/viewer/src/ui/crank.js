@@ -1,4 +1,4 @@
-// The crank: a wheel to drag, and the buttons, speed and place beside it.
+// The crank: a wheel to drag, with buttons, speed and position.
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
 import { el, field, icon, svg } from "./element.js";

@@ -65,7 +65,7 @@ export class Head {
     return el("span", { class: "changed" }, " changed: ", button, `; ${fits}`);
   }
 
-  /** What is shown, as it is now. */
+  /** Updates the head to what is shown. */
   write() {
     const { sides } = this;
     const many = sides.length > 1;

@@ -1,4 +1,4 @@
-// Keys, and the page that tells them.
+// Keyboard shortcuts, and the dialog that lists them.
 import { el } from "./element.js";
 import { Fraction } from "../fraction.js";
 

@@ -13,7 +13,7 @@ export function difference(a, b) {
   return { gap: gap.toString(), part: from.numerator === 0n ? null : Number(gap.over(from)) };
 }
 
-/** A part as it is told: in ppm where it is small. */
+/** A relative value as text, in ppm if small. */
 export function relative(part) {
   if (part === null || part === 0) return "";
   const size = Math.abs(part);
@@ -21,7 +21,7 @@ export function relative(part) {
   return `${part < 0 ? "\u2212" : "+"}${text}`;
 }
 
-/** What stands in place of outputs where a train declares none. */
+/** Note for a train without declared outputs. */
 export function linksInWords({ bodies, pointers }, most = Infinity) {
   const [shown, all] = [Math.min(pointers.length, most), bodies.length - 1];
   return `This train declares no outputs; ${shown < all ? `the first ${shown} of its ${all} links are listed` : "its links are listed"}.`;

@@ -1,4 +1,4 @@
-// The head of a simulated run: buttons, how fast it is played, where in time it stands, and a strip of what contacts do.
+// Controls of a simulated run: buttons, playback speed, time, and a strip of the contacts.
 import { PAUSE, PLAY } from "./crank.js";
 import { el, field, icon } from "./element.js";
 import { Strip } from "./strip.js";

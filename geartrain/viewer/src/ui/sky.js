@@ -1,4 +1,4 @@
-// Outputs that have targets: where each pointer stands, where it would had it kept its target's speed, and the error.
+// Outputs with targets: reading of each pointer, reading at the speed of its target, and the error.
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
 import { copy } from "./copying.js";
@@ -102,7 +102,7 @@ export class Sky {
 /** A name that may be broken behind its underscores. */
 const breakable = (name) => name.split(/(?<=_)/).flatMap((part) => [part, el("wbr")]);
 
-/** When the pointers stood where, who says so, and in which calendar. */
+/** Epoch of the pointers, with its source and calendar. */
 function epochInWords(scene) {
   const epoch = new Epoch(scene.epoch);
   const lead = scene.bodies[scene.driving_link].id;

@@ -1,4 +1,4 @@
-// Light or dark: as the system says until the reader chooses.
+// Light or dark theme: that of the system unless the user selects one.
 import { el } from "./element.js";
 
 const NAMES = { system: "System", light: "Light", dark: "Dark" };

@@ -1,4 +1,4 @@
-// The list of wheels with a search, and what is known of the one that is chosen.
+// The list of wheels with a search field, and the data of the selected wheel.
 import { stepper } from "./change.js";
 import { copyable } from "./copying.js";
 import { el, link } from "./element.js";

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from math import comb, log, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
@@ -82,6 +82,15 @@ class GearSearch(Tabular, Result):
     find_gears : returns it.
     """
 
+    MEANINGS: ClassVar = {
+        "closed": "Engaged clutches and brakes.",
+        "ratio": "Speed of the input over speed of the output; empty if the output is at rest [1].",
+        "exact": "The ratio as a fraction [1].",
+        "states": "Declared states that engage the same elements.",
+    }
+
+    PAGE = "report.gearbox_report:describe_gear_search"
+
     KEYS = (
         *("name", "title", "input", "output", "closed", "combinations"),
         *("gears", "free", "locked", "requested", "series", "widest", "evenest"),
@@ -115,6 +124,11 @@ class GearSearch(Tabular, Result):
     """Series with the maximum spread."""
     evenest: GearSeries | None = None
     """Series with the minimum deviation of the steps."""
+
+    def _summary(self) -> str:
+        return (
+            f"{self.name}: {len(self.gears)} gears of {self.combinations} combinations of {self.closed} closed elements"
+        )
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

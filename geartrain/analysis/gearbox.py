@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.dynamics.torques.power_flow import PowerNode, PowerStream, find_circulation, find_power_flow
 from geartrain.dynamics.torques.train_torques import solve_driven
@@ -128,6 +128,18 @@ class Gearbox(Tabular, Result):
     geartrain.GearTrain.gearbox : returns it.
     """
 
+    MEANINGS: ClassVar = {
+        "state": "Name of the state.",
+        "engaged": "Engaged clutches and brakes.",
+        "ratio": "Speed of the input over speed of the output [1].",
+        "step": "Ratio over the ratio of the next state [1].",
+        "efficiency": "Output power over input power [1].",
+        "recirculating": "Power that recirculates between gear sets, over input power [1].",
+        "speed of *": "Speed of the link over speed of the input [1].",
+    }
+
+    PAGE = "report.gearbox_report:describe_gearbox"
+
     KEYS = ("name", "title", "input", "output", Key("spread", to=as_float), "states", "elements", "shifts")
 
     name: str
@@ -144,6 +156,10 @@ class Gearbox(Tabular, Result):
     """Clutches and brakes in the order of declaration."""
     shifts: tuple[Shift, ...]
     """Shifts from each state with a ratio to the next one with the same sense."""
+
+    def _summary(self) -> str:
+        ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)
+        return f"{self.name}: {len(self.states)} states, ratios {ratios}" + (", ..." if len(self.states) > 6 else "")
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -105,7 +105,7 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     ranked = sorted(erring, key=lambda trace: -float(np.ptp(trace.error))) or found
     most = {trace.name for trace in ranked[:_OUTPUTS]}
     traces = [trace for trace in found if trace.name in most]
-    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.driving_link}")
+    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion._problem.driving_link}")
     left_out = _left_out(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
 
@@ -196,8 +196,8 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
     motion = run.motion
     parts: list[list[tuple[Floats, Floats, Floats]]] = [[] for _ in motion.outputs]
     firsts: list[tuple[Floats, Floats, Floats]] = []
-    means = [tally.mean for tally in motion.tallies()]
-    for passage in motion.passages(run.turns, run.samples):
+    means = [tally.mean for tally in motion._statistics()]
+    for passage in motion._stretches(run.turns, run.samples):
         share = max(1, round(_MOST / 3 * len(passage.turns) / run.samples))
         firsts = firsts or _first(passage, means)
         for at, part in enumerate(parts):
@@ -205,7 +205,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
         on_done(len(passage.turns))
     found = []
-    for tally, start, part, first in zip(motion.tallies(), motion.starts, parts, firsts, strict=True):
+    for tally, start, part, first in zip(motion._statistics(), motion._start_angles, parts, firsts, strict=True):
         turns, error, rate = (np.concatenate(column) for column in zip(*part, strict=True))
         mean = start / (2 * np.pi) + tally.mean * turns
         angle = mean + error / (2 * np.pi)

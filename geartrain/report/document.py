@@ -9,12 +9,15 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import zip_longest
+from itertools import islice, zip_longest
 from typing import Any
 
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import field_docs, picture_maker
+from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
+
+MOST_ROWS = 120
+"""Longer tables are cut, and say so; the JSON has everything."""
 
 
 class ExactText(str):
@@ -62,7 +65,7 @@ class SceneText(str):
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class Table(Shown):
     """Rows of text under a header; the first column names the row.
 
     Examples
@@ -79,6 +82,18 @@ class Table:
     """Cells, as many in each row as the header has."""
     wide: bool = False
     """True for matrices, which a terminal shows in strips of columns and never wraps."""
+
+
+def table_document(title: str, columns: Mapping[str, Sequence[object]], most: int = MOST_ROWS) -> Document:
+    """Return columns of a result as a document of one table, of which only the first rows are shown."""
+    count = len(next(iter(columns.values()), ()))
+    rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
+    more = [f"{count - most:,} more rows."] if count > most else []
+    return Document(title, [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
+
+
+def _cell(value: object) -> str:
+    return "" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value)
 
 
 def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
@@ -130,7 +145,7 @@ class Branch:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class Section(Shown):
     """A heading with paragraphs, a tree, then tables.
 
     Examples
@@ -150,7 +165,7 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Shown):
     """A picture with a caption, for pages of HTML.
 
     Examples
@@ -192,7 +207,7 @@ class PageExtras:
     """Sources by key."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Document:
     """A title, a lead, and sections, independent of how they are shown.
 
@@ -218,6 +233,10 @@ class Document:
     """In the order in which they are read."""
     aside: PageExtras = field(default_factory=PageExtras)
     """Badge, pictures, viewer and sources, which only a page of HTML has room for."""
+
+    def __repr__(self) -> str:
+        count = len(self.sections)
+        return summary_line("Document", f"{self.title}: {count} section{'' if count == 1 else 's'}")
 
     def __str__(self) -> str:
         """The document as Markdown."""
@@ -257,10 +276,6 @@ def ppm(value: float | None) -> str:
     """Parts per million with sign."""
     # less than 1e-15 of the speed is what is left of rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
-
-
-MOST_ROWS = 120
-"""Longer tables are cut, and say so; the JSON has everything."""
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:

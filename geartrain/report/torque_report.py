@@ -108,6 +108,8 @@ class TorqueReport(Result):
     collect_torque_report : Gives it.
     """
 
+    PAGE = "report.torque_report:describe_torques"
+
     name: str
     """Of the train."""
     title: str
@@ -225,6 +227,19 @@ def describe_torques(found: TorqueReport) -> Document:
         sections += wing("workshop.monte_carlo.friction_trials").trial_sections(found.friction_trials)
     summary = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", summary, sections)
+
+
+def torques_document(found: Torques | TorqueCycle) -> Document | None:
+    """Return what `geartrain torques` prints for the torques of one state; None where the train is not known."""
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import Torques
+
+    if found._declaration is None:
+        return None
+    train = GearTrain(found._declaration)
+    if isinstance(found, Torques):
+        return describe_torques(collect_torque_report(train, [found]))
+    return describe_torques(collect_torque_report(train, [train.torques(found.state)], found))
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, brief
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +94,10 @@ class GearStages(CountSizes, Result):
     """Relative error: `ratio` over the magnitude of the requested ratio, minus 1; exact."""
     pairs: tuple[tuple[int, int], ...]
     """Stages of the best pairing: (numerator count, denominator count)."""
+
+    def _summary(self) -> str:
+        teeth = " ".join(f"{top}/{beneath}" for top, beneath in self.pairs)
+        return f"{teeth} = {brief(self.ratio)}, error {float(self.error):.3g}"
 
     @property
     def teeth(self) -> tuple[int, ...]:

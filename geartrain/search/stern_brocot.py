@@ -13,11 +13,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from heapq import merge
-from typing import Literal
+from typing import ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import coprime
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.target_ratio import TargetRatio
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]
@@ -50,8 +50,17 @@ class Approximant(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class Approximants(Result):
+class Approximants(Tabular, Result):
     """Fractions that approximate a ratio: the path of the Stern-Brocot tree to it."""
+
+    ROWS = "search.tooth_numbers_report:approximant_rows"
+    ROW = "Approximant"
+    MEANINGS: ClassVar = {
+        "error": "Fraction over the requested ratio, minus 1 [1].",
+        "exact_error": "Error as a fraction [1].",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_approximants"
 
     wanted: TargetRatio
     """Requested ratio."""
@@ -59,6 +68,11 @@ class Approximants(Result):
     """Maximum numerator and denominator."""
     solutions: tuple[Approximant, ...]
     """Fractions in the order of the path."""
+
+    def _summary(self) -> str:
+        label = self.wanted.label or self.wanted.value
+        last = f", last {self.solutions[-1].value}" if self.solutions else ""
+        return f"{label}: {len(self.solutions)} fractions up to {self.most}{last}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -71,6 +71,8 @@ class MeasuredForm(Result):
 class FormComparison(Result):
     """Forms beside the 20 degree involute of the same pair and arcs."""
 
+    PAGE = "report.conjugate_pair_page:describe_form_comparison"
+
     KEYS = (
         *("teeth", "matched"),
         Key("base", keys=(Key("form", "name"), "pressure_angle", Key("", "measures"))),

@@ -22,6 +22,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.results import summary_line, values_summary
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
 
@@ -39,6 +40,10 @@ class Declared(BaseModel):
     model_config = ConfigDict(
         frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
     )
+
+    def __repr__(self) -> str:
+        given = (name for name in type(self).model_fields if name in self.model_fields_set)
+        return summary_line(type(self).__name__, values_summary(self, given))
 
     def changed(self, **update: Any) -> Self:
         """A copy with other fields, which remembers nothing that was derived from the old ones.
@@ -65,6 +70,9 @@ class Declared(BaseModel):
 
 def _refused(error: Mapping[str, Any]) -> Problem:
     """What is wrong about a value that was to replace another."""
+    if error["type"] == "missing":
+        *parent, key = error["loc"]
+        return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")
     fix = error.get("ctx", {}).get("fix", "see docs/reference.md")
     return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"it is {str(error['input'])[:60]!r}", fix)
 

@@ -177,7 +177,7 @@ def test_pins_and_real_teeth_move_as_the_motion_says(show_shared: Opening, name:
     for at, turn in enumerate(turns):
         mean = dict(directions(name, Fraction(turn)))
         for row, output in enumerate(motion.outputs):
-            expected = mean[output] + motion.starts[row] + errors[row, at]
+            expected = mean[output] + motion._start_angles[row] + errors[row, at]
             assert apart(angles[at][row], expected) < 1e-9, (output, turn)
     assert np.abs(errors).max() > 1e-3, "nothing rippled: this asks nothing"
 
@@ -188,13 +188,13 @@ def test_backwards_the_other_flanks_drive(show_shared: Opening) -> None:
     motion = shipped.train(name).motion()
     shown = show_shared(name)
     differ = 0.0
-    for passage in motion.passages(-37.6875, 5, first=1):
+    for passage in motion._stretches(-37.6875, 5, first=1):
         forwards = motion.at(passage.turns).error
         angles = shown.angles(passage.turns.tolist(), motion.outputs)
         for at, turn in enumerate(passage.turns):
             mean = dict(directions(name, Fraction(float(turn))))
             for row, output in enumerate(motion.outputs):
-                expected = mean[output] + motion.starts[row] + passage.error[row, at]
+                expected = mean[output] + motion._start_angles[row] + passage.error[row, at]
                 assert apart(angles[at][row], expected) < 1e-9, (output, turn)
                 differ = max(differ, abs(passage.error[row, at] - forwards[row, at]))
     assert differ > 1e-4, "the way back is the way forth: this asks nothing"

@@ -13,11 +13,11 @@ from fractions import Fraction
 from functools import cache
 from itertools import permutations
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, as_float, decimal
-from geartrain.numerics.results import Key, Result, finite
+from geartrain.numerics.results import Key, Result, Tabular, brief, finite
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 CARRIER = "carrier"
@@ -304,6 +304,10 @@ class EpicyclicSet(CountSizes, Result):
     room: float
     """Clearance between the tips of equally spaced neighbouring planets [modules]; negative if they overlap."""
 
+    def _summary(self) -> str:
+        teeth = ", ".join(f"{wheel} {count}" for wheel, count in self.teeth.items())
+        return f"{teeth}, input/output {brief(self.ratio)}, error {float(self.error):.3g}"
+
     @property
     def counts(self) -> Collection[int]:
         """Tooth counts of all wheels."""
@@ -343,13 +347,25 @@ class EpicyclicSet(CountSizes, Result):
 
 
 @dataclass(frozen=True, slots=True)
-class SetFindings(Result):
+class SetFindings(Tabular, Result):
     """Best epicyclic sets of a type, best first.
 
     See Also
     --------
     find_sets : returns it.
     """
+
+    ROWS = "search.tooth_numbers_report:set_rows"
+    MEANINGS: ClassVar = {
+        "mode": "Mode as input:output:held.",
+        "input/output": "Exact ratio of input to output speed [1].",
+        "error": "Ratio over the requested ratio, minus 1 [1].",
+        "places": "Number of equally spaced positions of equal planets; 0 for any.",
+        "room": "Clearance between the tips of neighbouring planets [module].",
+        "*": "Tooth count of the wheel.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_sets"
 
     KEYS = (
         "kind",
@@ -381,6 +397,10 @@ class SetFindings(Result):
     """Best sets, best first."""
     shortfall: Shortfall
     """Numbers of rejected sets by reason. A set in each mode counts as one candidate."""
+
+    def _summary(self) -> str:
+        best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
+        return f"{self.kind}, {self.ratio_is} = {brief(self.wanted)}: {len(self.solutions)} sets{best}"
 
     def __bool__(self) -> bool:
         return bool(self.solutions)

@@ -15,7 +15,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float, fraction_text
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.orrery.arbor_trees import (
     FIRST,
     ArborTree,
@@ -80,13 +80,18 @@ class OrreryPair(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class Orrery(Result):
+class Orrery(Tabular, Result):
     """Tree of gear pairs that shows every requested period.
 
     See Also
     --------
     find_orrery : finds it.
     """
+
+    ROWS = "search.tooth_numbers_report:orrery_rows"
+    ROW = "OrreryPair"
+
+    PAGE = "search.tooth_numbers_report:describe_orrery"
 
     KEYS = (
         "wheels",
@@ -115,6 +120,10 @@ class Orrery(Result):
     """Proved lower bound of the number of wheels."""
     ended: str
     """Reason for the end of the search."""
+
+    def _summary(self) -> str:
+        worst = max((abs(error) for error in self.errors.values()), default=0)
+        return f"{len(self.pairs)} pairs for {', '.join(self.periods)}: error at most {float(worst):.3g}"
 
     @property
     def wheels(self) -> int:

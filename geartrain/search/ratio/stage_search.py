@@ -15,11 +15,11 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
-from typing import Literal
+from typing import ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets, rounded_up
@@ -38,13 +38,28 @@ _QUICK = 3 * 10**6  # maximum number of products for the suggestion of one more 
 
 
 @dataclass(frozen=True, slots=True)
-class StageFindings(Result):
+class StageFindings(Tabular, Result):
     """Solutions of one ratio by stages as pairs of multisets of counts. The object is a sequence of its `solutions`.
 
     See Also
     --------
     find_stages : returns it.
     """
+
+    ROWS = "search.tooth_numbers_report:stage_rows"
+    MEANINGS: ClassVar = {
+        "top": "Tooth counts of the numerator.",
+        "beneath": "Tooth counts of the denominator.",
+        "ratio": "Product of the numerator counts over product of the denominator counts [1].",
+        "value": "Ratio as a float [1].",
+        "error": "Ratio over the requested ratio, minus 1 [1].",
+        "stages": "Stages of the best pairing.",
+        "total": "Sum of all tooth counts.",
+        "largest": "Largest tooth count.",
+        "distinct": "Number of distinct tooth counts.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_stages"
 
     KEYS = (
         "wanted",
@@ -89,6 +104,12 @@ class StageFindings(Result):
     """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
     """Assumptions that were made; empty if none."""
+
+    def _summary(self) -> str:
+        best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
+        return (
+            f"{self.wanted.label or self.wanted.value}: {len(self.solutions)} solutions in {self.stages} stages{best}"
+        )
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:

@@ -82,6 +82,8 @@ class StrengthReport(Result):
     describe_strength : Its page.
     """
 
+    PAGE = "simulation.strength.strength_report:describe_strength"
+
     name: str
     """Name of the train."""
     title: str
@@ -139,6 +141,12 @@ def describe_strength(found: StrengthReport) -> Document:
     """
     sections = [section for each in found.states for section in strength_sections(each)]
     return Document(f"Strength of {found.name}", (f"Train '{found.name}'.",), tuple(sections))
+
+
+def strength_document(found: TrainStrength) -> Document | None:
+    """Return what `geartrain strength` prints for one state; None where the train is not known."""
+    declared = found._declaration
+    return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
 
 
 def strength_sections(found: TrainStrength) -> Iterator[Section]:

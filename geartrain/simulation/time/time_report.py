@@ -34,6 +34,8 @@ class TimeReport(Result):
     collect_time_report : Gives it.
     """
 
+    PAGE = "simulation.time.time_report:describe_time_run"
+
     KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
 
     title: str
@@ -108,6 +110,15 @@ def describe_time_run(found: TimeReport) -> Document:
     ['Up to which rate it holds', 'Contacts', 'Drive and outputs']
     """
     return Document(f"Motion in time of {found.run.train}", list(_summary(found.run)), list(_sections(found)))
+
+
+def time_document(run: TimeRun) -> Document | None:
+    """Return what `geartrain dynamics` prints for a run; None where the train is not known."""
+    from geartrain.analysis.gear_train import GearTrain
+
+    if run._declaration is None:
+        return None
+    return describe_time_run(collect_time_report(GearTrain(run._declaration), run, run._without))
 
 
 def _sections(found: TimeReport) -> Iterator[Section]:

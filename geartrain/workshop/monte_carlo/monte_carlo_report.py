@@ -13,7 +13,15 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics
+    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics, TrialResults
+
+
+def trials_document(found: TrialResults) -> Document:
+    """Return what `geartrain montecarlo` prints for trials."""
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+
+    return describe_monte_carlo(MonteCarloResult(found))
+
 
 _EVENTS = ("jam", "clash", "dwell", "disengaged")
 

@@ -409,8 +409,8 @@ def test_a_condition_that_removes_everything_is_charged() -> None:
     removed = found.shortfall.removed
     assert removed is not None
     assert removed["no pairing with coprime counts in every stage"] == 3
-    assert "no counts satisfy the conditions" in found.shortfall.nearest
-    assert "without conditions" in found.shortfall.nearest
+    assert "no counts satisfy the constraints" in found.shortfall.nearest
+    assert "without constraints" in found.shortfall.nearest
 
 
 def test_counts_all_above_the_largest_allowed_are_charged_to_it() -> None:

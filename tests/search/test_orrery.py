@@ -117,7 +117,7 @@ def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], lis
         found = set()
         for tree in TreeEnumeration(pair_ratios(counts), requested, extra).trees():
             periods = [arbor.period for arbor in tree]
-            places = tuple(next(at for at, arbor in enumerate(tree) if arbor.aim == aim) for aim in range(len(aims)))
+            places = tuple(next(at for at, arbor in enumerate(tree) if arbor.target == aim) for aim in range(len(aims)))
             found.add(likeness([arbor.parent for arbor in tree[1:]], periods, places))
         assert found == expected
 

@@ -582,7 +582,7 @@ def test_each_of_two_outputs_says_how_near_it_comes_alone() -> None:
     assert part.count == 0
     box = range(12, 18)
     nearest = min(abs(Fraction(a * e * 777, b * f * 1000) - 1) for a, b, e, f in product(box, repeat=4))
-    assert f"D comes to {float(nearest):.3g}" in part.shortfall.nearest
+    assert f"D has an error of {float(nearest):.3g}" in part.shortfall.nearest
     assert "without the requirement on 'D' there are" in part.shortfall.advice
 
 

@@ -1,28 +1,29 @@
 """Static pictures of trains and of results.
 
-In: a train, or a result of another package. Out: a figure of matplotlib, which `render` writes as SVG, PNG or PDF; the
-same figure gives the same bytes. `picture` draws a train as plan to scale, stick diagram, graph, speed diagram or
-dials; the other functions draw one result each. Plots of results of the wings are in the wings. Only places on the page
-are calculated here: a speed diagram has its members at places that their teeth fix (docs/theory.md, equations 18 and
-19), and bands of power are as wide as powers (docs/torques.md, 7).
+Input is a train or a result of another package. Output is a matplotlib figure, which `render` writes as SVG, PNG or
+PDF. The same figure gives the same bytes. `picture` draws a train as a plan to scale, stick diagram, kinematic graph,
+speed diagram or dials, and each other function draws one kind of result. Plots of the results of the optional packages
+are in those packages. Only positions on the page are computed here: the members of a speed diagram are placed at the
+abscissae that their tooth counts determine (docs/theory.md, equations 18 and 19), and bands of power are as wide as
+their powers (docs/torques.md, 7).
 
 train_pictures        `picture`, which chooses among the following
-plan_view             plan to scale; `projection` has scenes on a page, from the side or obliquely
+plan_view             plan to scale; `projection` puts scenes on a page, from the side or obliquely
 stick_diagram         functional diagram; `stick_grid` arranges axes, columns and levels
-kinematic_graph       the graph (stress majorization)
+kinematic_graph       kinematic graph (stress majorization)
 lever_diagram         speed diagram
 dial_faces            dials
-transmission_curves   a transmission function, conjugate tooth forms; `parameter_sweep_plot` has one over a parameter
+transmission_curves   transmission functions, conjugate tooth forms; `parameter_sweep_plot` plots parameter sweeps
 tooth_contact         two wheels of triangular teeth in contact
-output_error_plots    errors of outputs, torque over a turn
-power_sankey          power flow; `sankey` lays it out
+output_error_plots    deviations of outputs, torque over a revolution
+power_sankey          power flow; `sankey` computes its layout
 spherical_gears       gears on a sphere
 flat_files            outlines to cut: SVG, DXF, CSV
-style                 panels for curves and for bars, legends, words, image files; `theme_colours` recolours a figure
-arrangement           placement of nodes, words and callouts
+style                 panels for curves and for bars, legends, text, image files; `theme_colours` recolours a figure
+arrangement           placement of nodes, text and callouts
 
-The figures need the extra `plot`: a name that is used without it raises `MissingExtraError`. Nothing needs a display or
-touches the state of pyplot.
+The figures need the extra `plot`. Without it the use of a name raises `MissingExtraError`. No figure needs a display
+or changes the state of pyplot.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Arrangement of nodes, words and callouts on a page.
+"""Arrangement of nodes, text and callouts on a page.
 
 Nodes of a graph are ordered so that lines are short (`arrange`), spread along a line (`spread`), or placed at about
-given distances (`settle`: stress majorization). Words take the room that `LabelSpace` finds free; callouts stand in
-two columns beside a picture, with lines to what they name.
+given distances (`settle`: stress majorization). Text is placed in the free rectangles that `LabelSpace` finds. Callouts
+are placed in two columns next to a picture, with lines to what they name.
 """
 
 from __future__ import annotations
@@ -32,9 +32,10 @@ _STEPS = 300
 
 
 def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
-    """The items in an order in which the two of each pair stand close: least sum of distances, by moving one at a time.
+    """Return the items in an order that keeps the two items of each pair close together.
 
-    The same items and pairs give the same order.
+    The sum of the distances within pairs is reduced by a local search that moves one item at a time. The result is
+    deterministic.
     """
     order = _walk(items, pairs)
     at = {item: position for position, item in enumerate(order)}
@@ -51,7 +52,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
 
 
 def _walk(items: Sequence[str], pairs: Pairs) -> list[str]:
-    """Breadth first from the first item of each part."""
+    """Return the items in breadth-first order, starting at the first item of each connected component."""
     mates = neighbours(items, pairs)
     seen: dict[str, None] = {}
     for item in items:
@@ -65,7 +66,7 @@ def _walk(items: Sequence[str], pairs: Pairs) -> list[str]:
 
 
 def neighbours(items: Sequence[str], pairs: Pairs) -> dict[str, list[str]]:
-    """Item -> the items it is paired with, in the order of the pairs."""
+    """Return a dictionary from each item to its partners, in the order of the pairs."""
     mates: dict[str, list[str]] = {item: [] for item in items}
     for one, other in pairs:
         if one in mates and other in mates and one != other:
@@ -82,7 +83,9 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
 
 
 def _moved(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best: int) -> tuple[list[int], int]:
-    """The best place for one item, the others staying in order; its old one unless another is better."""
+    """Return the sequence with one item at its best position, and its length; unchanged unless another position is
+    better.
+    """
     rest = [other for other in sequence if other != item]
     found = sequence
     for position in range(len(sequence)):
@@ -94,10 +97,10 @@ def _moved(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best
 
 
 def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float, float] = (-inf, inf)) -> list[float]:
-    """Middles of boxes that do not overlap, in the order of the wanted ones and near to them.
+    """Return centres of boxes that do not overlap, in the order of the wanted centres and close to them.
 
     needs    width of each box
-    bounds   within which they stay as far as there is room
+    bounds   interval that contains the boxes as far as there is space
     """
     order = sorted(range(len(wanted)), key=lambda at: wanted[at])
     clusters: list[tuple[list[int], float]] = []  # members, and the place of the first
@@ -115,13 +118,15 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
 
 
 def _kept(members: Sequence[int], first: float, needs: Sequence[float], bounds: tuple[float, float]) -> float:
-    """Place of the first box at which a row of boxes is within bounds; from the left where it is too long."""
+    """Return the centre of the first box such that a row of boxes is within bounds; too long a row begins at the lower
+    bound.
+    """
     most = bounds[1] - needs[members[-1]] / 2 - _steps(members, needs)[-1]
     return max(min(first, most), bounds[0] + needs[members[0]] / 2)
 
 
 def _steps(members: Sequence[int], needs: Sequence[float]) -> list[float]:
-    """Distances from the first box."""
+    """Return the distance of each box of a row from the first one."""
     steps = [0.0]
     for one, other in pairwise(members):
         steps.append(steps[-1] + (needs[one] + needs[other]) / 2)
@@ -135,10 +140,12 @@ def _overlap(left: tuple[list[int], float], right: tuple[list[int], float], need
 
 
 def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Places (n, 2) in which paired items stand about their length apart, and others as far as their paths are long.
+    """Return positions (n, 2) of items by stress majorization from a circle in the order of `arrange`.
 
-    lengths   of each pair, in either order; stress majorization from places on a circle in arranged order
-    (Gansner, Koren and North 2004, Graph drawing by stress majorization, equation 3)
+    The target distance of two items is the length of the shortest path between them (Gansner, Koren and North 2004, Graph
+    drawing by stress majorization, equation 3).
+
+    lengths   length of each pair, its items in either order
     """
     count = len(items)
     order = {item: at for at, item in enumerate(arrange(items, pairs))}
@@ -161,7 +168,8 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Lengths of the shortest paths (n, n)."""
+    """Return the lengths of the shortest paths (n, n) by the Floyd-Warshall algorithm; 0 between separate components.
+    """
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -178,46 +186,46 @@ def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, s
 
 
 Box = tuple[float, float, float, float]
-"""Middle, width and height, in inches."""
+"""Centre x, centre y, width and height [in]."""
 
 _PATHS = TextToPath()
 _LINE = 1.25  # heights of a line, of its letters' size
 _CELL = 0.5  # inches: boxes are looked for in the squares of a grid that they touch
 PITCH = _LINE * FINE / 72 + 0.02
-"""Inches from one word beside a picture to the next."""
+"""Distance between the lines of a callout [in]."""
 
 
 @cache
 def text_width(text: str, size: float = FINE, weight: str = "normal") -> float:
-    """Inches that a line of words takes in the font that is drawn with."""
+    """Return the width [in] of a line of text in the font of the figures."""
     font = FontProperties(size=size, weight=weight)
     shown = printable(text)  # as it is drawn
     return float(_PATHS.get_text_width_height_descent(shown, font, ismath=False)[0]) / 72 if text else 0.0
 
 
 def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str = "normal") -> Box:
-    """The box of some lines about a point, with a rim."""
+    """Return the box of some lines of text centred at a point, with a margin."""
     wide = max(text_width(line, size, weight) for line in lines)
     return x, y, wide + 0.04, len(lines) * _LINE * size / 72
 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """What is taken already, by square of a grid."""
+    """Occupied boxes on a page, indexed by the squares of a grid."""
 
     taken: dict[tuple[int, int], list[Box]] = field(default_factory=dict)
 
     def free(self, box: Box) -> bool:
-        """True if the box shares no area with what is taken."""
+        """Return whether a box shares no area with the occupied boxes."""
         return not any(overlap(box, other) for square in _squares(box) for other in self.taken.get(square, ()))
 
     def take(self, box: Box) -> None:
-        """Keep others away from a box."""
+        """Mark a box as occupied."""
         for square in _squares(box):
             self.taken.setdefault(square, []).append(box)
 
     def place(self, boxes: Iterable[Box]) -> Box | None:
-        """The first of some boxes that is free, which is taken; None where none is."""
+        """Return the first free box and mark it as occupied; None if no box is free."""
         for box in boxes:
             if self.free(box):
                 self.take(box)
@@ -226,7 +234,7 @@ class LabelSpace:
 
 
 def _squares(box: Box) -> Iterator[tuple[int, int]]:
-    """The squares that a box touches."""
+    """Yield the squares of the grid that a box touches."""
     x, y, width, height = box
     for across in range(floor((x - width / 2) / _CELL), floor((x + width / 2) / _CELL) + 1):
         for along in range(floor((y - height / 2) / _CELL), floor((y + height / 2) / _CELL) + 1):
@@ -234,7 +242,7 @@ def _squares(box: Box) -> Iterator[tuple[int, int]]:
 
 
 def overlap(one: Box, other: Box) -> float:
-    """The area two boxes share."""
+    """Return the area [in^2] that two boxes share."""
     across = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
     along = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
     return max(across, 0.0) * max(along, 0.0)
@@ -253,26 +261,28 @@ _THIN: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "zorder": 7}
 
 @dataclass(frozen=True, slots=True)
 class Callout:
-    """A word, or a list of words below each other, for a point in a picture, in inches."""
+    """A line of text, or several lines below each other, with the point of the picture that they name [in]."""
 
     words: Sequence[tuple[str, str]]
-    """Each with the key that names it in a vector file."""
+    """Lines of text, each as (identifier of the text in a vector file, text)."""
     anchor: Spot
 
     @property
     def height(self) -> float:
-        """Inches that it takes of its column."""
+        """Height within its column [in]."""
         return PITCH * len(self.words) + (_APART if len(self.words) > 1 else 0.0)
 
     @property
     def width(self) -> float:
-        """Inches of its longest word."""
+        """Width of its longest line [in]."""
         return max(text_width(words) for _, words in self.words)
 
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Where words stand beside a picture: x of their column's inner edge and y of each, on the left and the right."""
+    """Positions of callouts next to a picture: the y of each, on the left and the right, and the inner edges of the
+    columns.
+    """
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -280,13 +290,13 @@ class CalloutMargin:
 
     @property
     def widths(self) -> tuple[float, float]:
-        """Inches beyond the edges on either side."""
+        """Widths of the left and right columns beyond their edges [in]."""
         sides = [[each.width + 2 * _AWAY for each, _ in side] for side in (self.left, self.right)]
         return max(sides[0], default=0.0), max(sides[1], default=0.0)
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Least and greatest y of all words; (inf, -inf) of none."""
+        """Minimum and maximum y of all callouts [in]; (inf, -inf) if there are no callouts."""
         ends = [y + way * each.height / 2 for side in (self.left, self.right) for each, y in side for way in (-1, 1)]
         return min(ends, default=inf), max(ends, default=-inf)
 
@@ -298,11 +308,11 @@ class CalloutMargin:
 
     @property
     def has_lists(self) -> bool:
-        """True where one line leads to several things."""
+        """True if a line leads to several names."""
         return any(len(each.words) > 1 for side in (self.left, self.right) for each, _ in side)
 
     def moved(self, x: float, y: float) -> CalloutMargin:
-        """All of it elsewhere on the page."""
+        """Return a copy that is translated on the page."""
         left, right = (
             [(Callout(c.words, (c.anchor[0] + x, c.anchor[1] + y)), at + y) for c, at in side]
             for side in (self.left, self.right)
@@ -310,7 +320,7 @@ class CalloutMargin:
         return CalloutMargin(left, right, (self.edges[0] + x, self.edges[1] + x))
 
     def draw(self, axes: Axes) -> None:
-        """Words, lines and a dot at each end; a bar beside a list."""
+        """Draw the text, the lines with a dot at the named point, and a bar next to each list."""
         for side, edge, ha, step in ((self.left, self.edges[0], "right", -1), (self.right, self.edges[1], "left", 1)):
             for each, y in side:
                 axes.plot([edge, each.anchor[0]], [y, each.anchor[1]], **_THIN)
@@ -323,10 +333,10 @@ class CalloutMargin:
 
 
 def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds: tuple[float, float]) -> CalloutMargin:
-    """Words in two columns, near to what they name.
+    """Return the callouts in two columns, close to what they name.
 
-    edges    inner edges of the columns: all anchors lie between them
-    bounds   of y, as far as there is room
+    edges    inner edges of the columns; all anchors lie between them
+    bounds   interval of y that contains the callouts as far as there is space
     """
     ordered = sorted(callouts, key=lambda each: (each.anchor, each.words))
     lines = np.cumsum([0, *(len(each.words) for each in ordered)])
@@ -342,7 +352,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Places near those of what is named, in an order in which no line crosses another, as far as one is found."""
+    """Return the positions of a column close to what is named, ordered so that as few lines as possible cross."""
     order = _shortest(callouts, edge, bounds)
     best, minimum = _stacked(order, bounds), inf
     for _ in range(len(order) + 1):
@@ -358,7 +368,10 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
 
 
 def _shortest(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
-    """From below, so that all lines together are shortest were all as high: then no two of them cross."""
+    """Return the callouts from bottom to top in the order of minimum total line length (linear assignment).
+
+    If all callouts were equally high, no two lines of this order would cross.
+    """
     if not callouts:
         return []
     heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))
@@ -368,18 +381,18 @@ def _shortest(callouts: Sequence[Callout], edge: float, bounds: tuple[float, flo
 
 
 def _stacked(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Each as near to what it names as the order, from below, leaves it."""
+    """Return the callouts with heights as close to their anchors as their order permits (isotonic regression)."""
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 
 
 def _crossings(placed: Sequence[tuple[Callout, float]], edge: float) -> Ints:
-    """Pairs (n, 2) of which the lines cross."""
+    """Return the index pairs (n, 2) of callouts whose lines cross."""
     starts = np.array([(edge, y) for _, y in placed]).reshape(-1, 1, 2)
     ends = np.array([each.anchor for each, _ in placed]).reshape(-1, 1, 2)
 
     def parts(points: Floats) -> Floats:
-        """On which side of each line (n) each point (1, n) lies."""
+        """Return the side (n, n) of each line on which each point (1, n) lies, as a sign."""
         along, apart = ends - starts, points - starts
         return np.asarray(np.sign(along[..., 0] * apart[..., 1] - along[..., 1] * apart[..., 0]))
 

@@ -1,4 +1,4 @@
-"""Dial faces as they are read: scales, spirals, and pointers at their angle after some turns."""
+"""Dial faces: scales, spirals, and pointers at their angles after some turns of the driving link."""
 
 from __future__ import annotations
 
@@ -42,22 +42,26 @@ _SAMPLE, _DASHED = 0.45, 0.75  # inches of a hand in the key, and of hands that 
 
 @dataclass(frozen=True, slots=True)
 class PointerReading:
-    """The position of a pointer after some turns of the driving link."""
+    """Position of a pointer after some turns of the driving link."""
 
     output: str
     turned: Fraction | None
     """Mean turns since the zero pose, clockwise as read positive, exact; None if undetermined."""
     error: float
-    """What its starting angle, teeth and pins add (turns, clockwise as read)."""
+    """Contribution of the starting angle, teeth and pins [turn], clockwise as read positive."""
     reach: float = 1.0
-    """Length of its hand over the radius of a scale, and `outline` (x, half its width) over that length."""
+    """Length of the hand over the radius of its scale.
+
+    The `outline` of the hand has points (x, half the width), both relative to this length.
+    """
     outline: Sequence[tuple[float, float]] = ()
 
     @property
     def at(self) -> Fraction:
-        """Turns past the zero mark, clockwise as read, exact but for the error, whose float noise is rounded off.
+        """Turns past the zero mark, clockwise as read.
 
-        A hand on a line is read in the cell after it, and an error of -1e-17 turns would put it in the cell before.
+        They are exact except for the error, which is rounded. A hand on a line is read in the cell after the line, and an error
+        of -1e-17 turns would put it in the cell before.
         """
         return (self.turned or Fraction(0)) + Fraction(round(self.error, _DECIMALS))
 
@@ -70,11 +74,11 @@ class DialPicture:
     scale: DialScale
     pointers: tuple[int, ...]
     title: str = ""
-    """What stands over it where that is not its name: one dial may stand about several axes."""
+    """Text above the face if it is not the name; one dial may surround several axes."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
-    """Every pointer of a scene after `turns` of its lead."""
+    """Return the reading of every pointer of a scene after `turns` of its driving link."""
     error = body_errors(scene, turns)
     found = []
     for pointer in scene.pointers:
@@ -91,10 +95,13 @@ def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
 def dials_figure(
     scene: Scene, turns: Fraction = Fraction(0), outputs: Sequence[str] = (), labels: bool = True
 ) -> Figure:
-    """The dials of a scene after `turns` of its lead; outputs without one get a plain face, if none has a dial.
+    """Draw the dials of a scene after `turns` of its driving link.
 
-    outputs   those that are wanted, by default all that are read on a dial
-    Raises `QuestionError` for outputs that are not there, and for trains without any.
+    Outputs without a dial get a plain face if they are named or if no output has a dial.
+
+    outputs   outputs to draw, by default all that are read on a dial
+
+    Raise `QuestionError` for unknown outputs and for trains without outputs.
     """
     faces = find_faces(scene, outputs)
     readings = pointer_readings(scene, turns)
@@ -127,7 +134,8 @@ def _driving_link(scene: Scene) -> str:
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """The faces to be drawn. Raises `QuestionError`."""
+    """Return the faces to be drawn. Raise `QuestionError` if an output is unknown, or if there is no face or too many.
+    """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
@@ -162,13 +170,13 @@ def _dialled(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
 
 
 def place(centre: tuple[float, float], radius: float, turn: float | Fraction) -> tuple[float, float]:
-    """The point at some turns past the zero mark above, clockwise."""
+    """Return the point at `radius` about a centre, some turns clockwise from the zero mark at the top."""
     x, y = clock_point(radius, turn)
     return centre[0] + x, centre[1] + y
 
 
 def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading], centre: tuple[float, float]) -> None:
-    """Scale, hands and name."""
+    """Draw the scale, the hands and the name of a face."""
     outer = _OUTER
     _draw_scale(axes, face, centre, outer)
     for order, at in enumerate(face.pointers):
@@ -183,7 +191,7 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
 def _draw_key(
     axes: Axes, face: DialPicture, scene: Scene, readings: Sequence[PointerReading], centre: tuple[float, float]
 ) -> None:
-    """Below a face, a line for each hand: how it is drawn, and what it reads."""
+    """Draw a key below a face: one line for each hand, with its style and its reading."""
     told = [_words(scene.pointers[at], readings[at], face) for at in face.pointers]
     sample = _sample(face)
     left = centre[0] - (max(map(text_width, told)) + sample) / 2
@@ -194,12 +202,12 @@ def _draw_key(
 
 
 def _sample(face: DialPicture) -> float:
-    """Inches of a hand in the key of a face."""
+    """Return the length [in] of the sample of a hand in the key of a face."""
     return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
 
 def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
-    """What is engraved on it: the line along which cells lie, their borders, and letters."""
+    """Draw the engraving of a face: the line along which cells lie, their borders, and letters."""
     for part in engrave(face.scale):
         points = [point for line in part.lines for point in (*line, (np.nan, np.nan))]
         colour = BLACK if part.kind in ("rim", "letters") else GREY
@@ -216,7 +224,7 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """A hand from the middle; on a spiral as long as the turn it has come to."""
+    """Draw a hand from the centre; on a spiral it ends at the winding that it has reached."""
     if reading.turned is None:
         return
     scale = face.scale
@@ -235,7 +243,7 @@ def _draw_pointer(
 def _fill_hand(
     axes: Axes, reading: PointerReading, centre: tuple[float, float], tip: tuple[float, float], colour: str
 ) -> None:
-    """The outline of a hand that is more than a needle."""
+    """Draw the outline of a hand that is wider than a needle."""
     along = np.subtract(tip, centre)
     across = np.array([along[1], -along[0]])
     right, left = ([centre + x * along + way * w * across for x, w in reading.outline] for way in (1, -1))
@@ -243,7 +251,7 @@ def _fill_hand(
 
 
 def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
-    """The output, where it stands, what it shows there, and the way it goes."""
+    """Return the name of an output, its position, its reading and the sense in which it turns."""
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
     scale = face.scale

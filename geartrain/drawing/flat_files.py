@@ -1,8 +1,10 @@
-"""Drawings as SVG: a user unit is a millimetre, and y downwards as SVG has it, so that the part looks as it is.
+"""Drawings as SVG, DXF and CSV files.
 
-Drawings as DXF: millimetres, a layer for each use, closed polylines with arcs.
+SVG: one user unit is a millimetre, and y points downwards as SVG requires, so that the part is not mirrored.
 
-Outlines of single wheels as SVG, DXF or CSV, in mm.
+DXF: millimetres, one layer for each use, closed polylines with arcs.
+
+Outlines of single wheels are written as SVG, DXF or CSV, in mm.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ _STRAIGHT = 1e-9  # bulges below this are drawn as lines
 
 
 def to_svg(drawing: FlatDrawing) -> str:
-    """A drawing as SVG: one path to cut, and a group for each layer that is not cut."""
+    """Return a drawing as SVG: one path to cut, and a group for each layer that is not cut."""
     (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
     width, height = right - left, high - low
     lines = [
@@ -77,7 +79,7 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """A drawing as DXF R2010, its title in the header's comment. Raises `MissingExtraError`."""
+    """Return a drawing as DXF R2010 with its title as a custom property. Raise `MissingExtraError` without ezdxf."""
     try:
         from ezdxf import units
         from ezdxf.enums import TextEntityAlignment
@@ -127,7 +129,7 @@ OUTLINES = (".svg", ".dxf", ".csv")
 
 
 def outline_text(wheel: WheelOutline, suffix: str) -> str:
-    """A wheel's outline as the text of a file, 1:1 in mm.
+    """Return the outline of a wheel as the text of a file, 1:1 in mm.
 
     Parameters
     ----------
@@ -167,7 +169,10 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
 
 
 def _csv(wheel: WheelOutline) -> str:
-    """A point a row; each contour ends where it began, its arcs as chords within the wheel's tolerance."""
+    """Return the points of the contours as CSV rows.
+
+    Each contour ends where it began. Arcs are approximated by chords within the wheel's tolerance.
+    """
     rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):
         points = contour.flattened(wheel.tolerance)

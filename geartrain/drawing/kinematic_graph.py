@@ -1,6 +1,7 @@
-"""The graph of a train: links as vertices, turning pairs as thin edges with their axis, gear pairs as heavy ones.
+"""Kinematic graph of a train: links as vertices, turning pairs as thin edges, gear pairs as heavy edges.
 
-The style is that of Buchsbaum and Freudenstein (1970), Synthesis of kinematic structure of geared kinematic chains.
+Edges of turning pairs are labelled with their axis. The style follows Buchsbaum and Freudenstein (1970), Synthesis of
+kinematic structure of geared kinematic chains.
 """
 
 from __future__ import annotations
@@ -73,7 +74,7 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """A pair of links: revolute, gear or coupling, with the axis or the pair's name as its label."""
+    """A pair of links of kind revolute, gear or coupling; the label is its axis or the name of the pair."""
 
     ends: tuple[str, str]
     kind: str
@@ -82,7 +83,7 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """All pairs in the order declared; `broken` names gear pairs and couplings to be marked."""
+    """Return all pairs in declared order; `broken` names the gear pairs and couplings to be marked."""
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -95,9 +96,9 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Links, turning pairs, gear pairs and couplings; pairs of a loop that does not close are red.
+    """Draw links, turning pairs, gear pairs and couplings; pairs of a loop that does not close are red.
 
-    Raises `QuestionError` for more links than a page holds.
+    Raise `QuestionError` for more links than fit on a page.
     """
     declared = train.declaration
     links = list(declared.links)
@@ -142,14 +143,14 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Where the links stand (inches), and every pair with its curve's ends and middle control point (3, 2)."""
+    """Return the positions of the links [in], and every pair with its curve (3, 2): ends and middle control point."""
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
 
 
 def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
-    """Inches (n, 2), the longer side across."""
+    """Return the positions (n, 2) of the links [in], rotated so that the longer side is horizontal."""
     degree = dict.fromkeys(links, 0)
     for edge in edges:
         for end in edge.ends:
@@ -171,7 +172,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
 
 
 def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -> list[Floats]:
-    """The curve of every edge; a later one between the same links bends more."""
+    """Return the curve of every edge; later edges between the same links bend more."""
     turns: dict[frozenset[str], int] = {}
     found = []
     for edge in edges:
@@ -181,7 +182,10 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Ends and middle control point (3, 2): the least bend that keeps clear of other vertices and of earlier edges."""
+    """Return the ends and the middle control point (3, 2) of an edge.
+
+    The bend minimises its own size plus a penalty for passing close to other vertices.
+    """
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # ends at one place: no bend
@@ -199,7 +203,7 @@ def _clearance(curve: Floats, others: Floats) -> float:
 
 
 def _point(curve: Floats, share: float) -> Floats:
-    """A point of a quadratic Bezier curve."""
+    """Return a point of a quadratic Bezier curve."""
     rest = 1 - share
     return np.asarray(rest**2 * curve[0] + 2 * rest * share * curve[1] + share**2 * curve[2])
 
@@ -227,7 +231,7 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Traces:
-    """Edges as points (edge, point, 2), and how much ink a point of each stands for [inches by points of width]."""
+    """Sampled points (edge, point, 2) of all edges, and the ink per point of each edge [in times pt of width]."""
 
     points: Floats
     ink: Floats
@@ -239,7 +243,7 @@ class _Traces:
         return cls(points, steps * [_LOOKS[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Ink of edges under a box with a rim, `own` left out."""
+        """Return the ink of edges under a box with a margin; the edge `own` is not counted."""
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _KEPT).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))
@@ -248,9 +252,10 @@ class _Traces:
 def _draw_labels(
     axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], traces: _Traces, room: LabelSpace
 ) -> None:
-    """Every edge's label on it, as near to its middle as it hides no other edge there, else where it hides least.
+    """Draw every edge's label on the edge, close to its middle, where it hides as little of other edges as possible.
 
-    What has fewest places is placed first; only where none on the edge is free a label stands beside it.
+    Labels with the fewest unobstructed positions are placed first. A label is placed next to its edge only if no position
+    on the edge is free.
     """
     spots = [_spots(edge, curve, at, traces) for at, (edge, curve) in enumerate(zip(edges, curves, strict=True))]
     order = sorted(range(len(edges)), key=lambda at: (sum(not ink for ink, _ in spots[at]), at))
@@ -264,7 +269,9 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Places of a label along its edge, from the middle outwards, each with the ink of others that it hides."""
+    """Return the positions of a label along its edge, from the middle outwards, each with the ink of other edges it
+    hides.
+    """
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
         x, y = map(float, _point(curve, share))
@@ -275,7 +282,7 @@ def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tup
 
 
 def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], frame: bool, size: float) -> None:
-    """A circle, of the frame a hatched square, of half the size that is given."""
+    """Draw a vertex of half width `size`: a circle, or a hatched square for the frame."""
     x, y = at[link]
     style: dict[str, Any] = {
         "facecolor": "white",
@@ -298,7 +305,9 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """A link's name beside its vertex, where it hides least of edges, on the side on which fewest edges leave it."""
+    """Draw the name of a link next to its vertex, where it hides the least ink, on the side where the fewest edges
+    leave.
+    """
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
         for dx, dy in _free_sides(link, at, edges):
@@ -314,7 +323,7 @@ def _name_vertex(
 def _free_sides(
     link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]
 ) -> list[tuple[float, float]]:
-    """Sixteen unit directions, the farthest from all edges of a vertex first."""
+    """Return sixteen unit directions, the one farthest from all edges of a vertex first."""
     here = np.array(at[link])
     mates = [other for edge in edges if link in edge.ends for other in edge.ends if other != link]
     if not mates:

@@ -1,6 +1,6 @@
-"""Speed diagrams of epicyclic sets: coaxial members at abscissae given by teeth, their speeds as ordinates on a line.
+"""Speed diagrams of epicyclic sets: coaxial members at abscissae given by tooth counts, their speeds as ordinates.
 
-The abscissae are those of `geartrain.kinematics.levers`.
+All speeds of a set lie on one line. The abscissae are computed by `geartrain.kinematics.levers`.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """A place on a lever: abscissa, the members there, what is closed at each, their speed or None."""
+    """A point of a lever: abscissa, members, the brakes and clutches closed at each member, and their speed or None."""
 
     x: Fraction
     links: list[str]
@@ -42,7 +42,7 @@ class Point(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """Members with what is closed at them."""
+        """Names of the members, each with the brakes and clutches that are closed at it."""
         return [link + mark for link, mark in zip(self.links, self.marks, strict=True)]
 
 
@@ -56,9 +56,9 @@ _LONG = 11  # letters of a fraction that is still written out
 
 
 def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """A panel for each set and each state (or the one named): sets side by side, states below each other.
+    """Draw a panel for each epicyclic set and each state (or the named one): sets side by side, states below each other.
 
-    Raises `QuestionError` where nothing is epicyclic, or for more panels than a page holds.
+    Raise `QuestionError` if the train has no epicyclic set, or for more panels than fit on a page.
     """
     levers = find_levers(train.declaration, train.kinematics.tree, train.circuits)
     if not levers:
@@ -101,7 +101,7 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]) -> tuple[float, float]:
-    """Of all speeds, so that every panel has one scale."""
+    """Return the range of all speeds with a margin, so that every panel has the same scale."""
     points = (point for lever in levers for answer in answers for point in _points(train, lever, answer))
     speeds = [0.0, *(float(point.speed) for point in points if point.speed is not None)]
     more = 0.08 * (max(speeds) - min(speeds)) or 0.5
@@ -109,7 +109,9 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _bands(wide: Sequence[float]) -> list[list[int]]:
-    """Panels side by side as far as a page is wide, in rows that are as equal as they can be."""
+    """Return the panels in rows of at most the page width, with the minimum number of rows and rows as equal as
+    possible.
+    """
     rows = len(_filled(wide, _PAGE))
     ends = range(len(wide))
     widths = sorted(
@@ -119,7 +121,7 @@ def _bands(wide: Sequence[float]) -> list[list[int]]:
 
 
 def _filled(wide: Sequence[float], page: float) -> list[list[int]]:
-    """Each panel in the first row that has room for it behind those before it."""
+    """Return the panels in rows, filled in order (next-fit packing)."""
     bands: list[list[int]] = [[]]
     left = 0.0
     for at, each in enumerate(wide):
@@ -132,14 +134,14 @@ def _filled(wide: Sequence[float], page: float) -> list[list[int]]:
 
 
 def _filling(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
-    """Widths of panels, of few as much more as fills a page of the least width."""
+    """Return the widths of the panels, widened if they do not fill a page of the minimum width."""
     most = max(bands, key=lambda band: sum(wide[at] + _GAP for at in band))
     room = _NARROW - _EDGE - _GAP * len(most)
     return [each * max(room / sum(wide[at] for at in most), 1.0) for each in wide]
 
 
 def _width(points: Sequence[Point]) -> float:
-    """Inches in which the words above and below a panel stand side by side."""
+    """Return the width [in] at which the labels above and below a panel fit side by side."""
     above = sum(_letters(max([*point.names, _said(point.speed)], key=len)) for point in points)
     below = sum(_letters(_said(point.x)) for point in points)
     return max(above, below, _MINIMUM)
@@ -150,7 +152,10 @@ def _letters(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """The state and what is closed in it, and why it has no speeds; above the first, what all speeds are in."""
+    """Return the heading of a state: its name, its closed elements, and its verdict if it has no speeds.
+
+    The heading of the first state also names the unit of all speeds.
+    """
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:
         said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
@@ -160,7 +165,7 @@ def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
 
 
 def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: bool) -> None:
-    """One set in one state: a vertical for each member, the line through their speeds."""
+    """Draw one set in one state: a vertical for each member, and the line through their speeds."""
     points = _points(train, lever, answer)
     xs = [float(point.x) for point in points]
     known = [(float(point.x), float(point.speed)) for point in points if point.speed is not None]
@@ -181,7 +186,8 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
 
 
 def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
-    """Behind each link that a closed brake or clutch takes hold of, the names of those."""
+    """Return a dictionary from each link to the names, in brackets, of the closed brakes and clutches that act on it.
+    """
     found: dict[str, list[str]] = {}
     for name in train.kinematics.cases[state].engaged:
         clutch = train.declaration.clutches[name]
@@ -191,7 +197,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """From left to right, with speeds about the carrier's axis."""
+    """Return the points of a lever from left to right, with speeds about the carrier's axis."""
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
@@ -218,7 +224,7 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
-    """Members with their speeds above, abscissae below, moved apart where verticals stand close."""
+    """Write members with their speeds above and abscissae below, moved apart where verticals are close together."""
     low, high = axes.get_xlim()
     figure = axes.get_figure(root=True)
     assert figure is not None
@@ -248,7 +254,7 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
 
 
 def _said(value: Fraction | None) -> str:
-    """A short fraction as it is, a long one in decimals, nothing known as a question mark."""
+    """Return a short fraction as a fraction, a long one as a decimal, and None as a question mark."""
     if value is None:
         return "?"
     return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

@@ -1,4 +1,4 @@
-"""A train over some turns of the input: errors and speeds of outputs, and torque at the crank with losses."""
+"""Plots of a train over some turns of the input: deviations and speeds of outputs, crank torque with losses."""
 
 from __future__ import annotations
 
@@ -50,7 +50,9 @@ _ROUNDS = 15  # turns of a pointer beyond which its angle would be a grey block
 
 
 class _Trace(NamedTuple):
-    """One output over the turns of the input: angle (turns), error (rad), speed over the mean (or the input's)."""
+    """One output over the turns of the input: angle [turn], deviation [rad], and speed over the mean (or the input's)
+    speed.
+    """
 
     name: str
     turns: Floats
@@ -59,11 +61,11 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     first: tuple[Floats, Floats, Floats]
-    """Turns, error and speed at every one of the first positions."""
+    """Turns, deviation and speed at each of the first positions."""
 
     @property
     def errs(self) -> bool:
-        """False where the error is rounding."""
+        """True if the deviation is larger than rounding."""
         return bool(np.ptp(self.error) > _EXACT)
 
 
@@ -71,26 +73,26 @@ _Drawer = Callable[[Any, _Trace], None]
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
-    """How outputs move: angles against mean motions, errors and speeds; in red where a pointer goes back.
+    """Draw the motion of outputs: angles against mean motions, deviations and speeds; backward motion is red.
 
-    Of an output that errs, its error and its speed; over few turns also its angle, over many also where it goes back,
-    if it does. Outputs without error are drawn only where none errs, each in one panel: of its angle over few turns,
-    or else of its speed.
+    An output that deviates from uniform motion gets panels of its deviation and its speed. Over few turns a panel of its
+    angle is added, over many turns a panel of its backward motion, if any. Outputs that move uniformly are drawn only if
+    all do, each in one panel: its angle over few turns, otherwise its speed.
 
     Parameters
     ----------
     run : MotionRun
-        What to follow: outputs, turns and positions; it need not have gone.
+        Outputs, turns and positions to follow; the run may be new.
     on_done : callable
-        Called with the number of positions that have been worked out since.
+        Called with the number of positions computed since the previous call.
     title : str
-        What stands above the picture.
+        Title above the picture.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Angles and errors [deg], speeds over their means, over turns of the input; of the twelve outputs that err
-        most, or the first twelve where none errs.
+        Angles and deviations [deg] and speeds over their means, against turns of the input. At most twelve outputs
+        are drawn: those with the largest deviations, or the first twelve if all move uniformly.
 
     Examples
     --------
@@ -111,21 +113,21 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> Figure:
-    """How outputs move over some turns of the input: `motion_figure` of a run that is made for it.
+    """Draw the motion of outputs over some turns of the input: `motion_figure` of a new run.
 
     Parameters
     ----------
     motion : Motion
-        The motion of the outputs.
+        Motion of the outputs.
     turns : float
-        Of the input, from 0 [turn].
+        Turns of the input, from 0 [turn].
     samples : int
-        Positions, 2 or more, both ends included.
+        Number of positions, 2 or more, both ends included.
 
     Returns
     -------
     matplotlib.figure.Figure
-        As `motion_figure` draws it.
+        Figure as drawn by `motion_figure`.
 
     Examples
     --------
@@ -137,7 +139,7 @@ def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> F
 
 
 def _left_out(erring: int, exact: int) -> Iterator[str]:
-    """Words on outputs that are not drawn, where so many err and so many do not."""
+    """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
     if not erring:
         yield "no output has an error"
         yield from _beyond(exact, "")
@@ -148,7 +150,7 @@ def _left_out(erring: int, exact: int) -> Iterator[str]:
 
 
 def _beyond(outputs: int, which: str) -> Iterator[str]:
-    """Words on outputs that are more than are drawn."""
+    """Yield a remark on the outputs beyond the maximum number that is drawn."""
     less = outputs - _OUTPUTS
     if less == 1:
         yield f"1 output{which and ' that errs less'} is left out: name it with --output"
@@ -157,7 +159,7 @@ def _beyond(outputs: int, which: str) -> Iterator[str]:
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:
-    """Panels of few outputs below each other; of many, those of each in a row."""
+    """Return the figure with all panels: in one column for few outputs, otherwise one row for each output."""
     across = 1 if len(parts) <= _STACKED else max(len(drawers) for _, drawers in parts)
     if across > 1:  # error and speed, which all have, in columns of their own
         parts = [(trace, [*drawers[-2:], *drawers[:-2]]) for trace, drawers in parts]
@@ -175,7 +177,7 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
 
 
 def _framed(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
-    """One panel of one output."""
+    """Draw one panel of one output."""
     drawer(panel, trace)
     name_axes(panel, below, size=SMALL, parse_math=False)
     panel.locator_params(axis="x", nbins=_TICKS)
@@ -183,7 +185,10 @@ def _framed(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
 
 
 def _drawers(trace: _Trace) -> list[_Drawer]:
-    """Over few rounds the pointer's whole way; over many, only where it goes back. Without error there is no more."""
+    """Return the functions that draw the panels of an output.
+
+    Over few turns of the pointer its whole angle is drawn, over many only its backward motion.
+    """
     if not trace.errs:
         return [_angle] if np.ptp(trace.mean) <= _ROUNDS else [_speed]
     if np.ptp(trace.mean) <= _ROUNDS:
@@ -192,7 +197,7 @@ def _drawers(trace: _Trace) -> list[_Drawer]:
 
 
 def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
-    """Every output, thinned stretch by stretch to what can be seen."""
+    """Return the trace of every output, thinned to what the resolution of the picture shows."""
     motion = run.motion
     parts: list[list[tuple[Floats, Floats, Floats]]] = [[] for _ in motion.outputs]
     firsts: list[tuple[Floats, Floats, Floats]] = []
@@ -214,13 +219,16 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
 
 
 def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, Floats, Floats]]:
-    """Turns, error and speed of each output at the first positions, all of them."""
+    """Return turns, deviation and speed of each output at the first positions, without thinning."""
     columns = zip(passage.error[:, :_MOST], passage.rate[:, :_MOST], means, strict=True)
     return [(passage.turns[:_MOST], error, (mean + rate) / (mean or 1.0)) for error, rate, mean in columns]
 
 
 def _kept(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Of each bin the first position and those of the least and greatest error and speed; and every turning back."""
+    """Return the indices of the positions to draw.
+
+    They are the first position of each bin, its extremes of deviation and speed, and every reversal.
+    """
     if len(error) <= 3 * bins:
         return np.arange(len(error))
     kept: list[Any] = []
@@ -253,7 +261,7 @@ def _dial(panel: Any, label: str) -> None:
 
 
 def _broken(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
-    """Degrees round the dial, the line broken where the pointer passes 0."""
+    """Return the line of a pointer in degrees modulo 360, interrupted by NaN where the pointer passes 0."""
     degrees = 360 * np.mod(turns, 1)
     cuts = np.flatnonzero(np.abs(np.diff(degrees)) > 180) + 1
     return np.insert(x, cuts, np.nan), np.insert(degrees, cuts, np.nan)
@@ -273,9 +281,11 @@ def _speed(panel: Any, trace: _Trace) -> None:
 
 
 def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Floats, Floats]:
-    """The whole course; of one that swings so often that it would be a block, its beginning between its bounds.
+    """Plot a curve and return its abscissae and values.
 
-    What counts is how often it goes from bound to bound, six times `_SWINGS` in a wide panel.
+    If a curve oscillates so often that it would fill its panel, only its beginning is plotted, between its bounds. The
+    criterion is the total variation over the range, compared with six times `_SWINGS` in a wide panel and three times in
+    a narrow one.
     """
     turns, values = trace.turns, whole
     room = 6 if panel.get_gridspec().ncols == 1 else 3
@@ -290,7 +300,7 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
 
 
 def _turning(values: Floats) -> NDArray[np.intp]:
-    """Where a curve turns from rising to falling or back."""
+    """Return the indices of the turning points of a curve."""
     return np.flatnonzero(np.diff(np.sign(np.diff(values))) != 0)
 
 
@@ -303,12 +313,12 @@ _BINS = 900  # pixels: stretches of the run over which losses are averaged where
 _MINIMUM = 1e-9  # of all that is lost: less is rounding
 _CUT = 1.5  # times the torque that is exceeded in a fiftieth of the run: near a lock it has no bound
 _MOST_LOSSES = 6
-"""Of the parts that lose most; all others are drawn as one."""
+"""Maximum number of parts drawn, those with the largest losses; the others are drawn as one."""
 _OTHERS = 9  # their series, whose filling in print no part that is shown has
 
 
 class _Loss(NamedTuple):
-    """What a pair, pin or bearing, or all that are not shown by themselves, lose over the turns (n,)."""
+    """Power lost (n,) over the turns by a pair, pin or bearing, or by all parts that are not shown separately."""
 
     name: str
     power: Floats
@@ -316,25 +326,25 @@ class _Loss(NamedTuple):
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    """Torque at the crank over the run, with its mean and extremes, and below it what is lost where.
+    r"""Draw the crank torque over the run with its mean and extremes, and below it the losses by part.
 
     Parameters
     ----------
     found : TorqueCycle
-        From `GearTrain.torques` over some turns.
+        Result of `GearTrain.torques` over some turns.
     title : str
-        What stands above the picture.
+        Title above the picture.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Torque, and what is lost as a share of it: power over the mean speed of the link [N m, or plain]; over turns of
-        the input, shaded where the train locks.
+        Torque, and losses as equivalent torque (power over the mean speed of the link) [N m, or without unit], against
+        turns of the input; shaded where the train locks.
 
     Raises
     ------
     QuestionError
-        If the torque is known nowhere.
+        If the torque is not known at any position.
 
     Examples
     --------
@@ -393,7 +403,7 @@ def _mark(panel: Axes, name: str, extreme: TorqueExtreme, marker: str, colour: s
 
 
 def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> None:
-    """The losses one upon the other, that of which most is lost at the bottom."""
+    """Draw the losses as a stacked area plot, the largest loss at the bottom."""
     assert found.turns is not None
     turns, powers = _averaged(found.turns, np.array([np.nan_to_num(loss.power) for loss in losses]))
     ratio = _mean_speed(found)
@@ -412,7 +422,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
 
 
 def _mean_speed(found: TorqueCycle) -> float:
-    """Turns of the link in a turn of the input; 0 where it comes back to where it was."""
+    """Return the turns of the link per turn of the input; 0 if the link returns to its initial angle."""
     assert found.turns is not None
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0
@@ -423,7 +433,7 @@ def _mean_speed(found: TorqueCycle) -> float:
 
 
 def _losses(found: TorqueCycle) -> list[_Loss]:
-    """What loses anything, the greatest first; what has no colour of its own is one."""
+    """Return the losses, the largest first; the parts beyond the number of colours are summed."""
     if found.losses is None:
         return []
     names, values = found.losses.labels[0], np.asarray(found.losses.values)
@@ -443,14 +453,14 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
 
 
 def _bounds(turns: Floats, values: Floats) -> tuple[float, float]:
-    """What is worth drawing of a course that has no bound."""
+    """Return the range of an unbounded curve that is worth drawing."""
     even = np.interp(np.linspace(turns[0], turns[-1], _MOST_POSITIONS), turns, values)
     low, high = np.nanquantile(even, (0.02, 0.98))
     return _CUT * min(low, 0.0), _CUT * max(high, 0.0)
 
 
 def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
-    """Losses as they are, or their means over equal stretches of the run; powers (part, position)."""
+    """Return turns and losses unchanged, or averaged over equal intervals of the run; powers (part, position)."""
     if len(turns) <= 2 * _BINS:
         return turns, powers
     steps = np.diff(turns)

@@ -1,4 +1,4 @@
-"""What becomes of a pair as one or two of its parameters change."""
+"""Plots of the results of a pair over one or two of its parameters."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def sweep_figure(
     title: str = "",
     units: Mapping[str, str] | None = None,
 ) -> Figure:
-    """Results of a sweep over one or two parameters of a pair with triangular teeth; NaN is left out.
+    """Draw the results of a sweep over one or two parameters of a pair with triangular teeth; NaN is left out.
 
     One parameter: panels of mean efficiency, transmission error and speed ratios over it, before bands for the
     verdicts. Two: a map of the mean efficiency, blank where the pair does not turn, with the faults hatched. The scale
@@ -140,7 +140,7 @@ def sweep_figure(
 
 
 def parameter_label(name: str, unit: str = "") -> str:
-    """What stands at the axis of a parameter that is given in some unit.
+    """Return the axis label of a parameter with its unit.
 
     Examples
     --------
@@ -152,12 +152,12 @@ def parameter_label(name: str, unit: str = "") -> str:
 
 
 def parameter_name(name: str) -> str:
-    """A parameter of triangular teeth in words."""
+    """Return the name of a parameter of triangular teeth in words."""
     return _NAMES[name][0] if name in _NAMES else name.replace("_", " ")
 
 
 def _running(verdicts: Texts) -> list[str]:
-    """The verdicts on pairs that run, in order of appearance."""
+    """Return the verdicts on pairs that run, in order of appearance."""
     return [kind for kind in dict.fromkeys(verdicts.ravel().tolist()) if kind not in _FAULTS]
 
 
@@ -186,7 +186,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """The columns of each panel; the least and the greatest of one quantity share one."""
+    """Return the columns of each panel; the minimum and the maximum of one quantity share a panel."""
     found: dict[str, dict[str, Floats]] = {}
     for name, values in columns.items():
         stem, _, end = name.rpartition("_")
@@ -210,7 +210,7 @@ def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -
 
 
 def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
-    """The look of each verdict's band: coloured where the pair runs, grey and hatched where not."""
+    """Return the style of each verdict's band: coloured where the pair runs, grey and hatched where it does not."""
     others = count(1 + max(series for series, _ in _KNOWN.values()))
     styles: dict[str, dict[str, Any]] = {}
     for kind in dict.fromkeys(verdicts.tolist()):
@@ -223,7 +223,7 @@ def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
 
 
 def _bands(x: Floats, verdicts: Texts) -> Iterator[tuple[float, float, str]]:
-    """Stretches of one verdict, cut half way between samples."""
+    """Yield start, end and verdict of each interval with one verdict, bounded halfway between samples."""
     edges = np.concatenate((x[:1], (x[1:] + x[:-1]) / 2, x[-1:]))
     changes = (np.flatnonzero(verdicts[1:] != verdicts[:-1]) + 1).tolist()
     for start, end in zip([0, *changes], [*changes, len(x)], strict=True):
@@ -254,7 +254,7 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
 
 
 def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floats, Floats, Floats, Texts]:
-    """The grids with both parameters rising along their axes."""
+    """Return the grids sorted so that each parameter increases along its axis."""
     rows = np.argsort(x[:, 0] if x[0, 0] != x[-1, 0] else y[:, 0], kind="stable")
     cells = np.argsort(x[0] if x[0, 0] != x[0, -1] else y[0], kind="stable")
     at = np.ix_(rows, cells)
@@ -262,7 +262,7 @@ def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floa
 
 
 def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
-    """Faults hatched; the ways of running named and marked off from each other."""
+    """Hatch the regions of faults; label the regions of running and draw their boundaries."""
     for kind, hatch in _FAULTS.items():
         if hatch and (verdicts == kind).any():
             here = (verdicts == kind).astype(float)
@@ -281,7 +281,7 @@ def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
 
 
 def _name(axes: Axes, x: Floats, y: Floats, here: NDArray[np.bool_], kind: str) -> None:
-    """A region's name at that of its cells which is nearest to its middle."""
+    """Write the name of a region at the cell of the region that is closest to its centroid."""
     rows, cells = np.nonzero(here)
     if len(rows) < _REGION * here.size:
         return

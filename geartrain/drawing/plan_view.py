@@ -1,4 +1,4 @@
-"""The plan of a train to scale: wheels with their teeth, arms, pins and slots, from the front and from the side."""
+"""Plan of a train to scale: wheels with their teeth, arms, pins and slots, from the front and from the side."""
 
 from __future__ import annotations
 
@@ -65,14 +65,14 @@ _CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave it
 
 
 def from_below(standing: ProjectedScene) -> list[SceneWheel]:
-    """Wheels in the order in which they are drawn."""
+    """Return the wheels in drawing order: the lowest first, and the largest first at equal heights."""
     return sorted(
         standing.scene.wheels, key=lambda wheel: (float(standing.seen(standing.centre(wheel))[2]), -wheel.radius)
     )
 
 
 def draw_flat(page: ScaledPage, standing: ProjectedScene) -> None:
-    """All of them, on a page."""
+    """Draw all wheels, arms, wave generators, couplings and hubs of a scene in plan."""
     scene, wheels = standing.scene, from_below(standing)
     heights = sorted({round(float(standing.seen(standing.centre(wheel))[2]), 6) for wheel in wheels})
     red = broken_wheels(scene)
@@ -124,7 +124,7 @@ def _draw_wheel(
 
 
 def _hollow(outer: Floats, inner: Floats) -> Path:
-    """What lies between two closed lines."""
+    """Return the path of the area between two closed lines."""
     codes = [
         code for line in (outer, inner) for code in (Path.MOVETO, *[Path.LINETO] * (len(line) - 1), Path.CLOSEPOLY)
     ]
@@ -142,7 +142,7 @@ def _draw_arms(page: ScaledPage, standing: ProjectedScene) -> None:
 
 
 def _draw_waves(page: ScaledPage, standing: ProjectedScene) -> None:
-    """The generator, from its axis to where it presses a thin wheel out."""
+    """Draw each wave generator from its axis to the points where it deflects its thin wheel outwards."""
     for wave in standing.scene.waves:
         name = f"wave {standing.scene.bodies[wave.by].id}"
         page.axes.add_artist(
@@ -155,7 +155,7 @@ def _draw_waves(page: ScaledPage, standing: ProjectedScene) -> None:
 
 
 def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
-    """The pin, and the slot as far as the pin goes; or pins in their holes."""
+    """Draw the pin and the part of the slot that it can reach, or the pins in their holes."""
     if coupling.hole:
         _draw_holes(page, standing, coupling)
         return
@@ -190,23 +190,23 @@ _HUB, _LINE = 0.12, 0.04  # inches that a hub or a point of an arm keeps free, a
 
 @dataclass(frozen=True, slots=True)
 class PlanNames:
-    """Where the names of wheels that face the reader, the nearest first, may stand in a plan, in inches."""
+    """Candidate positions [in] of the names of the wheels that face the reader, the nearest wheel first."""
 
     wheels: Sequence[SceneWheel]
     centres: Floats
-    """Of the wheels (n, 2)."""
+    """Centres of the wheels (n, 2)."""
     reach: Floats
-    """What each hides (n,); of a ring nothing, which is open."""
+    """Radius of the disc that each wheel hides (n,); 0 for a ring, which is open."""
     arms: Floats
     """Points (m, 2) that keep names off arms, slots, and pins in holes."""
     scale: float
-    """Inches of a millimetre."""
+    """Inches per millimetre."""
 
     @classmethod
     def of(
         cls, standing: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
     ) -> PlanNames:
-        """Of the wheels of a scene; `at`, inches of what is seen."""
+        """Return the candidate positions for some wheels of a scene; `at` converts view coordinates to inches."""
         centres = np.array([at(standing.seen(standing.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
         reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
         ends = [at(standing.seen(np.array([start, end]))) for _, start, end in arms_of(standing)]
@@ -214,8 +214,9 @@ class PlanNames:
         return cls(wheels, centres, reach, _points_along([*ends, *pins]), scale)
 
     def place(self) -> tuple[list[tuple[SceneWheel, Box]], list[Callout]]:
-        """Names that stand on their wheels, and those that a line must lead from: one to all of an axis, from inside
-        out.
+        """Return the names placed on their wheels, and callouts for the others.
+
+        All wheels of one axis share a callout that lists them from the smallest to the largest.
         """
         room, written, rest = self._room(()), [], []
         for order in sorted(range(len(self.wheels)), key=lambda order: self.wheels[order].radius):
@@ -229,7 +230,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Names that stand on their wheels moved off the lines (2, 2) that lead to others, where there is room."""
+        """Return the names on wheels, moved off the callout lines (2, 2) where there is space."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -240,7 +241,7 @@ class PlanNames:
         return found
 
     def _room(self, lines: Sequence[Floats]) -> LabelSpace:
-        """Room off hubs, arms and lines."""
+        """Return a label space in which hubs, arms and lines are occupied."""
         room = LabelSpace()
         for x, y in (*self.centres, *self.arms):
             room.take((float(x), float(y), _HUB, _HUB))
@@ -249,7 +250,7 @@ class PlanNames:
         return room
 
     def _on_face(self, order: int) -> Iterator[Box]:
-        """Places within the wheel's own face that nothing hides."""
+        """Yield boxes for a name within the visible part of its wheel's face."""
         wheel, centre = self.wheels[order], self.centres[order]
         if wheel.kind == "ring":
             return
@@ -265,7 +266,7 @@ class PlanNames:
         yield from ((x, y, wide, high) for x, y in spots[within & ~hidden].tolist())
 
     def _callouts(self, rest: Sequence[int]) -> list[Callout]:
-        """A line to each axis of wheels whose names have no room on them."""
+        """Return one callout for each axis with wheels whose names do not fit on them."""
         middle = float(self.centres[:, 0].mean()) if len(self.centres) else 0.0
         axes: dict[tuple[float, ...], list[int]] = {}
         for order in rest:
@@ -279,7 +280,7 @@ class PlanNames:
         return callouts
 
     def _anchor(self, order: int, middle: float) -> tuple[float, float]:
-        """A point of the wheel that is seen, the farthest out; of one that is hidden, of its rim."""
+        """Return the outermost visible point of a wheel; if the wheel is hidden, a point of its rim."""
         wheel = self.wheels[order]
         shares = (1.05,) if wheel.kind == "ring" else _POINTS
         angles = 2 * pi / _ROUND * (np.arange(_ROUND) + 0.5)
@@ -293,7 +294,7 @@ class PlanNames:
 
 
 def _points_along(lines: Sequence[Floats]) -> Floats:
-    """Points (n, 2) along lines (2, 2), close enough that no word stands between two of them."""
+    """Return points (n, 2) along lines (2, 2), spaced so closely that no text fits between two of them."""
     found = [np.zeros((0, 2))]
     for first, last in lines:
         steps = max(int(np.hypot(*(last - first)) / _STEP), 1)
@@ -302,7 +303,7 @@ def _points_along(lines: Sequence[Floats]) -> Floats:
 
 
 def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
-    """Which points (n, 2) lie in one of the discs (m, 2)."""
+    """Return whether each point (n, 2) lies in one of the discs (m, 2)."""
     if not len(points) or not len(centres):
         return np.zeros(len(points), dtype=bool)
     middle = points.mean(axis=0)
@@ -319,9 +320,9 @@ _TOLD = 8.5  # points: what is told above the plan
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
-    """The scene after `turns` of its lead, to scale; trains across the plane are drawn obliquely.
+    """Draw the scene to scale after `turns` of its driving link; trains with wheels across the plane are drawn obliquely.
 
-    What lets a train not turn is red, with the verdict above.
+    Pairs in a loop that does not close are red. The verdict on a train that does not turn is written above the plan.
     """
     standing = project_scene(scene, turns)
     plan = _PlanSize.of(standing)
@@ -364,24 +365,24 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
 
 @dataclass(frozen=True, slots=True)
 class _PlanSize:
-    """Sizes of a plan on paper, in inches but for its depth."""
+    """Dimensions of a plan on paper, in inches except for its depth."""
 
     scale: float
-    """Inches of a millimetre."""
+    """Inches per millimetre."""
     low: Floats
-    """Lower left corner, about the origin of the train, and sides."""
+    """Lower left corner (2,), relative to the origin of the train."""
     size: Floats
-    """Lower left corner, about the origin of the train, and sides."""
+    """Width and height (2,)."""
     bottom: float
-    """Height of the lowest layer towards the reader and of all layers (mm)."""
+    """Height of the lowest layer towards the reader [mm]."""
     depth: float
-    """Height of the lowest layer towards the reader and of all layers (mm)."""
+    """Height of all layers together [mm]."""
     deep: float
-    """Width of the side view, 0 without one."""
+    """Width of the side view; 0 without one."""
 
     @classmethod
     def of(cls, standing: ProjectedScene) -> _PlanSize:
-        """Of a scene in its pose."""
+        """Return the dimensions of a scene in its pose."""
         wheels = standing.scene.wheels
         points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in wheels), *_hubs(standing)])
         low, high = points.min(0), points.max(0)
@@ -393,19 +394,19 @@ class _PlanSize:
         return cls(scale, scale * low[:2], scale * size[:2], float(low[2]), float(size[2]), deep)
 
     def at(self, seen: Floats) -> Floats:
-        """Inches (..., 2) about the origin of the train of what is seen (..., 3)."""
+        """Return inches (..., 2) from the origin of the train for view coordinates (..., 3)."""
         return np.asarray(self.scale * seen[..., :2])
 
     @property
     def deep_room(self) -> float:
-        """What the side view takes of the page."""
+        """Width of the side view with its margins [in]."""
         return self.deep + 2 * _RIM if self.deep else 0.0
 
 
 def _names(
     standing: ProjectedScene, plan: _PlanSize, labels: bool
 ) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
-    """Names on wheels and beside the plan, in inches about the origin of the train."""
+    """Return the names on wheels, and those next to the plan, in inches relative to the origin of the train."""
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
     facing = [wheel for wheel in from_below(standing)[::-1] if standing.faces(wheel)] if standing.flat else []
@@ -422,7 +423,7 @@ def _names(
 
 
 def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> None:
-    """Lines of brakes and clutches, then the verdict, below the title."""
+    """Write the lines on brakes and clutches, then the verdict, below the title."""
     height = axes.get_ylim()[1]
     for row, (words, color) in enumerate(shifted):
         write(axes, 0.15, height - 0.64 - 0.17 * row, words, color, ha="left", fontsize=_TOLD, gid="elements")
@@ -443,7 +444,7 @@ def _title(scene: Scene, turns: Fraction) -> str:
 
 
 def _verdict(scene: Scene, width: float) -> str:
-    """Why a train does not turn, in lines that fit; nothing where it does."""
+    """Return the verdict on a train that does not turn, wrapped to a width; empty for a train that turns."""
     if scene.verdict["kind"] == "determined":
         return ""
     room = int((width - 0.3) / (_TOLD * LETTER))
@@ -452,7 +453,7 @@ def _verdict(scene: Scene, width: float) -> str:
 
 
 def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
-    """Lines of brakes and clutches that are closed, then of those that are open, with their colours."""
+    """Return lines of the closed and then of the open brakes and clutches, with their colours."""
     room = int((width - 0.3) / (_TOLD * LETTER))
     lines = []
     for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
@@ -462,20 +463,20 @@ def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
 
 
 def _extent(standing: ProjectedScene, wheel: SceneWheel) -> Floats:
-    """Points around a wheel."""
+    """Return points around a wheel that bound it."""
     most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
     half = wheel.thickness / 2
     return np.concatenate([standing.circle(wheel, most, half), standing.circle(wheel, most, -half)])
 
 
 def _hubs(standing: ProjectedScene) -> list[Floats]:
-    """Axes of all bodies, so that trains without wheels have a size too."""
+    """Return a point on the axis of each body, so that trains without wheels have a size too."""
     bodies = standing.scene.bodies
     return [standing.seen([standing.pose.point(at, body.point)]) for at, body in enumerate(bodies)]
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
-    """What could not be placed or has no room, in one line at the foot."""
+    """Write one line at the foot on what could not be placed or has no space."""
     found = [notice["what"] for notice in scene.notices[:1]]
     if len(scene.notices) > 1:
         found.insert(1, f"and {len(scene.notices) - 1} more")
@@ -484,7 +485,7 @@ def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
 
 
 def _scale_bar(axes: Axes, scale: float) -> None:
-    """A round number of millimetres, about an inch long."""
+    """Draw a scale bar of a round number of millimetres, about one inch long."""
     raw = 1.1 / scale
     power = 10.0 ** floor(log10(raw))
     length = max(step * power for step in (1, 2, 5) if step * power <= raw * 1.0001)

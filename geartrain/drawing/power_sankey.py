@@ -1,4 +1,4 @@
-"""The flow of power as bands: in at the left, through shafts and pairs, out at the right, losses falling away."""
+"""Sankey diagram of power flow: input at the left, shafts and pairs, output at the right, losses leaving downwards."""
 
 from __future__ import annotations
 
@@ -42,26 +42,26 @@ _ROUND = 0.5523  # of a quarter circle by a cubic
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """The flow of power as a Sankey diagram: bands as wide as their powers, recirculating power running back above.
+    """Draw the power flow as a Sankey diagram: bands as wide as their powers, recirculating power running back above.
 
     Parameters
     ----------
     flow : PowerFlow or Torques
-        The flow, or the torques under which it flows; powers are absolute (docs/torques.md, 7).
+        Power flow, or the torques that cause it; powers are absolute (docs/torques.md, 7).
     title : str
-        Above the picture.
+        Title above the picture.
     watts : float, optional
-        Watts in one unit of power, where that is known; powers stand as shares of the power put in otherwise.
+        Watts per unit of power, if known; otherwise powers are printed as shares of the power put in.
 
     Returns
     -------
     matplotlib.figure.Figure
-        As large as its bands need.
+        Figure as large as its bands need.
 
     Raises
     ------
     GearTrainError
-        Where no power flows, or through too many nodes to be seen.
+        If no power flows, or if it passes too many nodes to be legible.
 
     Examples
     --------
@@ -105,13 +105,13 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
 
 
 class _Words:
-    """What stands at nodes, in shares of the power put in."""
+    """Labels of nodes, with powers as shares of the power put in."""
 
     def __init__(self, flow: PowerFlow, watts: float | None) -> None:
         self.whole, self.watts = flow.power_in, watts
 
     def lines(self, node: PowerNode, power: Fraction) -> tuple[str, str]:
-        """Name and amount."""
+        """Return the name and the power of a node."""
         amount = percent_text(power / self.whole)
         if node.kind == "bearing":
             return f"bearing {node.name}", amount
@@ -121,15 +121,15 @@ class _Words:
         return node.name, amount
 
     def width(self, node: PowerNode, power: Fraction) -> float:
-        """Of the longer line, in inches."""
+        """Return the width [in] of the longer line of a label."""
         return max(map(len, self.lines(node, power))) * SMALL * LETTER
 
     def loss(self, node: PowerNode, power: Fraction) -> str:
-        """What a node loses."""
+        """Return the label of the loss at a node."""
         return f"{'teeth' if node.kind == 'pair' else 'bearing'} {percent_text(power / self.whole, 3)}"
 
     def loss_width(self, node: PowerNode, power: Fraction) -> float:
-        """Of what a node loses, in inches."""
+        """Return the width [in] of the label of a loss."""
         return len(self.loss(node, power)) * SMALL * LETTER
 
 
@@ -137,7 +137,7 @@ class _Words:
 
 
 def _ahead(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
-    """A band that leads on: what circles above, what passes below."""
+    """Draw a forward band: circulating power above, through power below."""
     circling = float(band[0].stream.circling) * placed.scale
     for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
         if width > 0:
@@ -147,7 +147,10 @@ def _ahead(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> Non
 def _ribbon(
     axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
 ) -> None:
-    """A part of a band from its first column to its last, with a notch where power enters and a tip where it leaves."""
+    """Draw a part of a band from its first column to its last.
+
+    The band has a notch where power enters the train and a tip where power leaves it.
+    """
     upper: list[tuple[float, float]] = []
     codes: list[int] = []
     for piece in band:
@@ -172,7 +175,7 @@ def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color
 
 
 def _back(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
-    """A band that runs back: out to the right, up, leftwards above everything, down and in."""
+    """Draw a return band: out to the right, up, leftwards above everything else, down and in."""
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2
@@ -188,7 +191,7 @@ def _back(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
 def _track(
     right: float, far: float, left: float, near: float, start: float, end: float, lane: float, r: float
 ) -> list[tuple[float, float]]:
-    """One edge of a band that runs back, as corners of radius r."""
+    """Return one edge of a return band, with rounded corners of radius r."""
     k = r * (1 - _ROUND)
     return [
         (right, start),
@@ -229,7 +232,7 @@ def _spot(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNode, w
 
 
 def _shed(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
-    """What is lost leaves at the lower right corner and falls."""
+    """Draw the loss of a node as a band that leaves at the lower right corner and turns downwards."""
     w, r, k = spot.shed, BEND, _ROUND
     y = spot.top + spot.height
     far, neck = x + r + w, y + DROP
@@ -245,7 +248,7 @@ def _shed(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
 
 
 def _loops(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:
-    """How much circles in each loop, in the middle of the highest band of it that runs back."""
+    """Write the circulating power of each loop in the middle of its highest return band."""
     for loop in flow.loops:
         turn = min(
             (turn for turn in placed.turns if turn.piece.stream.source in loop.nodes), key=lambda each: each.lane

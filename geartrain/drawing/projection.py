@@ -1,7 +1,7 @@
 """Projection of a scene onto the page: plan, view from the side, oblique view.
 
-A train whose wheels lie in parallel planes has a plan, with wheels as bars in their layers seen from the side. Others
-are seen obliquely, near faces painted over far ones (painter's algorithm).
+A train whose wheels lie in parallel planes has a plan, with wheels as bars in their layers seen from the side. Other
+trains are drawn obliquely, near faces over far ones (painter's algorithm).
 """
 
 from __future__ import annotations
@@ -63,26 +63,26 @@ class ProjectedScene:
         return sum(map(self.faces, self.scene.wheels)) >= _MOST * len(self.scene.wheels)
 
     def faces(self, wheel: SceneWheel) -> bool:
-        """True if a wheel is seen along its axis."""
+        """Return whether a wheel is seen along its axis."""
         # the cosine is flat there: 1e-9 off 1 is 0.0026 deg, less than any declared tilt and more than rounding
         return abs(float(self.axis(wheel) @ self.screen[2])) > 1 - 1e-9
 
     def seen(self, points: object) -> Floats:
-        """Right, up and towards the reader of points (..., 3)."""
+        """Return the view coordinates (right, up, towards the reader) of points (..., 3)."""
         return np.asarray(np.asarray(points, dtype=float) @ self.screen.T)
 
     def axis(self, wheel: SceneWheel) -> Floats:
-        """Unit vector along the axis of a wheel, towards its body's direction."""
+        """Return the unit vector along the axis of a wheel, in the direction of its body's axis."""
         return self.pose.way(wheel.body, wheel.direction)
 
     def centre(self, wheel: SceneWheel) -> Floats:
-        """Middle of the pitch circle of a wheel."""
+        """Return the centre of the pitch circle of a wheel."""
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
-        """Teeth of a wheel (points, 3) times `scale`, moved along its axis by `height` (mm) as its helix winds.
+        """Return the tooth outline of a wheel (points, 3), scaled, and moved by `height` [mm] along its axis and its helix.
 
-        chord   how far (mm) points that are left out may lie beside the line
+        chord   maximum distance [mm] of omitted points from the line
         """
         profile = self.scene.profiles[wheel.profile]
         tooth = np.array(profile.points)
@@ -99,18 +99,18 @@ class ProjectedScene:
         return self._around(wheel, radius, angle, height)
 
     def wave(self, wheel: SceneWheel) -> SceneWave | None:
-        """What bends a wheel, if it is thin."""
+        """Return the wave generator that bends a wheel, or None."""
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """The edge of a wave, on which its wheel runs (points, 3)."""
+        """Return the bore line of a thin wheel, which its wave generator touches (points, 3)."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Points (n, 3) of the middle plane of a thin wheel as its wave bends it.
+        """Return points (n, 3) of the middle plane of a thin wheel as deformed by its wave generator.
 
-        radius, angle   (n,) of them in the round wheel, from its reference
+        radius, angle   (n,) in the undeformed wheel, from its reference direction
         """
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
@@ -121,7 +121,7 @@ class ProjectedScene:
         return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
 
     def lobes(self, wave: SceneWave) -> Floats:
-        """Points (lobes, 3) of the bore of a thin wheel that its wave presses out the most."""
+        """Return the points (lobes, 3) of the bore of a thin wheel with the maximum outward deflection."""
         wheel = self.scene.wheels[wave.wheel]
         bore = wave.middle + wave.rise - wave.wall / 2
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
@@ -131,12 +131,12 @@ class ProjectedScene:
         return self.pose.point(wave.by, np.array(wheel.centre) + bore * ring)
 
     def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
-        """A circle about a wheel's axis (points, 3)."""
+        """Return a circle about a wheel's axis (points, 3)."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._around(wheel, np.full(_ROUND, radius), angle, height)
 
     def pins(self, wheel: SceneWheel) -> Iterator[Floats]:
-        """The pins of a lantern, (points, 3) each; of other wheels none."""
+        """Yield the outline (points, 3) of each pin of a lantern; other wheels yield nothing."""
         profile = self.scene.profiles[wheel.profile]
         if profile.hole and wheel.teeth <= _FINE:
             tooth = np.array(profile.points)
@@ -151,7 +151,9 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Height along the axis (mm) and scale of the two ends of a wheel; of a bevel wheel the wide end first."""
+        """Return the height along the axis [mm] and the scale of both ends of a wheel; the wide end of a bevel wheel
+        first.
+        """
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # which has no narrow end
             return (half, 1.0), (-half, 1.0)
@@ -160,7 +162,9 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """A scene after some turns of its lead, from the front where most axes are parallel, else obliquely."""
+    """Return a scene after some turns of its driving link, from the front if most axes are parallel, otherwise
+    obliquely.
+    """
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
     return front if front.flat else ProjectedScene(scene, posed, _screen(np.array(_OBLIQUE)))
@@ -176,19 +180,19 @@ def _screen(view: Floats) -> Floats:
 class ScaledPage:
     """Axes in inches on which millimetres are drawn.
 
-    foot   height of the words below the side view
+    foot   height of the text below the side view
     """
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
 
     def at(self, seen: Floats) -> Floats:
-        """Inches (..., 2) of what is seen (..., 3)."""
+        """Return inches (..., 2) of view coordinates (..., 3)."""
         return np.asarray(seen[..., :2] * self.scale + self.shift)
 
 
 def arms_of(standing: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Body, own axis and borne axis of every arm of a carrier, as points of space."""
+    """Yield the body, a point of its own axis and a point of the borne axis for every arm of a carrier."""
     scene = standing.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
@@ -204,9 +208,9 @@ def arms_of(standing: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
 def coupling_spans(
     standing: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
 ) -> list[Floats]:
-    """Lines (2, 2) over what a coupling takes of a plan [inches]: along its slot, or two across each of its holes.
+    """Return lines (2, 2) [in] across the area of a coupling: along its slot, or two diameters of each of its holes.
 
-    at, scale   inches (..., 2) of what is seen (..., 3), and of a millimetre
+    at, scale   conversion of view coordinates (..., 3) to inches (..., 2), and inches per millimetre
     """
     pose, half = standing.pose, coupling.hole / 2 * scale
     if coupling.hole:
@@ -222,7 +226,7 @@ def coupling_spans(
 
 
 def broken_wheels(scene: Scene) -> set[str]:
-    """Wheels of pairs in a loop that does not close."""
+    """Return the wheels of the pairs in a loop that does not close."""
     return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}
 
 
@@ -243,9 +247,9 @@ class _Face:
 
 
 def draw_obliquely(axes: Axes, standing: ProjectedScene, place: Place) -> None:
-    """Every wheel as its two ends and the surface between them, tinted by what turns together, and arms over all.
+    """Draw every wheel by its two ends and the surface between them, with a colour for each body, and arms above all.
 
-    place   inches (..., 2) of what is seen (..., 3)
+    place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
     scene = standing.scene
     red = broken_wheels(scene)
@@ -255,7 +259,7 @@ def draw_obliquely(axes: Axes, standing: ProjectedScene, place: Place) -> None:
 
 
 def oblique_callouts(standing: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
-    """A line to each wheel, to where no nearer one hides its face."""
+    """Return a callout for each wheel, anchored where its face is not hidden by a nearer wheel."""
     ends = {wheel.id: _ends(standing, wheel) for wheel in standing.scene.wheels if wheels}
     outlines = {
         name: _silhouette(place(np.concatenate([far.points, near.points]))) for name, (far, near) in ends.items()
@@ -275,12 +279,12 @@ def oblique_callouts(standing: ProjectedScene, place: Place, wheels: Sequence[Sc
 
 
 def _silhouette(points: Floats) -> Path:
-    """The convex line round what is seen of a wheel."""
+    """Return the convex hull of the visible points of a wheel."""
     return Path(points[ConvexHull(points).vertices])
 
 
 def _inner_points(rim: Floats, place: Place) -> Floats:
-    """Points (n, 2) within a face, from its rim inwards."""
+    """Return points (n, 2) within a face, from its rim inwards."""
     middle = rim.mean(0)
     return place(np.concatenate([middle + share * (rim[::4] - middle) for share in (0.85, 0.6, 0.35, 0.1)]))
 
@@ -288,7 +292,7 @@ def _inner_points(rim: Floats, place: Place) -> Floats:
 def draw_across(
     axes: Axes, standing: ProjectedScene, wheel: SceneWheel, place: Place, red: set[str], order: float
 ) -> None:
-    """A wheel that a plan sees from its side."""
+    """Draw a wheel that the plan shows from its side."""
     faces = sorted(_faces(standing, wheel), key=lambda face: face.depth)
     _draw_faces(axes, [(wheel, face) for face in faces], place, red, order)
 
@@ -296,7 +300,7 @@ def draw_across(
 def _draw_faces(
     axes: Axes, faces: Sequence[tuple[SceneWheel, _Face]], place: Place, red: set[str], order: float
 ) -> None:
-    """Faces in order, the last over all others."""
+    """Draw faces in order, the last one on top."""
     tints = [_tint(wheel, face.light) for wheel, face in faces]
     edges = [
         (RED if wheel.id in red else BLACK)
@@ -318,13 +322,14 @@ def _draw_faces(
 
 
 def _tint(wheel: SceneWheel, light: float) -> Floats:
-    """The colour of the body, the paler the more light falls on it."""
+    """Return the colour of a body, the lighter the more light falls on the face."""
     own = np.array(to_rgb(series_colour(wheel.body)))
     return np.asarray(own + (1 - own) * (0.3 + 0.6 * light))
 
 
 def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """The strips of the surface between both ends, then the far end, then the near one; of a worm, its thread."""
+    """Yield the strips of the surface between both ends, then the far end, then the near end; for a worm, its thread.
+    """
     far, near = _ends(standing, wheel)
     if wheel.kind == "worm":
         yield from _thread(standing, wheel)
@@ -345,7 +350,7 @@ def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
 
 
 def _thread(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """What is seen of the surface of a worm, as tiles between sections along its axis."""
+    """Yield the visible surface of a worm as tiles between sections along its axis."""
     heights = np.linspace(-0.5, 0.5, _SECTIONS + 1) * wheel.thickness
     rows = np.array([standing.seen(standing.outline(wheel, height=height)) for height in heights])
     after = np.roll(rows, -1, axis=1)
@@ -357,7 +362,7 @@ def _thread(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
 
 
 def _ends(standing: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
-    """The end away from the reader and the one that is seen, with their teeth."""
+    """Return the end faces of a wheel with their teeth: the one away from the reader, then the visible one."""
     (high, wide), (low, narrow) = standing.ends(wheel)
     first = standing.seen(standing.outline(wheel, wide, high))
     last = standing.seen(standing.outline(wheel, narrow, low))
@@ -369,7 +374,7 @@ def _ends(standing: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
 
 
 def _draw_arbors(axes: Axes, standing: ProjectedScene, place: Place) -> None:
-    """Axes of wheels through their centres; of carriers, an arm to each axis they bear."""
+    """Draw the axes of wheels through their centres, and an arm from each carrier to each axis that it bears."""
     for wheel in standing.scene.wheels:
         centre, along = standing.centre(wheel), standing.axis(wheel)
         reach = max(2.5 * wheel.thickness, 0.25 * wheel.radius)
@@ -384,18 +389,18 @@ _FACE = (np.array(to_rgb(SHADE)) + np.array(to_rgb(FILL))) / 2  # colour of a ba
 
 
 class SideScale:
-    """Inches across the side view for heights towards the reader (mm): the reader stands on the right."""
+    """Conversion of heights towards the reader [mm] to inches across the side view; the reader is on the right."""
 
     def __init__(self, left: float, width: float, low: float, size: float) -> None:
         self.left, self.scale, self.low = left, width / size, low
 
     def at(self, height: Any) -> Any:
-        """Inches from the left for a height or heights (mm)."""
+        """Return inches from the left for a height or heights [mm]."""
         return self.left + (height - self.low) * self.scale
 
 
 def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> None:
-    """The train from its right, as high as the plan: layers side by side, the reader's side on the right."""
+    """Draw the train from its right, as high as the plan: layers side by side, the reader's side on the right."""
     red = broken_wheels(standing.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(standing.scene.wheels, key=lambda each: float(standing.seen(standing.centre(each))[0])):
@@ -420,7 +425,8 @@ def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> N
 def _draw_across_side(
     page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
 ) -> None:
-    """A wheel of another axis than those of the plan: its teeth where it faces the right, else the line round it."""
+    """Draw a wheel whose axis differs from the axes of the plan: its teeth if it faces right, otherwise its silhouette.
+    """
     ends = [face.points for face in _ends(standing, wheel)]
     places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
     if abs(float(standing.seen(standing.axis(wheel))[0])) > _FACES_RIGHT:

@@ -1,7 +1,7 @@
-"""Where the parts of a picture of power flow stand: columns from where power enters, bands between them.
+"""Layout of a Sankey diagram of power flow: columns from where power enters, with bands between them.
 
-Lengths are in inches, x to the right and y down. A band is a stream; its width is its power. Bands that close a loop
-run back above everything else.
+Lengths are in inches, x to the right and y down. A band is a stream, and its width is its power. Bands that close a
+loop run back above everything else.
 """
 
 from __future__ import annotations
@@ -23,46 +23,47 @@ _WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
 
 @dataclass(eq=False)
 class SankeySpot:
-    """A node in its column, or (without one) the place where a band passes a column."""
+    """A node in its column, or the place where a band passes a column if `node` is None."""
 
     node: PowerNode | None
     column: int
     height: float
     power: Fraction = Fraction(0)
-    """That passes it; `shed`, width of what it loses."""
+    """Power that passes the node; `shed` is the width of its loss [in]."""
     shed: float = 0.0
     left: float = 0.0
-    """Room for words on both sides of its middle."""
+    """Space for text to the left of its centre [in]."""
     right: float = 0.0
-    """Room for words on both sides of its middle."""
+    """Space for text to the right of its centre [in]."""
     top: float = 0.0
     before: list[BandSegment] = field(default_factory=list)
     after: list[BandSegment] = field(default_factory=list)
 
     @property
     def above(self) -> float:
-        """Room for the name."""
+        """Space for the name [in]."""
         return NAME if self.node else _BETWEEN
 
     @property
     def below(self) -> float:
-        """Room for what is lost."""
+        """Space for the loss [in]."""
         return DROP + self.head + 0.24 if self.shed else _BETWEEN
 
     @property
     def head(self) -> float:
-        """Length of the arrow head of what it loses."""
+        """Length of the arrow head of its loss [in]."""
         return min(max(0.3 * self.shed, 0.08), 0.2)
 
     @property
     def width(self) -> float:
-        """Of its box."""
+        """Width of its box [in]."""
         return _WIDTHS[self.node.kind] if self.node else 0.0
 
 
 @dataclass(eq=False)
 class BandSegment:
-    """A band between two spots: in neighbouring columns, or back; its tops at both."""
+    """A band between two spots in neighbouring columns, or a return band; `start` and `end` are its tops at both spots.
+    """
 
     source: SankeySpot
     target: SankeySpot
@@ -74,13 +75,14 @@ class BandSegment:
 
     @property
     def span(self) -> int:
-        """Columns that a band runs back over; 0 of one that leads on."""
+        """Number of columns that a return band spans; 0 for a forward band."""
         return self.source.column - self.target.column if self.back else 0
 
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """A band that runs back: how far right of its source and left of its target it turns, and the top of its lane."""
+    """A return band: the distances right of its source and left of its target where it turns, and the top of its lane.
+    """
 
     piece: BandSegment
     right: float
@@ -90,20 +92,20 @@ class ReturnBand:
 
 @dataclass(frozen=True)
 class SankeyLayout:
-    """Everything in its place."""
+    """Positions and sizes of all parts of a Sankey diagram."""
 
     spots: Sequence[SankeySpot]
     bands: Sequence[Sequence[BandSegment]]
-    """That lead on, each as its pieces from column to column; `turns`, those that run back."""
+    """Forward bands, each as its pieces from column to column; `turns` are the return bands."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
-    """Middle of each column."""
+    """Centre of each column."""
     scale: float
-    """Inches by power."""
+    """Inches per unit of power."""
     sheds: Mapping[PowerNode, Fraction]
-    """What is lost by node."""
+    """Power lost by node."""
     low: float
-    """Least y of all parts."""
+    """Minimum y of all parts."""
     width: float
     height: float
 
@@ -115,7 +117,7 @@ _CLEAR = 0.06  # between words and a band that turns back beside them
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Bands that run back, the shortest innermost, and how much room they take right and left of each column."""
+    """Return the return bands, the shortest innermost, and the space they take right and left of each column."""
     taken: dict[tuple[int, bool], float] = {}
     turns: list[ReturnBand] = []
     lane = inf
@@ -137,7 +139,8 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """The middle of each column: wide enough apart for names and turns, and spread to fill the least width."""
+    """Return the centre of each column, far enough apart for names and return bands, and spread to the minimum width.
+    """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     gaps = []
@@ -154,7 +157,7 @@ def abscissae(
 
 
 def _widened(gaps: Sequence[float], whole: float) -> list[float]:
-    """The narrowest gaps widened alike, so that all fill the whole."""
+    """Return the gaps with the narrowest ones raised to a common width, so that the sum is the given total."""
     ranked = sorted(gaps)
     for count in range(len(gaps), 0, -1):
         level = (whole - sum(ranked[count:])) / count
@@ -168,7 +171,7 @@ _BACK = 1.1  # of all bands that run back, at most
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Losses by node, and streams, with bearings that only take from one shaft drawn as a loss of that shaft."""
+    """Return losses by node, and streams; a bearing fed by only one shaft becomes a loss of that shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -184,7 +187,8 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Streams that lead on, and those that run back: of a loop, one in which power only circles."""
+    """Return the forward streams and the return streams: in each loop, one stream of purely circulating power returns.
+    """
     ahead = [stream for stream in streams if stream.circling < stream.power]
     back: list[PowerStream] = []
     for stream in _met(streams):
@@ -195,7 +199,7 @@ def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[Powe
 
 
 def _met(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
-    """All streams by depth-first search from where power comes in, the greatest stream of a node first."""
+    """Yield all streams by depth-first search from where power enters, the largest stream of a node first."""
     after: dict[PowerNode, list[PowerStream]] = {}
     for stream in sorted(streams, key=lambda each: (each.source.kind != "in", -each.power)):
         after.setdefault(stream.source, []).append(stream)
@@ -225,7 +229,7 @@ def _reached(streams: Sequence[PowerStream], node: PowerNode) -> set[PowerNode]:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Each node one column after all that feed it; what leaves the train stands last."""
+    """Return the column of each node: one after all that feed it (longest path); outputs are in the last column."""
     columns = dict.fromkeys((end for stream in ahead for end in (stream.source, stream.target)), 0)
     moved = True
     while moved:
@@ -241,7 +245,7 @@ def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
 def find_scale(
     columns: Mapping[PowerNode, int], through: Mapping[PowerNode, Fraction], back: Sequence[PowerStream]
 ) -> float:
-    """Inches by power."""
+    """Return the scale in inches per unit of power."""
     sums = [Fraction(0)] * (max(columns.values()) + 1)
     for node, at in columns.items():
         sums[at] += through[node]
@@ -253,7 +257,7 @@ def find_scale(
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Streams as bands of pieces, and the spots where they pass columns."""
+    """Return streams as bands of segments, and the spots where they pass columns."""
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):
@@ -276,7 +280,7 @@ _CROSSING = 1e-3  # what a crossing of the thinnest bands counts
 
 
 def order_columns(table: Sequence[list[SankeySpot]]) -> None:
-    """Put each column in the order with the least tangle, out of some beginnings."""
+    """Sort each column in place into the order with the fewest crossings, the best of several starting orders."""
     found: list[tuple[float, list[list[SankeySpot]]]] = []
     declared = [list(column) for column in table]
     beginnings: tuple[Callable[[list[SankeySpot]], list[SankeySpot]], ...] = (
@@ -294,12 +298,12 @@ def order_columns(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
-    """What circles above what passes."""
+    """Return a column with circulating power above through power."""
     return sorted(column, key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
 
 
 def _untangle(table: Sequence[list[SankeySpot]]) -> None:
-    """Order columns by what they depend on, to and fro; then swap spots while that uncrosses bands."""
+    """Reduce crossings by barycentre sweeps in both directions, then by swapping spots."""
     whole = range(len(table))
     best, minimum = [list(column) for column in table], _tangle(table, whole)
     for sweep in range(_SWEEPS):
@@ -318,7 +322,7 @@ def _untangle(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
-    """Swap spots of one column where that uncrosses bands; True if any were swapped."""
+    """Swap spots of one column where that reduces crossings; return whether any were swapped."""
     column, swapped = table[at], False
     near = range(max(0, at - 1), min(len(table), at + 2))
     tangle = _tangle(table, near)
@@ -337,7 +341,7 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _middle(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Mean place of the neighbours on one side, by width."""
+    """Return the mean position of the neighbours on one side, weighted by width (barycentre)."""
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
         return places[spot]
@@ -346,7 +350,8 @@ def _middle(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -
 
 
 def _tangle(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """How much bands cross near some columns: for each crossing the widths multiplied, and a little."""
+    """Return the crossing cost near some columns: the sum of products of crossing widths, plus a constant per crossing.
+    """
     total = 0.0
     for at in columns:
         places = {spot: place for place, spot in enumerate(table[at])}
@@ -371,7 +376,7 @@ _HEIGHT_SWEEPS = 24
 
 
 def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
-    """Tops of all spots, so that bands run level where they can, and of their bands."""
+    """Set the tops of all spots and of their bands, so that bands run level where possible."""
     for column in table:
         y = 0.0
         for spot in column:
@@ -392,7 +397,8 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _wanted(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """The top at which a spot's bands would run level, and how much they weigh; bands that pass bend the least."""
+    """Return the top at which a spot's bands would be level, and its weight; bands that pass a column weigh the most.
+    """
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:
@@ -405,7 +411,10 @@ def _wanted(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
 
 
 def _apart(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
-    """Tops nearest to the wanted ones that keep the spots of a column apart: the least sum of weighted squares."""
+    """Return the tops of a column without overlap that minimise the weighted squared distances to the wanted tops.
+
+    The method is isotonic regression by pooling adjacent violators.
+    """
     offsets, y = [], 0.0
     for at, spot in enumerate(column):
         offsets.append(y)
@@ -422,7 +431,7 @@ def _apart(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) 
 
 
 def _ports(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Tops of bands at both ends: in the order of where they come from and go to, those that run back uppermost."""
+    """Set the tops of bands at both ends, in the order of the spots they connect to, return bands uppermost."""
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))
@@ -454,10 +463,11 @@ Width = Callable[[PowerNode, Fraction], float]
 
 
 def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, minimum: float) -> SankeyLayout:
-    """All parts of a flow in their places.
+    """Return the positions of all parts of a power flow.
 
-    name    width of the words above a node that some power passes; `loss`, of those below one that loses some power
-    minimum   width of the whole at least
+    name      function that returns the width of the text above a node, given the power that passes it
+    loss      function that returns the width of the text below a node, given the power lost there
+    minimum   minimum width of the layout
     """
     sheds, streams = collapsed(flow)
     ahead, back = direct(streams)

@@ -1,4 +1,4 @@
-"""A sphere and its gears, seen from afar: the near ones over the far ones, teeth where they stand."""
+"""Picture of gears on a sphere in orthographic projection: near gears over far ones, teeth at their angles."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
 def sphere_figure(
     configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
 ) -> Figure:
-    """Every gear of a set on its sphere, seen from one side.
+    """Draw every gear of a set on its sphere, seen from one side.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def sphere_figure(
     cones : array of shape (gears,)
         Half angle of each pitch cone [rad] (docs/sphere.md, equation 1).
     phases : sequence of float
-        Of each gear [pitch]: a tooth stands that far past the gear's own zero direction.
+        Phase of each gear [pitch]: position of a tooth past the gear's own zero direction.
     view : tuple of three floats
         Direction towards the reader.
 
@@ -78,12 +78,12 @@ def sphere_figure(
 
 
 def _face(kind: int) -> tuple[float, float, float, float]:
-    """Of its colour so much that the outlines of teeth are seen, which overlap those of their mates."""
+    """Return the translucent face colour of a kind, through which the overlapping teeth of mating gears are visible."""
     return (*to_rgb(series_colour(kind)), _STRONG)
 
 
 def _screen(view: Floats) -> Floats:
-    """Rows: right, up and towards the reader."""
+    """Return the directions right, up and towards the reader as rows (3, 3)."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is no direction
@@ -93,7 +93,7 @@ def _screen(view: Floats) -> Floats:
 
 
 def _outline(configuration: Configuration, i: int, cone: float, phase: float) -> Floats:
-    """A wheel with its teeth as points of the unit sphere, (points, 3)."""
+    """Return the outline of a wheel with its teeth as points of the unit sphere (points, 3)."""
     count = configuration.teeth[configuration.kinds[i]]
     module = 2 * np.sin(cone) / count
     polar = cone + module * np.tile([_FOOT, _TIP, _TIP, _FOOT], count)

@@ -1,4 +1,4 @@
-"""The functional diagram of a train, as textbooks draw it: axes level, wheels upright, meshes as ends that touch.
+"""Functional (stick) diagram of a train as in textbooks: axes horizontal, wheels vertical, meshes as touching ends.
 
 Nothing is to scale. Axes that are not parallel are turned into the plane, and the ends of their wheels are slanted.
 """
@@ -47,22 +47,25 @@ from geartrain.kinematics.circuits import Circuit
 
 STEP = 0.62  # inches from one to the next
 PLATE, STEM = 2.6, 1.6
-"""Widths of a plate and of what bears it [pt]."""
+"""Line widths of a plate and of its stem [pt]."""
 _HALF, _PLATE = 0.42, 0.11  # inches: half its height, half a plate
 _CLOSED, _OPEN = 0.012, 0.045  # inches: half the gap of its plates
 _ELEMENT_NAME = 8.0  # points
 
 
 def width_of(train: GearTrain) -> float:
-    """Inches that they take; 0 without any."""
+    """Return the width [in] of all brakes and clutches; 0 if there are none."""
     count, letters = len(train.declaration.clutches), _letters(train)
     return count * max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1) + 0.2 if count else 0.0
 
 
 def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
-    """Each as a pair of plates between a link and the frame, or two links; those closed in a state are filled.
+    """Draw each brake or clutch as a pair of plates between a link and the frame, or between two links.
 
-    left     where the first begins (inches); `middle`, the height of all plates
+    The plates of elements that are closed in the state touch.
+
+    left     left end of the first element [in]
+    middle   height of all plates [in]
     """
     declared = train.declaration
     closed = train.kinematics.cases[state].engaged
@@ -87,7 +90,10 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
 
 
 def _letters(train: GearTrain) -> int:
-    """Of the longest name in one column: a link's below or above, or twice an element's beside the plates."""
+    """Return the number of letters of the longest label, which sets the width of an element's column.
+
+    Labels are the names of links below and above the plates. The name of an element next to the plates counts twice.
+    """
     every = train.declaration.clutches.items()
     names = [link for _, clutch in every for link in (*(clutch.locks or ()), clutch.fixes or "")]
     return max([len(link) for link in names] + [2 * len(name) + 3 for name, _ in every], default=0)
@@ -103,7 +109,7 @@ _FAR = 24  # steps beyond its upright that a name may be moved
 
 @dataclass(frozen=True, slots=True)
 class _Words:
-    """Words and the places they may have, the best first."""
+    """A label and its candidate positions, the best first."""
 
     text: str
     color: str
@@ -113,7 +119,7 @@ class _Words:
 
 @dataclass(slots=True)
 class StickWords:
-    """All words of a diagram: links first, then wheels, then axes take their places when they are written."""
+    """All labels of a diagram; links are placed first, then wheels, then axes."""
 
     room: LabelSpace = field(default_factory=LabelSpace)
     links: list[_Words] = field(default_factory=list)
@@ -121,13 +127,13 @@ class StickWords:
     axes: list[_Words] = field(default_factory=list)
 
     def keep_off(self, xs: tuple[float, float], ys: tuple[float, float]) -> None:
-        """No words over a line or a box."""
+        """Mark a line or a box as occupied, so that no label covers it."""
         (left, right), (low, high) = sorted(xs), sorted(ys)
         wide, tall = max(right - left, 0.03), max(high - low, 0.03)
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Before its shaft, or over it, behind it or under it."""
+        """Add the name of a link: before its shaft, or above, behind or below the shaft."""
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
         before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second, beside a bearing
@@ -139,12 +145,12 @@ class StickWords:
         self.links.append(_Words(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
 
     def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Along it, on its right or its left, from its middle on."""
+        """Add a label along a vertical line, on its right or left, from its middle outwards."""
         places = tuple(_along(text, x, ends))
         self.wheels.append(_Words(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
-        """Behind its end, or before it over or under the line."""
+        """Add the name of an axis: behind its end, or before the end above or below the line."""
         wide = text_width(axis)
         spots = [
             (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
@@ -154,7 +160,9 @@ class StickWords:
         self.axes.append(_Words(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
-        """All of them, what has least choice first; where nothing is free, at the best place."""
+        """Place and write all labels, those with the fewest free positions first; without a free position, at the best
+        one.
+        """
         links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
         for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
             x, y, _, _ = self.room.place(each.places) or each.places[0]
@@ -181,20 +189,20 @@ REACH = 0.34  # inches of a planet beyond its axis, where its ring meets it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """A gear pair or coupling in its column, between two rows; `ring` is the wheel that is one, or empty."""
+    """A gear pair or coupling in its column, between two rows; `ring` is the name of its ring wheel, or empty."""
 
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links, the one on the lower row first; wheels, theirs (of a coupling the links again)."""
+    """Links, the one on the lower row first; `wheels` are their wheels (for a coupling, the links again)."""
     wheels: tuple[str, str]
     ring: str
     x: float
-    """Column; of a ring's own upright, `x` + one column."""
+    """Abscissa of the column; the vertical line of a ring is one column further right."""
     low: float
-    """Ends of what it takes of its column (inches)."""
+    """Lower end of its part of the column [in]."""
     high: float
-    """Ends of what it takes of its column (inches)."""
+    """Upper end of its part of the column [in]."""
     meet: float
     """Height at which its wheels touch."""
 
@@ -211,10 +219,10 @@ _Try = tuple[
 
 @dataclass(frozen=True, slots=True)
 class StickSkeleton:
-    """All of it, in inches from the lower left corner."""
+    """Positions of all parts of a diagram, in inches from the lower left corner."""
 
     rows: dict[str, tuple[float, float]]
-    """Axis -> height of its lowest and highest shaft, from below."""
+    """Dictionary from each axis to the heights of its lowest and highest shaft."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
     cranks: list[StickCrank]
@@ -225,7 +233,7 @@ class StickSkeleton:
 
 
 def find_skeleton(train: GearTrain) -> StickSkeleton:
-    """Places for axes, shafts, meshes and cranks; what belongs together stands together."""
+    """Return the positions of axes, shafts, meshes and cranks, with related parts close together."""
     axis_of = _axes(train)
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
@@ -253,7 +261,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
 
 
 def _hidden(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
-    """How many uprights lie on another one."""
+    """Return the number of vertical lines that overlap another one."""
     known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
     return sum(
         x == at and low < top and bottom < high
@@ -263,7 +271,7 @@ def _hidden(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int
 
 
 def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -> None:
-    """Carriers reach their cranks, and so does what turns on an axis they bear."""
+    """Extend the shaft of each carrier to its cranks, and the nearest shaft on each borne axis too."""
     for crank in cranks:
         shafts[crank.carrier].xs.append(crank.x)
         borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
@@ -273,7 +281,7 @@ def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -
 
 
 def _axes(train: GearTrain) -> dict[str, str]:
-    """Link -> label of the axis it is drawn on."""
+    """Return a dictionary from each link to the label of the axis it is drawn on."""
     tree = train.kinematics.tree
     return {link: tree.axis(link) or "" for link in train.declaration.links}
 
@@ -296,7 +304,10 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
 def _lanes(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
-    """Heights: on one axis, shafts that overlap lie above each other, the longest lowest."""
+    """Set the heights of shafts, and return the rows of axes and the total height.
+
+    Shafts of one axis that overlap are drawn above each other, the longest lowest.
+    """
     rows: dict[str, tuple[float, float]] = {}
     y = 0.45
     for level in levels:
@@ -319,7 +330,7 @@ def _lanes(
 
 
 def _apart(one: StickShaft, other: StickShaft) -> bool:
-    """True if two shafts, with a name before each, leave each other room."""
+    """Return whether two shafts, with a name before each, do not overlap."""
     room = 0.35 + 0.07 * max(len(one.link), len(other.link))
     return max(one.xs) + room < min(other.xs) or max(other.xs) + room < min(one.xs)
 
@@ -350,7 +361,7 @@ def _mesh(
 
 
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
-    """What the lower wheel takes of the height: by its teeth, as long as the words beside both find room."""
+    """Return the lower wheel's share of the height, in proportion to its teeth if the labels of both wheels fit."""
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
     minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
     return min(max(counts[0] / sum(counts), minimum), most) if minimum < most else (minimum + most) / 2
@@ -367,10 +378,11 @@ _HEAD, _FOOT = 0.7, 0.7
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
-    """Axes, shafts, wheels with their counts, cranks of carriers, the frame hatched; brakes and clutches beside them.
+    """Draw axes, shafts, wheels with tooth counts, cranks of carriers, the hatched frame, and brakes and clutches.
 
-    state   whose brakes and clutches are drawn closed, by default the first
-    Raises `QuestionError` for more pairs than a page holds.
+    state   state whose brakes and clutches are drawn closed, by default the first
+
+    Raise `QuestionError` for more pairs than fit on a page.
     """
     too_many(train, len(train.circuits), _MOST, "pairs")
     declared = train.declaration
@@ -408,7 +420,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
 
 
 class _Drawing:
-    """A skeleton being drawn; wheels that stand in several columns are named once."""
+    """Drawing of a diagram in progress; wheels that appear in several columns are named once."""
 
     def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton) -> None:
         self.axes, self.train, self.skeleton = axes, train, skeleton
@@ -425,7 +437,7 @@ class _Drawing:
             self.words.keep_off((crank.x - _BEARING, crank.x + _BEARING), (far - 0.07, far + 0.07))
 
     def draw_axes(self) -> None:
-        """Centre lines."""
+        """Draw the centre lines of all axes."""
         for axis, (low, _) in self.skeleton.rows.items():
             xs = [x for shaft in self.skeleton.shafts.values() if shaft.axis == axis for x in shaft.xs]
             ends = [min(xs) - 0.2, max(xs) + 0.25]
@@ -433,7 +445,7 @@ class _Drawing:
             self.words.name_axis(axis, ends[1], low)
 
     def draw_shaft(self, shaft: StickShaft) -> None:
-        """A link's shaft with its name, in a bearing if the frame bears it."""
+        """Draw a link's shaft with its name, in a bearing if it turns in the frame."""
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
         self._line([left, right], [shaft.y, shaft.y], "white", _LINK + 3.0, zorder=5)
         self._line([left, right], [shaft.y, shaft.y], BLACK, _LINK, zorder=6, gid=f"link {shaft.link}")
@@ -443,7 +455,7 @@ class _Drawing:
         self.words.name_link(shaft.link, left, right, shaft.y)
 
     def draw_mesh(self, mesh: StickMesh) -> None:
-        """Two wheels up to where they touch, a pin in its slot or hole, or two links that stay parallel."""
+        """Draw two wheels up to where they touch, a pin in its slot or hole, or two links that stay parallel."""
         low, high = (self._foot(link, mesh) for link in mesh.ends)
         if mesh.kind == "ring":
             self._draw_ring(mesh, low, high)
@@ -463,7 +475,7 @@ class _Drawing:
         return self.skeleton.rows[self.skeleton.shafts[carrier].axis][0] - 0.22
 
     def _draw_ring(self, mesh: StickMesh, low: float, high: float) -> None:
-        """The planet beyond its axis, the ring over it and down (or under it and up) beside it."""
+        """Draw the planet beyond its axis, and the ring across its end and next to it."""
         ring = mesh.wheels.index(mesh.ring)
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
@@ -475,7 +487,7 @@ class _Drawing:
         self._upright(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
-        """A pin in its slot; of links that turn alike, two bars side by side."""
+        """Draw a pin in its slot; for links that stay parallel, two bars side by side."""
         coupling = self.couplings[mesh.name]
         parallel = coupling.kind == "parallel"
         for link, foot, side in zip(mesh.ends, (low, high), (-1, 1), strict=True):
@@ -493,7 +505,9 @@ class _Drawing:
         self.words.name_upright(mesh.name, mesh.x, (low, high), PURPLE)
 
     def _upright(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """A wheel from its shaft to where it touches; the second time, joined to the first."""
+        """Draw a wheel from its shaft to where it touches its mate, connected to its earlier occurrence if there is
+        one.
+        """
         self._line([x, x], [foot, end], BLUE, _WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
@@ -507,14 +521,14 @@ class _Drawing:
         self.feet.setdefault(wheel, (x, foot))
 
     def draw_lone(self, wheel: str, x: float) -> None:
-        """A wheel that meshes with nothing."""
+        """Draw a wheel that meshes with nothing."""
         link = self.train.declaration.wheels[wheel][0]
         y = self.skeleton.shafts[link].y
         self._upright(x, y, y + _LONE, wheel, link)
         self._tick(x, y + _LONE, "spur")
 
     def draw_crank(self, crank: StickCrank) -> None:
-        """A carrier's arm, ending in a bearing about the axis it bears."""
+        """Draw a carrier's arm, ending in a bearing about the axis it bears."""
         y = self.skeleton.shafts[crank.carrier].y
         far = self.skeleton.rows[crank.axis][0]
         self._line([crank.x, crank.x], [y, far], ORANGE, _CARRIER, zorder=3, gid=f"crank {crank.carrier}")
@@ -525,7 +539,8 @@ class _Drawing:
             )
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """The mark of teeth at the end of a wheel: level, slanted (bevel), upright too (contrate), or long (worm)."""
+        """Draw the mark of teeth at the end of a wheel: level, slanted for bevel and contrate wheels, long for worms.
+        """
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = _TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

@@ -1,5 +1,6 @@
-"""The grid of a stick diagram: levels on which axes lie, and columns in which meshes that share a wheel stand together,
-so that little crosses and nothing hides another thing.
+"""Grid of a stick diagram: levels for axes, and columns in which meshes that share a wheel are close together.
+
+The grid is chosen so that few lines cross and no part hides another.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ _NEAREST = 9  # levels tried for an axis
 
 @dataclass(slots=True)
 class StickShaft:
-    """A link on its axis: height, ends and whether the frame bears it; the frame itself has none."""
+    """A link on its axis: height and the abscissae of its parts; the frame has no shaft."""
 
     link: str
     axis: str
@@ -28,10 +29,12 @@ class StickShaft:
 def find_levels(
     order: Sequence[str], shafts: dict[str, StickShaft], spans: Sequence[tuple[str, str, float]]
 ) -> list[list[str]]:
-    """Axes on common levels, from below, where they leave each other room.
+    """Return axes on common levels, from below, where they do not overlap.
 
-    spans   uprights between two axes, at their column. One axis after the other takes the level nearest to those it
-            is joined to, at which least is crossed.
+    The axes are placed one after another (greedy search), each on a level near the axes it is joined to, with the minimum
+    number of crossings.
+
+    spans   vertical lines between two axes, with the abscissa of their column
     """
     ends = {axis: _ends(axis, shafts) for axis in order}
     level: dict[str, int] = {}
@@ -52,7 +55,7 @@ def _mate(axis: str, one: str, other: str) -> list[str]:
 
 
 def _ends(axis: str, shafts: dict[str, StickShaft]) -> tuple[float, float]:
-    """What an axis takes of its level, with the names before and after it."""
+    """Return the interval that an axis takes on its level, with the names before and after it."""
     own = [shaft for shaft in shafts.values() if shaft.axis == axis]
     left = min(min(shaft.xs) - 0.25 - 0.085 * len(shaft.link) for shaft in own)
     return left, max(max(shaft.xs) for shaft in own) + 0.35 + 0.065 * len(axis)
@@ -70,7 +73,7 @@ def _cost(
     ends: dict[str, tuple[float, float]],
     spans: Sequence[tuple[str, str, float]],
 ) -> float:
-    """Lengths of the axis' own uprights, and what crosses what; uprights on each other are worst."""
+    """Return the cost of a level: lengths of the axis' vertical lines, plus penalties for crossings and overlaps."""
     cost = 0.3 * abs(here)
     placed = {**level, axis: here}
     known = [(*sorted((placed[one], placed[other])), x, axis in (one, other)) for one, other, x in spans
@@ -86,7 +89,7 @@ def _cost(
 
 
 def _walk(order: Sequence[str], pairs: Sequence[tuple[str, str]]) -> list[str]:
-    """The axes from the one with most mates on, each after one it is joined to."""
+    """Return the axes in breadth-first order, starting at the axis with the most neighbours."""
     mates = neighbours(order, pairs)
     seen: dict[str, None] = {}
     for start in sorted(order, key=lambda axis: -len(set(mates[axis]))):
@@ -113,12 +116,12 @@ class StickCrank:
 
 
 def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) -> str:
-    """The axis on which a link stands in a mesh; the frame, on that of the mesh's carrier."""
+    """Return the axis on which a link is drawn in a mesh; the frame is drawn on the axis of the mesh's carrier."""
     return axis_of[link] or axis_of[carrier]
 
 
 def find_planes(train: GearTrain) -> list[list[Circuit]]:
-    """Meshes that share a wheel, together; planes in an order in which each link's stand close."""
+    """Return groups of meshes that share wheels, ordered so that the groups of each link are close together."""
     circuits = {circuit.id: circuit for circuit in train.circuits}
     by_wheel: dict[str, list[str]] = {}
     for circuit in train.circuits:
@@ -154,7 +157,10 @@ def find_columns(
     axis_of: dict[str, str],
     shafts: dict[str, StickShaft],
 ) -> tuple[list[tuple[Circuit, float]], list[StickCrank], list[tuple[str, float]], float]:
-    """A column for every mesh; a crank before the first plane in which a borne axis meshes."""
+    """Return the columns of all meshes, the cranks, the columns of wheels without mesh, and the total width.
+
+    A crank is placed before the first group in which its borne axis meshes.
+    """
     columns: list[tuple[Circuit, float]] = []
     cranks: list[StickCrank] = []
     borne: set[str] = set()
@@ -190,7 +196,7 @@ def find_columns(
 
 
 def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
-    """The moving link that bears an axis."""
+    """Return the moving link that bears an axis, or None."""
     tops = (
         train.kinematics.tree.top[link]
         for link, own in axis_of.items()
@@ -200,7 +206,7 @@ def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
 
 
 def ring_of(train: GearTrain, circuit: Circuit) -> str:
-    """The wheel of a pair that is a ring, or nothing."""
+    """Return the ring wheel of a pair, or an empty string."""
     if circuit.kind != "gear":
         return ""
     return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
@@ -213,7 +219,7 @@ def _free(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """The first column of a plane in which a mesh hides no other; a ring takes the next one for its upright too."""
+    """Return the first column of a group in which a mesh hides no other mesh; a ring also takes the next column."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

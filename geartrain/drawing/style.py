@@ -1,4 +1,4 @@
-"""Shared by all figures: names of matplotlib, colours and sizes, panels for curves and for bars, words, image files.
+"""Common parts of all figures: names of matplotlib, colours and sizes, panels for curves and bars, text, image files.
 
 Importing this module without matplotlib raises an error that names the extra `plot`.
 """
@@ -73,7 +73,7 @@ _ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figur
 
 
 class ShownFigure(_Figure):
-    """A figure that a notebook shows as it is: no window, and no state that figures share."""
+    """A figure that a notebook shows inline, without a window and without state shared between figures."""
 
     def _repr_svg_(self) -> str:
         return render(self, ".svg").decode("utf-8")
@@ -83,23 +83,23 @@ Figure = ShownFigure
 
 
 def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName = "light") -> bytes:
-    """A figure as the bytes of an image file; the same figure gives the same bytes with one release of matplotlib.
+    """Return a figure as the bytes of an image file, the same bytes for the same figure and release of matplotlib.
 
     Parameters
     ----------
     figure : matplotlib.figure.Figure
-        From any function of this room.
+        Figure from any function of this package.
     suffix : {".svg", ".png", ".pdf"}
-        The format.
+        File format.
     dots : float
         Resolution of a .png [dots per inch], above 0.
     theme : {"light", "dark", "print"}
-        Colours: on white, on a dark ground, or black and greys for a printer without colours.
+        Colours: on white, on a dark background, or black and greys for a printer without colours.
 
     Returns
     -------
     bytes
-        What the file holds; control characters in names are written out.
+        Content of the file; control characters in names are written out.
 
     Raises
     ------
@@ -132,7 +132,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """All words in it, but for axes that are not shown: their ticks would be made only to be asked for words."""
+    """Yield all texts of an artist except those of hidden axes, whose ticks would be created only for this query."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -147,20 +147,20 @@ _LIGHT = THEMES["light"]
 BLACK, GREY, PALE, WHITE, RED = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.paper, _LIGHT.fault
 FILL, SHADE, SKY = _LIGHT.fill, _LIGHT.shade, _LIGHT.band
 BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
-"""Of wheels, of carriers, of couplings, and of what else stands beside them."""
+"""Colours of wheels, of carriers, of couplings, and of other parts next to them."""
 SCALE = SCALES["light"]
-"""Of values on a map."""
+"""Colour scale of values on a map."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
 LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
 
 
 def series_look(at: int) -> dict[str, Any]:
-    """Colour and dashes of the series at a place from 0 on, as lines take them."""
+    """Return the colour and dashes of the series with an index from 0 on, as keyword arguments of lines."""
     return {"color": series_colour(at), "linestyle": series_dash(at)}
 
 
 def plain(axes: Axes) -> None:
-    """Text of one size, a light grid, no box."""
+    """Set text of one size, a light grid, and no frame at the top and right."""
     axes.tick_params(labelsize=SMALL)
     axes.grid(True, color=PALE, linewidth=0.5, alpha=0.6)
     axes.set_axisbelow(True)
@@ -182,9 +182,10 @@ def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float
 
 
 def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = True) -> tuple[Figure, list[Axes]]:
-    """Panels for curves, below each other, over one axis unless `share` is False.
+    """Return a figure and its panels for curves, below each other, with a common abscissa unless `share` is False.
 
-    heights   of the panels, and `margin` besides (inches)
+    heights   heights of the panels [in]
+    margin    additional height of the figure [in]
     """
     figure = Figure(figsize=(WIDTH, margin + sum(heights)), layout="constrained")
     panels = figure.subplots(len(heights), 1, sharex=share, squeeze=False, height_ratios=heights)[:, 0]
@@ -194,7 +195,9 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tuple[Figure, Axes]:
-    """A panel for horizontal bars and intervals, one for each name, the first on top; sizes in inches."""
+    """Return a figure and its panel for horizontal bars and intervals, one for each name, the first on top; sizes in
+    inches.
+    """
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.add_subplot()
     plain(axes)
@@ -205,13 +208,13 @@ def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tupl
 
 
 def draw_interval(axes: Axes, at: float, ends: tuple[float, float] | None) -> None:
-    """A whisker at a bar; nothing for None."""
+    """Draw a whisker at a bar; nothing for None."""
     if ends is not None:
         axes.plot(ends, [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=7, gid="within")
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:
-    """Draw the scale of a map of colours beside it; numbers at both in one size."""
+    """Draw the colour scale next to a map, with tick labels of one size on both."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, **how)
     bar.set_label(name, fontsize=TEXT)
     for each in (axes, bar.ax):
@@ -225,7 +228,7 @@ def legend_below(
     side: Literal["center", "left"] = "center",
     **how: Any,
 ) -> None:
-    """A legend below all panels, by default of what their artists are labelled."""
+    """Draw a legend below all panels, by default of their labelled artists."""
     how = {"fontsize": SMALL, "frameon": False, "ncols": columns, **how}
     if handles is not None:
         how["handles"] = handles
@@ -233,7 +236,7 @@ def legend_below(
 
 
 def legend_above(axes: Axes, columns: int) -> None:
-    """A legend between a panel and what stands above it, at the right."""
+    """Draw a legend at the right between a panel and the text above it."""
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1, 1),
@@ -246,14 +249,15 @@ def legend_above(axes: Axes, columns: int) -> None:
 
 
 def short(name: str, letters: int = 20) -> str:
-    """A name within some letters."""
+    """Return a name shortened to a number of letters."""
     return shorten(name, letters, placeholder="...")
 
 
 def kept_extremes(values: Floats, most: int) -> Ints:
-    """Of each stretch of a course the first position, the least and the greatest, so that no peak is lost.
+    """Return indices of a curve thinned without loss of extremes.
 
-    most   about so many positions; all of them where there are no more
+    Each of about `most` / 3 intervals keeps its first position, its minimum and its maximum. All positions are kept if
+    there are at most `most`.
     """
     if len(values) <= most:
         return np.arange(len(values))
@@ -265,7 +269,10 @@ def kept_extremes(values: Floats, most: int) -> Ints:
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
-    """Words as they are, and a halo behind them: words with a halo of their own are mere outlines in a vector file."""
+    """Write text literally, with a halo behind it.
+
+    The halo is a separate text, because text with a halo of its own is exported as outlines in a vector file.
+    """
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
     axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground=WHITE),), **behind)
@@ -273,7 +280,9 @@ def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: f
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """A figure whose axes are inches from its lower left corner, with a title at its top (two lines: 0.5 inches)."""
+    """Return a figure whose axes are in inches from its lower left corner, with a title at its top (two lines: 0.5
+    inches).
+    """
     figure = Figure(figsize=(width, height), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_xlim(0.0, width)
@@ -287,18 +296,18 @@ def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
 
 
 def headed(figure: Figure, title: str) -> Figure:
-    """The figure with a title above all its panels."""
+    """Return the figure with a title above all its panels."""
     figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
     return figure
 
 
 def title_of(name: str, title: str) -> str:
-    """What stands above a picture of a train."""
+    """Return the title above a picture of a train."""
     return f"{name}: {title}" if title else name
 
 
 def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
-    """Raise `QuestionError` where a picture would hold more than `most` of something."""
+    """Raise `QuestionError` if a picture would show more than `most` items of a kind."""
     if count > most:
         raise QuestionError(
             Problem(

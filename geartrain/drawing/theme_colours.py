@@ -1,4 +1,4 @@
-"""A figure in the colours of another theme than the light one, in which all are drawn."""
+"""Conversion of a figure from the colours of the light theme, in which all figures are drawn, to another theme."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _SHADES = 256  # of a scale of colours
 _ROUNDED = 0.5 / 255  # what a colour written with two digits a channel may be off by
 _AREA = 0.5  # opacity above which a face of a series is an area that is told apart, not a veil behind lines
 SCALES = {name: LinearSegmentedColormap.from_list(name, theme.scale, _SHADES) for name, theme in THEMES.items()}
-"""Of values, by theme."""
+"""Colour scales of values on maps, by theme."""
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 # linear sRGB to cone responses, and their roots to lightness and two opponents: Ottosson 2020, A perceptual color
 # space for image processing (Oklab)
@@ -41,7 +41,7 @@ _OPPONENTS = np.array([[0.2104542553, 0.7936177850, -0.0040720468],
 
 @contextmanager
 def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
-    """The figure in the theme's colours, and afterwards as it was."""
+    """Give the figure the theme's colours within a `with` block, and restore its colours afterwards."""
     if name == "light":
         yield
         return
@@ -69,7 +69,7 @@ def _all(artist: Artist) -> Iterator[Artist]:
 
 
 class _Painter:
-    """What gives artists the colours of a theme, and what must be done to take them away."""
+    """Recolouring of artists to a theme, with a list of the changes to be undone."""
 
     def __init__(self, name: ThemeName) -> None:
         self.name = name
@@ -78,7 +78,7 @@ class _Painter:
         self._scales: list[Colormap] = []  # a bar beside a map takes its scale over as soon as the map has it
 
     def paint(self, artist: Artist) -> None:
-        """Every colour of one artist; of values with a scale the scale's."""
+        """Recolour one artist; values on a colour scale get the theme's scale."""
         if isinstance(artist, Collection) and artist.get_array() is not None:
             self._scale(artist)
         elif not isinstance(artist, (Figure, Axes)):  # theirs are those of their patches
@@ -87,7 +87,7 @@ class _Painter:
             self._halo(effect)
 
     def paint_grid(self, axes: Axes) -> None:
-        """The grid of ticks that are made later: files of another resolution may have more of them."""
+        """Recolour the grid of ticks created later, as files of another resolution may have more ticks."""
         for axis in (axes.xaxis, axes.yaxis):
             old = axis.get_tick_params().get("grid_color")
             if old is not None:
@@ -120,7 +120,7 @@ class _Painter:
             self._fill(artist, *area)
 
     def _fill(self, artist: Any, colour: Rgba, hatch: str) -> None:
-        """An area's own colour and hatch, lined with ink, in which it is hatched too."""
+        """Fill an area with the theme's colour and hatch, with outline and hatch in ink."""
         self._put(artist.set_facecolor, artist.get_facecolor(), colour)
         self._put(artist.set_edgecolor, artist.get_edgecolor(), THEMES[self.name].ink)
         if hasattr(artist, "set_hatchcolor"):  # from matplotlib 3.11 on a hatch need not have the colour of the edge
@@ -140,7 +140,9 @@ def _set_grid(axis: Axis, colour: Any) -> None:
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
-    """What fills an area of a series in a theme that has fillings of its own; None of all else, and of small marks."""
+    """Return the fill colour and hatch of a series area in a theme that defines them; None for other artists and
+    markers.
+    """
     areas = THEMES[name].areas
     if not areas or isinstance(artist, (Circle, FancyArrowPatch)) or not isinstance(artist, (Patch, PolyCollection)):
         return None
@@ -156,7 +158,7 @@ def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
 
 
 def _themed_all(colours: Any, name: ThemeName) -> Any:
-    """One colour, or the rows of a collection's."""
+    """Return one colour, or the rows of a collection's colours, in the theme."""
     if isinstance(colours, np.ndarray) and colours.ndim == 2:
         return [themed_colour(tuple(map(float, row)), name) for row in colours]  # type: ignore[arg-type]
     return themed_colour(to_rgba(colours), name) if not _none(colours) else colours
@@ -167,8 +169,10 @@ def _none(colour: Any) -> bool:
 
 
 def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
-    """What stands for a colour of the light theme: the palette's own or a mixture of the palette's two of faces, as
-    layers are told apart by; else what is as far between paper and ink.
+    """Return the theme's equivalent of a colour of the light theme.
+
+    A colour of the palette becomes the palette colour of the theme, and a mixture of the two face colours the same mixture.
+    Any other colour gets the same relative lightness between paper and ink.
     """
     light, theme = THEMES["light"], THEMES[name]
     known = dict(zip(_named(light), _named(theme), strict=True))
@@ -183,7 +187,8 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
 
 
 def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """The theme's shade and fill mixed as the light theme's are in a colour; None of a colour that is no mixture."""
+    """Return the theme's mixture of shade and fill for a colour; None if the colour is not a mixture of the light ones.
+    """
     shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
     along = fill - shade
     share = float((rgb - shade) @ along / (along @ along))
@@ -202,7 +207,10 @@ def _named(theme: Theme) -> Sequence[str]:
 
 
 def _between(rgb: Floats, theme: Theme) -> Floats:
-    """As light against the theme's paper and ink as against white and black; of the same hue, in print of none."""
+    """Return a colour with the same relative lightness between the theme's paper and ink as between white and black.
+
+    The hue is kept, except in print, which has none.
+    """
     paper, ink = (_oklab(_rgb_of(each)) for each in (theme.paper, theme.ink))
     light, *hue = _oklab(rgb)
     lightness = ink[0] + light * (paper[0] - ink[0])

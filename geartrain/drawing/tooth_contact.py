@@ -1,8 +1,8 @@
-"""Two wheels of triangular teeth at one moment, to scale: outlines, contact point, normal, instant centre.
+"""Picture of two wheels of triangular teeth in contact, to scale: outlines, contact point, normal, instant centre.
 
-The driver turns about (0, 0), the driven wheel about (D, 0), or (-D, 0) if it is a ring. Lengths are in the unit of
-the sizes. Turning forward, the entry side is above the line of centres, where alpha_1 and alpha_2 are positive;
-backwards it is below.
+The driver turns about (0, 0), the driven wheel about (D, 0), or (-D, 0) if it is a ring. Lengths are in the unit of the
+sizes. In forward motion the entry side is above the line of centres, where alpha_1 and alpha_2 are positive. In
+backward motion it is below.
 """
 
 from __future__ import annotations
@@ -47,7 +47,10 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
-    """Tooth numbers, half angle, clearance factor and friction, by default the law's, of a pair, the driver first."""
+    """Return tooth counts, half angle, clearance factor and friction of a pair, the driver first.
+
+    The friction is by default the one of the transmission function.
+    """
     sizes = transmission.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
     beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
@@ -60,7 +63,7 @@ def pair_text(transmission: TriangularTransmission, friction: float | None = Non
 
 
 def require_contact(transmission: TriangularTransmission) -> None:
-    """Raise `GearTrainError` where the pair has no teeth, or none that touch."""
+    """Raise `GearTrainError` if the pair has no teeth, or no teeth in contact."""
     if not transmission.sizes.has_valleys or not transmission.intervals:
         raise GearTrainError(
             Problem("this pair has no contact to draw", transmission.verdict.text, "change its teeth or its clearance")
@@ -73,7 +76,7 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """The couple that drives at alpha_1 and alpha_2 (rad), in one phase; all other teeth follow from the pitch."""
+    """The driving tooth pair at alpha_1 and alpha_2 [rad], in one phase; all other teeth follow from the pitch."""
 
     sizes: TriangularSizes
     phase: str
@@ -84,7 +87,7 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Teeth, tip radius, root radius and angle (rad) of the driving couple's tooth of a wheel."""
+        """Return tooth count, tip radius, root radius and the angle [rad] of the driving pair's tooth of a wheel."""
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -92,20 +95,22 @@ class ToothPairPose:
 
     @property
     def axis2(self) -> float:
-        """Place of the driven wheel's axis on the line of centres, from the driver's."""
+        """Coordinate of the driven wheel's axis on the line of centres, from the driver's axis."""
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Points (..., 2) at a radius about a wheel's centre and an angle (rad) from the line of centres, entry up."""
+        """Return points (..., 2) at a radius about a wheel's centre and an angle [rad] from the line of centres, entry
+        up.
+        """
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
         x = along if which == DRIVER else self.axis2 - self.sizes.side * along
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Corners (n, 2) of a wheel: of all its teeth, or of those within an angle (rad) of the line of centres.
+        """Return vertices (n, 2) of a wheel: of all its teeth, or of those within an angle [rad] of the line of centres.
 
-        In the second case the centre is a corner too; the body of a ring ends at a circle beyond its roots.
+        In the second case the centre is a vertex too. The body of a ring ends at a circle beyond its roots.
         """
         z, tip, root, alpha = self.wheel(which)
         half = pi / z
@@ -123,14 +128,14 @@ class ToothPairPose:
 
     @property
     def lean(self) -> float:
-        """Angle (rad) from the line of centres to the flank in contact, towards the entry side."""
+        """Angle [rad] from the line of centres to the flank in contact, towards the entry side."""
         if self.phase == APPROACH:
             return self.alpha1 + self.sizes.signs[0] * self.sizes.beta1
         return self.sizes.signs[0] * self.sizes.beta2 - self.sizes.side * self.alpha2
 
     @property
     def contact(self) -> Point:
-        """Where the couple touches: the driven apex in approach, the driver's in recess."""
+        """Contact point of the tooth pair: the driven apex in approach, the driver's apex in recess."""
         which = DRIVEN if self.phase == APPROACH else DRIVER
         _, tip, _, alpha = self.wheel(which)
         x, y = self.place(which, tip, alpha)
@@ -138,20 +143,20 @@ class ToothPairPose:
 
     @property
     def normal(self) -> Point:
-        """Unit vector across the flank in contact, along which the driver pushes."""
+        """Unit vector normal to the flank in contact, in the direction in which the driver pushes."""
         return sin(self.lean), -self.direction * cos(self.lean)
 
     @property
     def centre(self) -> Point:
-        """Instant centre: where the normal at the contact meets the line of centres."""
+        """Instant centre, at which the contact normal meets the line of centres."""
         x, y = self.contact
         return x + self.direction * y * tan(self.lean), 0.0
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """The wheels of a law when the driving couple is at `alpha1` (rad); the middle of its first interval if None.
+    """Return the pose in which the driving tooth pair is at `alpha1` [rad], by default in the middle of the first interval.
 
-    Where no couple drives at alpha1, the moment at which some driver's tooth is there.
+    If no tooth pair drives at alpha1, return the pose in which some tooth of the driver is there.
     """
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
@@ -179,17 +184,17 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 def teeth_figure(
     transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
 ) -> Figure:
-    """Triangular teeth in contact, drawn to scale, with the contact and the line of centres.
+    """Draw triangular teeth in contact to scale, with the contact point and the line of centres.
 
     Parameters
     ----------
     transmission : TriangularTransmission
-        The pair.
+        Transmission function of the pair.
     alpha1 : float, optional
         Angle of the driving tooth from the line of centres [rad]; by default in the middle of the first interval.
-        Where no couple drives there, the moment at which some driver's tooth is there.
+        If no tooth pair drives there, the moment at which some tooth of the driver is there.
     whole : bool, optional
-        The wheels as a whole, or only the teeth near the contact; by default by how many teeth they have.
+        Whether whole wheels are drawn or only the teeth near the contact; by default according to the tooth counts.
 
     Returns
     -------
@@ -199,7 +204,7 @@ def teeth_figure(
     Raises
     ------
     GearTrainError
-        Where no teeth touch.
+        If no teeth touch.
 
     Examples
     --------
@@ -234,7 +239,7 @@ def teeth_figure(
 
 @dataclass(frozen=True, slots=True)
 class ToothViewport:
-    """The part of the plane that is drawn, and whether it shows the wheels whole."""
+    """The part of the plane that is drawn; `whole` is True if it shows whole wheels."""
 
     left: float
     right: float
@@ -248,7 +253,7 @@ class ToothViewport:
         return (self.top - self.bottom) / (self.right - self.left)
 
     def within(self, here: ToothPairPose, which: int) -> float:
-        """The angle (rad) either side of the line of centres that holds all of a wheel in view."""
+        """Return the angle [rad] on either side of the line of centres that contains all of a wheel in view."""
         if self.whole:
             return pi
         z = here.wheel(which)[0]
@@ -268,7 +273,7 @@ def _whole(here: ToothPairPose) -> ToothViewport:
 
 
 def _near(here: ToothPairPose) -> ToothViewport:
-    """Contact, instant centre and pitch point with a pitch or two about them."""
+    """Return a viewport around contact, instant centre and pitch point with a margin of one or two pitches."""
     sizes = here.sizes
     pitch = 2 * pi * sizes.D / sizes.pitch_sum
     points = [(sizes.D * sizes.z1 / sizes.pitch_sum, 0.0)]
@@ -308,7 +313,7 @@ def _circle(centre: tuple[float, ...], radius: float, style: str, width: float) 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """An arrow the way a wheel turns, with its name, inside its body on the entry side."""
+    """Draw an arrow in a wheel's sense of rotation, with its name, inside its body on the entry side."""
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1
@@ -348,7 +353,7 @@ def _line_of_centres(axes: Axes, here: ToothPairPose, view: ToothViewport) -> No
 
 
 def _contact(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
-    """Contact point, normal and instant centre."""
+    """Draw the contact point, the normal and the instant centre."""
     (x, y), (cx, cy), (nx, ny) = here.contact, here.centre, here.normal
     more = 0.12 * (view.top - view.bottom)
     along = (cx - x) * nx + (cy - y) * ny

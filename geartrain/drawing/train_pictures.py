@@ -1,4 +1,4 @@
-"""All pictures of a train by kind."""
+"""Selection of the picture of a train by kind."""
 
 from __future__ import annotations
 
@@ -24,32 +24,32 @@ def picture(
     labels: bool = True,
     outputs: Sequence[str] = (),
 ) -> Figure:
-    """A picture of a train: plan to scale, stick diagram, graph, speed diagram or dials.
+    """Draw a picture of a train: plan to scale, stick diagram, kinematic graph, speed diagram or dials.
 
     Parameters
     ----------
     train : GearTrain
-        What is drawn.
+        Train to draw.
     kind : {"plan", "stick", "graph", "lever", "dials"}
-        How.
+        Kind of picture.
     state : str, optional
-        Its name; by default the first, of "lever" all.
+        Name of a state; by default the first, or all states for "lever".
     turns : Fraction
-        Of the input since the pose where all angles are zero [turn]; counts for "plan" and "dials".
+        Turns of the input since the pose in which all angles are zero; used by "plan" and "dials".
     labels : bool
-        Names and numbers beside what is drawn.
+        Whether names and numbers are written.
     outputs : sequence of str
-        Those whose dials are drawn; by default all.
+        Outputs whose dials are drawn; by default all.
 
     Returns
     -------
     matplotlib.figure.Figure
-        For `render`, or to be drawn on.
+        Figure for `render`, or for further drawing.
 
     Raises
     ------
     QuestionError
-        For a kind that does not fit the train, and for states and outputs that it does not have.
+        For a kind that does not fit the train, and for unknown states and outputs.
 
     Examples
     --------

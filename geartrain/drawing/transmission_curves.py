@@ -1,8 +1,7 @@
 """Curves of a pair of wheels: transmission functions over the driver's angle, and conjugate tooth forms side by side.
 
-`triangular_figure` shows triangular teeth, ideal and real path; `transmission_figure` any pair; `shapes_figure`
-flanks, paths
-of contact, and each cost along the path of conjugate forms.
+`triangular_figure` shows the ideal and the real path of triangular teeth, and `transmission_figure` any pair.
+`shapes_figure` shows flanks, paths of contact, and stress, heat, sliding and losses along the path of conjugate forms.
 """
 
 from __future__ import annotations
@@ -56,19 +55,19 @@ _ANY_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean"
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
-    """Any transmission function over two periods: transmission error, speed ratio and efficiency on the drive flanks.
+    """Draw a transmission function over two periods: transmission error, speed ratio and efficiency on the drive flanks.
 
     Parameters
     ----------
     transmission : TransmissionFunction
-        Of a pair of any form.
+        Transmission function of a pair of any tooth form.
     title : str
-        Above the first panel.
+        Title above the first panel.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Three panels over the driver's angle [deg], two where nothing is lost; corners of the law as thin lines.
+        Three panels over the driver's angle [deg], two without losses; kinks of the function are thin lines.
 
     Examples
     --------
@@ -115,28 +114,29 @@ _BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyon
 
 
 def triangular_figure(transmission: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
-    """The law of triangular teeth over the driver's angle: driven angle, speed ratio, sliding efficiency, moment arms.
+    """Draw driven angle, speed ratio, sliding efficiency and moment arms of triangular teeth over the driver's angle.
 
-    Thin lines are the ideal path of one couple of teeth (docs/teeth.md, equations 2 to 11), thick lines the real path
-    of all of them. The driver's angle falls with time. The instant centre is read beside the speed ratio, which tells
-    it; arms are over the radii at which the mean ratio would roll, dashed for the driven wheel.
+    Thin lines are the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11), thick lines the real path of all
+    tooth pairs. The driver's angle decreases with time. The instant centre, which follows from the speed ratio, is read on
+    a second axis next to it. Moment arms are relative to the radii at which the mean ratio would roll, and dashed for the
+    driven wheel.
 
     Parameters
     ----------
     transmission : TriangularTransmission
-        The pair.
+        Transmission function of the pair.
     friction : PairFriction, optional
-        In place of the law's own, where it depends on speed.
+        Friction instead of the transmission function's own, where it depends on speed.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Four panels, without friction three: nothing is lost then; angles in degrees.
+        Four panels, or three without friction, as nothing is lost then; angles in degrees.
 
     Raises
     ------
     GearTrainError
-        Where no teeth touch.
+        If no teeth touch.
 
     Examples
     --------
@@ -189,7 +189,7 @@ def _panel(axes: Axes, transmission: TriangularTransmission, row: int, friction:
 
 
 def _phases(transmission: TriangularTransmission) -> Iterator[tuple[str, float, float]]:
-    """Each phase of the ideal path with its least and greatest alpha_1 (rad)."""
+    """Yield each phase of the ideal path with its minimum and maximum alpha_1 [rad]."""
     for phase in (RECESS, APPROACH):
         pieces = [piece for piece in transmission.contact.path.pieces if piece.phase == phase]
         if pieces:
@@ -203,9 +203,10 @@ def _values(
     x: Floats,
     held: float | None = None,
 ) -> tuple[tuple[Floats, ...], ...]:
-    """The curves of each panel at alpha_1 = x (rad): alpha_2 (deg), tau, efficiency, the arms of driver and driven.
+    """Return the curves of each panel at alpha_1 = x [rad].
 
-    NaN where friction locks, and of a standstill.
+    They are alpha_2 [deg], tau, the efficiency, and the moment arms of driver and driven wheel. Efficiency and moment arms
+    are NaN where friction locks and during a dwell.
     """
     if held is not None:
         none = np.full_like(x, np.nan)
@@ -222,7 +223,7 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """The real path whole, and the ideal path as far as it stays near."""
+    """Return axis limits that contain the real path, and the ideal path as far as it stays near the real one."""
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -237,7 +238,7 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
 
 
 def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
-    """A line where flank lies on flank, if that happens within reach."""
+    """Draw a line at the angle at which flank lies on flank, if it is within reach."""
     matching = transmission.sizes.matching
     if abs(matching) >= transmission.sizes.reach1:
         return
@@ -260,7 +261,9 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Each collision: tau before it where the last couple let go, tau after it where the next one drives."""
+    """Draw each impact: tau before it, where the last tooth pair separates, and tau after it, where the next one
+    drives.
+    """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -272,7 +275,7 @@ def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
 
 
 def _jump_label(axes: Axes, jump: SpeedJump) -> None:
-    """The relative jump, above and before its end in a path that rises to it: the free side of the corner."""
+    """Write the relative jump of tau at its upper left, which is free of curves."""
     axes.annotate(
         f"{'matching' if jump.kind == 'matching' else 'jump'} {jump.value:.4f}",
         (degrees(jump.alpha1), jump.after),
@@ -288,26 +291,27 @@ def _jump_label(axes: Axes, jump: SpeedJump) -> None:
 
 
 def _arms_key(axes: Axes) -> None:
-    """Whose arms are dashed, above their panel: below all of them a thin line tells a phase."""
+    """Draw a legend of the line styles of both wheels above their panel."""
     for name, (_, style) in zip(("$b_1$, driver", "$b_2$, driven"), _CURVES, strict=True):
         axes.plot([], [], color=BLACK, linewidth=1.2, linestyle=style, label=name)
     legend_above(axes, 2)
 
 
 def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
-    """O1C / D; an axis may show tau beyond the real path, where there is none. `signs` are -1 for a ring."""
+    """Return O1C / D at speed ratio tau, limited where an axis extends beyond the real path; `signs` are -1 for a ring.
+    """
     first, second = signs
     return tau / np.maximum(first + second * tau, 0.1)
 
 
 def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
-    """tau of O1C / D."""
+    """Return the speed ratio tau at O1C / D."""
     first, second = signs
     return centre / np.maximum(first * (1 - second * centre), 0.1)
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Places of the instant centre to write down between two speed ratios: round ones, far enough from each other."""
+    """Return ticks for the instant centre between two speed ratios: round values, far enough from each other."""
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
@@ -320,7 +324,8 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """The instant centre on the line of centres, over its length: tau/(1 + tau), with a ring tau/|1 - tau|."""
+    """Draw a second axis with the instant centre over the centre distance: tau/(1 + tau), or tau/|1 - tau| with a ring.
+    """
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -329,7 +334,7 @@ def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
 
 
 def _time(axes: Axes) -> None:
-    """The driver's angle falls as time goes on."""
+    """Label the abscissa and draw an arrow in the direction of time, in which the driver's angle decreases."""
     axes.set_xlabel(r"driver angle $\alpha_1$ (deg)", fontsize=TEXT)
     axes.annotate(
         "time",
@@ -382,22 +387,22 @@ _AWAY = 0.1  # of a pitch: infinite costs are followed up to what they are this 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Tooth forms of one pair side by side: flanks, path of contact, stress, heat, flash, sliding and loss.
+    """Draw tooth forms of one pair side by side: flanks, path of contact, stress, heat, flash, sliding and loss.
 
     Parameters
     ----------
     paths : mapping of str to PathOfContact
-        The path of contact of each form (docs/shapes.md, equation 1), by its name.
+        Path of contact of each form (docs/shapes.md, equation 1), by its name.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Eight panels; lengths in modules, costs as in docs/shapes.md.
+        Eight panels; lengths in modules, stress, heat, flash temperature and losses as in docs/shapes.md.
 
     Raises
     ------
     QuestionError
-        Where there is none to draw.
+        If there is no path to draw.
 
     Examples
     --------
@@ -448,7 +453,7 @@ def _form_text(paths: Mapping[str, PathOfContact]) -> str:
 
 
 def _left(axes: Axes) -> bool:
-    """True if a curve goes over the rim of its panel."""
+    """Return whether a curve extends beyond its panel."""
     low, high = axes.get_ylim()
     drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
     return any(bool(((y < low) | (y > high)).any()) for y in drawn)
@@ -461,7 +466,7 @@ def _pitch_title(pitch: PitchSurfaces) -> str:
 
 
 def _places(path: PathOfContact) -> Floats:
-    """X along the whole path, no sample on the pitch point itself."""
+    """Return values of X along the whole path, without the pitch point itself."""
     approach, recess = path.arcs
     if min(approach, recess) < 0:
         return np.linspace(-approach, recess, _PATH_SAMPLES)
@@ -471,7 +476,7 @@ def _places(path: PathOfContact) -> Floats:
 
 
 def _flat(points: Floats) -> Floats:
-    """x and y from the pitch point; on the sphere as seen from outside over it."""
+    """Return x and y from the pitch point; on the sphere as seen from outside above it."""
     return points[..., :2]
 
 
@@ -481,7 +486,7 @@ def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:
 
 
 def _drawn(axes: Axes, text: str) -> None:
-    """Not to scale: steep flanks would lie on each other."""
+    """Label a panel of flanks, not to scale because steep flanks would coincide."""
     axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     name_axes(axes, title=text)
@@ -496,7 +501,7 @@ def _drawn(axes: Axes, text: str) -> None:
 
 
 def _costs(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
-    """Each cost with its label; lengths in modules, so that spur and bevel can be set side by side."""
+    """Yield each quantity with its label; lengths in modules, so that spur and bevel gears are comparable."""
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)
     yield r"flash temperature $\Theta$", lambda c: c.flash * unit**0.25

@@ -1,25 +1,26 @@
-"""Results as documents: on a terminal, as Markdown, as one page of HTML, and as JSON.
+"""Results as documents: on a terminal, as Markdown, as one HTML page, and as JSON.
 
-In: a train (`collect_report`), or a result of another room. Out: a `Document`, titled sections of paragraphs and tables
-that know nothing of how they are shown; `to_text`, `to_markdown` and `to_html` show it. One function `describe_...`
-makes the document of a result, and the result's own `to_dict` its data, so that a page and its JSON are told from the
-same thing; `answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is worked out here: speeds are
-those of the Willis equation (docs/theory.md, equations 4 and 5), torques and motion those of `geartrain.dynamics`.
+Input is a train (`collect_report`) or a result of another package. Output is a `Document`: titled sections of
+paragraphs and tables, independent of how they are shown. `to_text`, `to_markdown` and `to_html` show it. For each
+result, one function `describe_...` makes the document and the result's own `to_dict` the data, so that a page and its
+JSON have the same source. `answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is computed
+here: speeds follow from the Willis equation (docs/theory.md, equations 4 and 5), and torques and motion from
+`geartrain.dynamics`.
 
 document             `Document`, sections, tables, and their layout within a width
-text, html_page      a document as Markdown, on a terminal, as a page of HTML
+text, html_page      a document as Markdown, on a terminal, as an HTML page
 json_schema          JSON Schema of all answers and of the declaration
-train_data           `TrainReport`, the contents of a report; `train_report` describes it, as a page to share too
-answers              speeds, outputs and targets; `soundness` is what `check` finds
+train_data           `TrainReport`, the contents of a report; `train_report` describes it, also as a page to share
+answers              speeds, outputs and targets; `soundness` has the findings of `check`
 formula_report       outputs as formulas in tooth counts
 gearbox_report       a train with clutches in all its states
 gear_pairs           real teeth and pins of a train
 torque_report        torques, power flow, losses; torque over some turns
-motion_report        transmission errors
+motion_report        anomalies and transmission errors
 pair_page            one pair of wheels without a train; `conjugate_pair_page` has conjugate forms and their comparison
 reconstruction_comparison, spherical_report, accuracy_report   several trains; gears on a sphere; error against run time
 
-Reports of the wings are in the wings.
+Reports of the optional packages are in those packages.
 """
 
 from __future__ import annotations

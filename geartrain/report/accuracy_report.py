@@ -1,4 +1,4 @@
-"""Error against run time of the methods on one train, as a document."""
+"""Document on error against run time of the methods on one train."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _HEADER = ("method", "prepared (ms)", "time (ms)", "over the fastest", "error", 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyReport(Result):
-    """Methods on a train in every state that was requested."""
+    """Accuracy and run times of the methods on a train in every requested state."""
 
     PAGE = "report.accuracy_report:describe_accuracy"
 
@@ -28,14 +28,14 @@ class AccuracyReport(Result):
 
 
 def describe_accuracy(found: AccuracyReport) -> Document:
-    """A section for each stage of each state, and what the train does not have."""
+    """Return a document with a section for each stage of each state, and one for the stages that were left out."""
     return Document(
         f"Error against run time: {found.name}", [_LEAD], [s for each in found.states for s in _sections(each)]
     )
 
 
 def accuracy_document(found: TrainAccuracy) -> Document:
-    """Return what `geartrain bench` prints for one state."""
+    """Return the output of `geartrain bench` for one state."""
     return describe_accuracy(
         AccuracyReport("" if found._declaration is None else found._declaration.name, "", (found,))
     )

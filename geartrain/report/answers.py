@@ -1,4 +1,4 @@
-"""The answers of a train in its report: states, speeds, outputs, targets, uncertain tooth counts.
+"""Answers of a train in its report: states, speeds, outputs, targets, uncertain tooth counts.
 
 `speeds_text` is the output of `geartrain solve`: the speeds of one state as plain lines, exact and in decimals.
 """
@@ -27,7 +27,7 @@ _SPANS = (("d", Fraction(1)), ("h", Fraction(1, 24)), ("min", Fraction(1, 1440))
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
-    """States by rows: what is engaged, and the outputs' ratios."""
+    """Return a section with one row for each state: the engaged elements, and the speeds and ratios of the outputs."""
     declared = train.declaration
     clutches = list(declared.clutches)
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
@@ -137,7 +137,7 @@ def _fault(result: OutputResult) -> str:
 
 
 def _targets(answer: Answer, head: str) -> Iterator[Section]:
-    """Outputs beside their targets, the error first; nothing where no output has one."""
+    """Yield a section that compares outputs with their targets, the error first; nothing if no output has a target."""
     targets = [
         (
             name,
@@ -173,7 +173,7 @@ def _targets(answer: Answer, head: str) -> Iterator[Section]:
 
 
 def _speed_section(train: GearTrain, answer: Answer, head: str) -> Section:
-    """What was prescribed, the verdict, and every link's speed."""
+    """Return a section with the prescribed speeds, the verdict, and every link's speed."""
     case = train.declaration.case(answer.state)
     given = [*map(case.given, case.inputs)]
     given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
@@ -240,7 +240,7 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 
 def result_words(result: OutputResult) -> str:
-    """What stands against a published figure, in its form: exact and, where that is not one number, in decimals."""
+    """Return the computed value that corresponds to a published figure, exact and in decimals."""
     if result.found is None:
         ratio = result.output.published is not None and result.output.published.as_ != "speed"
         open_ = result.speed is None or not ratio
@@ -250,9 +250,9 @@ def result_words(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """`all 3 expectations and 2 published figures hold`, or how many fail; empty where no figure is declared.
+    """Return `all 3 expectations and 2 published figures hold`, or how many fail; empty if no figure is declared.
 
-    The tolerance of a target is such a figure; a target without one is information.
+    The tolerance of a target counts as such a figure. A target without tolerance does not.
     """
     results = [result for answer in answers for result in answer.outputs.values()]
     kinds = {
@@ -269,7 +269,10 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """The sense a reader of the dial sees: it flips on a face that looks the other way."""
+    """Return the sense of rotation seen on the dial, and the times of a turn and of a division.
+
+    The sense is reversed on a face that looks the other way.
+    """
     dial = declared.dials.get(result.output.dial or "")
     if dial is None or not result.speed:
         return ""
@@ -286,7 +289,10 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """How long a number of units is: in years where the unit is one, or in what a clock tells; else the number."""
+    """Return a time in years if the unit is a year, otherwise in days, hours, minutes or seconds.
+
+    Without a unit of time, return the plain number.
+    """
     if declared.unit_days is None:
         return figure(units, 7)
     if declared.unit_days > _YEAR and units >= 1:
@@ -297,7 +303,9 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Wheels in doubt, and what one tooth on each of them does to the pointers."""
+    """Yield a section with the change of pointer speeds for one tooth more or less on each wheel of uncertain tooth
+    count.
+    """
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
         pointers = {name for name, result in answer.outputs.items() if result.output.dial or result.targets}
@@ -333,7 +341,10 @@ def _shift(value: float | None) -> str:
 
 
 def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:
-    """The speeds of one state, or that of one output, a line each; `oblique` links have sums of joint speeds."""
+    """Return the speeds of one state, or of one output, one per line.
+
+    oblique   links whose speeds are sums of joint speeds
+    """
     state = f" state {answer.state}" if answer.state is not None else ""
     place = "" if answer.verdict else f" ({answer.place})"
     unit = f" ({answer.unit})" if answer.unit and answer.verdict else ""
@@ -359,7 +370,7 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def answer_text(answer: Answer) -> str:
-    """Return what `geartrain solve` prints for the answer of one state."""
+    """Return the output of `geartrain solve` for the answer of one state."""
     declared = answer._declaration
     oblique = frozenset() if declared is None else GearTrain(declared).kinematics.joint_sums
     words = "" if answer else told_words(str(answer.verdict))
@@ -367,7 +378,7 @@ def answer_text(answer: Answer) -> str:
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return outputs, targets and speeds of one state as in the report; None where the train is not known."""
+    """Return outputs, targets and speeds of one state as in the report; None if the train is not known."""
     if answer._declaration is None:
         return None
     train = GearTrain(answer._declaration)
@@ -375,7 +386,7 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Why a coupled system was solved in floats, how large their errors are, and how to get fractions."""
+    """Return why a coupled system was solved in floats, the size of the errors, and how to get fractions."""
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
     return (
@@ -389,7 +400,7 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Condition, estimate and true error of a float, where there is one."""
+    """Return condition, estimated error and true error of a float, if it has them."""
     accuracy = answer.accuracy.get(link)
     if accuracy is None:
         return ""

@@ -1,4 +1,4 @@
-"""A page on one pair of wheels with conjugate teeth, and one that compares several forms with the 20 degree involute.
+"""Document on one pair of wheels with conjugate teeth, and one that compares several forms with the 20 degree involute.
 
 Sections are the wheels, the path of contact, losses and stresses, and friction.
 """
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def conjugate_verdict(design: PairDesign) -> str:
-    """Whether the teeth can run, and if not, each reason with what to do."""
+    """Return whether the teeth can run, and if not, each reason with its remedy."""
     if design.runs and design.locks:
         return "Verdict: the teeth keep the ratio exactly at every instant, but friction locks them."
     if design.runs:
@@ -30,7 +30,7 @@ def conjugate_verdict(design: PairDesign) -> str:
 
 
 def conjugate_sections(design: PairDesign) -> Iterator[Section]:
-    """What there is to tell; of teeth that cannot run, wheels and path only."""
+    """Yield the sections on a pair; for teeth that cannot run, only wheels and path."""
     yield from (_wheels(design), _path(design))
     if design.losses_and_stresses is not None:
         yield from (_costs(design.losses_and_stresses), _friction(design))
@@ -141,14 +141,14 @@ def _friction(design: PairDesign) -> Section:
 
 
 def pair_name(path: PathOfContact) -> str:
-    """Tooth numbers and kind of a pair."""
+    """Return the tooth counts and the kind of a pair."""
     pitch = path.pitch
     kind = f"bevel, {degrees(pitch.R1 + pitch.R2):.6g} deg" if pitch.bevel else "internal" if pitch.R2 < 0 else "spur"
     return f"{pitch.z1}/{pitch.z2} {kind}"
 
 
 def cost(value: float) -> str:
-    """A cost as text."""
+    """Return a loss or stress figure as text."""
     return f"{value:.9g}" if isfinite(value) else "inf"
 
 
@@ -159,17 +159,17 @@ _HEADERS = {"off_pitch": "stress off pitch"}
 
 
 def describe_form_comparison(found: FormComparison) -> Document:
-    """A page on tooth forms beside the 20 degree involute: tables of ratios, and what keeps forms from running.
+    """Return a document that compares tooth forms with the 20 degree involute: tables of ratios, and faults of forms.
 
     Parameters
     ----------
     found : FormComparison
-        What `geartrain.teeth.form_comparison.compare_forms` gives; its `to_dict()` has the same as data.
+        Result of `geartrain.teeth.form_comparison.compare_forms`; its `to_dict()` has the same as data.
 
     Returns
     -------
     Document
-        Ratios where one pair of teeth bears the load, and where pairs in contact share it; the involute itself.
+        Ratios where one tooth pair carries the load, and where tooth pairs in contact share it; the involute itself.
 
     Examples
     --------
@@ -196,12 +196,12 @@ def describe_form_comparison(found: FormComparison) -> Document:
 
 
 def _header(name: str) -> str:
-    """What a column of this measure is called."""
+    """Return the column title of a measure."""
     return _HEADERS.get(name, name.replace("_", " "))
 
 
 def _sharing(found: FormComparison) -> Section:
-    """The same costs where pairs in contact share the load; a sentence where never two touch at once."""
+    """Return the section with shared load; a sentence if two tooth pairs are never in contact at once."""
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):

@@ -1,6 +1,6 @@
-"""A document: titled sections of paragraphs and tables, independent of how it is shown.
+"""Document: titled sections of paragraphs and tables, independent of how it is shown.
 
-Tables are fitted into a width: columns wrap at words, and a table that is still too wide is cut into strips.
+Tables are fitted into a width: cells wrap at words, and a table that is still too wide is split into strips of columns.
 """
 
 from __future__ import annotations
@@ -18,25 +18,25 @@ from geartrain.numerics.long_float import Real
 from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
 
 MOST_ROWS = 120
-"""Longer tables are cut, and say so; the JSON has everything."""
+"""Maximum number of rows shown of a table; the JSON has all rows."""
 
 
 class ExactText(str):
-    """A cell that holds an exact value; `full` is all of it where the text is shortened, and what a page copies."""
+    """A cell that contains an exact value; `full` is the unabridged text, which a page copies."""
 
     __slots__ = ("_value",)
 
     _value: Fraction | Real | str
 
     def __new__(cls, text: str, value: Fraction | Real | None = None) -> ExactText:
-        """`text` as shown, of `value`; the text itself is all there is to say where none is given."""
+        """Return `text` as shown of `value`; without a value, the text itself is the full text."""
         made = super().__new__(cls, text)
         made._value = text if value is None else value
         return made
 
     @property
     def full(self) -> str:
-        """The whole value; the digits of a very long one are written when they are asked for."""
+        """Unabridged value; the digits of a very long one are written only on access."""
         return fraction_text(self._value) if isinstance(self._value, Fraction) else str(self._value)
 
 
@@ -47,21 +47,21 @@ class CitedText(str):
 
 
 class SceneText(str):
-    """A text that belongs to a scene of the page's viewer, by its number from 1 on; a page shows it when asked."""
+    """A text that belongs to a numbered scene of the page's viewer; a page shows the scene on request."""
 
     __slots__ = ("_scene",)
 
     _scene: int
 
     def __new__(cls, text: str, scene: int) -> SceneText:
-        """`text` of the scene of this number."""
+        """Return `text` that belongs to the scene of this number."""
         made = super().__new__(cls, text)
         made._scene = scene
         return made
 
     @property
     def scene(self) -> int:
-        """Its number in the viewer, from 1 on."""
+        """Number of the scene in the viewer, from 1 on."""
         return self._scene
 
 
@@ -78,9 +78,9 @@ class Table(Shown):
     """
 
     header: Sequence[str]
-    """One title a column; "" where none is needed."""
+    """Title of each column; "" if none is needed."""
     rows: Sequence[Sequence[str]]
-    """Cells, as many in each row as the header has."""
+    """Cells, as many in each row as in the header."""
     wide: bool = False
     """True for matrices, which a terminal shows in strips of columns and never wraps."""
 
@@ -98,13 +98,13 @@ def _cell(value: object) -> str:
 
 
 def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
-    """A table without the columns in which no row says anything, but for the first so many."""
+    """Return a table without its empty columns; the first `always` columns are kept."""
     used = [at for at in range(len(header)) if at < always or any(row[at] for row in rows)]
     return _chosen(Table(header, rows, wide), used)
 
 
 _UNIT = re.compile(r"\[(.+?)\]")
-"""The unit in the docstring of a field."""
+"""Regular expression of the unit in the docstring of a field."""
 _CellColumn = tuple[str, Callable[[Any], str]]
 """Head of a column, and the function that returns its cell for a result."""
 
@@ -137,12 +137,12 @@ def _field_text(value: Any, digits: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A line of a tree, with all that goes on from it."""
+    """A line of a tree, with the lines below it."""
 
     text: str
-    """The line."""
+    """Text of the line."""
     below: Sequence[Branch] = ()
-    """Lines that stand below it."""
+    """Lines below it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,20 +156,20 @@ class Section(Shown):
     """
 
     title: str
-    """The heading."""
+    """Heading of the section."""
     paragraphs: Sequence[str] = ()
-    """Plain text; no markup in it is obeyed."""
+    """Plain text; markup in it has no effect."""
     tables: Sequence[Table] = field(default_factory=tuple)
-    """After the paragraphs."""
+    """Tables after the paragraphs."""
     branches: Sequence[Branch] = ()
-    """A tree between paragraphs and tables."""
+    """Tree between paragraphs and tables."""
     detail: bool = False
     """True for a section that a report as text omits unless it is requested, and that a page shows folded."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picture(Shown):
-    """A picture with a caption, for pages of HTML.
+    """A picture with a caption, for HTML pages.
 
     Examples
     --------
@@ -178,14 +178,14 @@ class Picture(Shown):
     """
 
     caption: str
-    """One line below it."""
+    """Line below the picture."""
     svg: str
-    """One whole SVG document, made by a program that escapes what users write: it stands in the page as it is."""
+    """One whole SVG document, included unchanged in the page; its producer must escape what users write."""
 
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """A source in full. A page links `url` if it is of http or https, and shows any other as text."""
+    """A full reference. A page links `url` if it is an http or https address, and shows any other as text."""
 
     cite: str
     url: str = ""
@@ -194,16 +194,16 @@ class SourceReference:
 
 @dataclass(frozen=True, slots=True)
 class PageExtras:
-    """What only a page has room for, beside what a document says in any form."""
+    """Parts that only a page shows, in addition to the document."""
 
     badge: str = ""
-    """The verdict in a word or two; `sound` if there is nothing to complain of."""
+    """Verdict in one or two words; `sound` is True if nothing is wrong."""
     sound: bool = True
     notes: Sequence[str] = ()
-    """Short remarks below the lead, such as which extra brings pictures."""
+    """Short remarks below the summary, such as the extra that is needed for pictures."""
     pictures: Sequence[Picture] = ()
     viewer: str = ""
-    """A whole HTML page in which the train turns."""
+    """Whole HTML page with the animated train."""
     sections: Sequence[Section] = ()
     """Further sections at the end."""
     references: Mapping[str, SourceReference] = field(default_factory=dict)
@@ -212,7 +212,7 @@ class PageExtras:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Document:
-    """A title, a lead, and sections, independent of how they are shown.
+    """A title, a summary, and sections, independent of how they are shown.
 
     See Also
     --------
@@ -229,20 +229,20 @@ class Document:
     """
 
     title: str
-    """The first heading."""
+    """First heading."""
     summary: Sequence[str]
     """Paragraphs before the first section."""
     sections: Sequence[Section]
-    """In the order in which they are read."""
+    """Sections in reading order."""
     aside: PageExtras = field(default_factory=PageExtras)
-    """Badge, pictures, viewer and sources, which only a page of HTML has room for."""
+    """Badge, pictures, viewer and sources, which only an HTML page shows."""
 
     def __repr__(self) -> str:
         count = len(self.sections)
         return summary_line("Document", f"{self.title}: {count} section{'' if count == 1 else 's'}")
 
     def __str__(self) -> str:
-        """The document as Markdown."""
+        """Return the document as Markdown."""
         text: str = picture_maker("report", "to_markdown")([self])
         return text
 
@@ -276,14 +276,14 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
 
 
 def figure(value: Fraction | Real | None, digits: int = 8) -> str:
-    """A number in decimal; a dash where there is none."""
+    """Return a number in decimal, or a dash for None."""
     if value is None:
         return "-"
     return decimal(value, digits) if isinstance(value, Fraction) else f"{value:.{digits}g}"
 
 
 def exact(value: Fraction | Real | None) -> str:
-    """A number as a fraction, shortened where it is very long; a tilde marks a float."""
+    """Return a number as a fraction, abridged if it is very long; a tilde marks a float."""
     if value is None:
         return "undetermined"
     if not isinstance(value, Fraction):
@@ -292,7 +292,7 @@ def exact(value: Fraction | Real | None) -> str:
 
 
 def one_to(ratio: Fraction | Real | None) -> str:
-    """A ratio output over input as `1 : n`, or `n : 1` where the output is the faster."""
+    """Return a ratio output over input as `1 : n`, or as `n : 1` if the output is the faster."""
     if not ratio:
         return "-"
     if not -1 < ratio < 1:
@@ -301,13 +301,16 @@ def one_to(ratio: Fraction | Real | None) -> str:
 
 
 def ppm(value: float | None) -> str:
-    """Parts per million with sign."""
+    """Return parts per million as text with a sign."""
     # less than 1e-15 of the speed is what is left of rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
-    """The first rows of a long table (of so many, if not all are given), and how many more there are."""
+    """Return the first `most` rows of a long table, and a row with the number of further rows.
+
+    of   number of all rows, if not all are given
+    """
     count = len(rows) if of is None else of
     if count <= most:
         return list(rows)
@@ -322,16 +325,16 @@ GAP = 2
 
 
 def gap_of(table: Table) -> int:
-    """Blanks between two columns of a table."""
+    """Return the number of blanks between two columns of a table."""
     return 1 if table.wide else GAP
 
 
 def strips(table: Table, width: int) -> Iterator[Table]:
-    """A table cut into tables of so many columns that each fits, all with its first column; whole where it fits.
+    """Yield a table in strips of columns that fit the width, each with the first column; the whole table if it fits.
 
-    Words are never broken, but for one that alone takes more than there is.
+    Words are broken only if one word is wider than the available width.
 
-    width   characters in a line
+    width   characters per line
     """
     minimum = [_minimum(column, table.wide) for column in _columns(table)]
     gap, start = gap_of(table), 1
@@ -348,10 +351,10 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
 
 def column_widths(table: Table, width: int) -> list[int]:
-    """Characters of each column, at most as many as it can use; those that want least more than
-    their longest word get it first.
+    """Return the width of each column in characters, at most its longest cell.
 
-    The sum may be more than there is only if the longest words together are.
+    Columns that need the fewest characters beyond their longest word get them first. The sum exceeds the available width
+    only if the longest words together do.
     """
     columns = _columns(table)
     full = [max(map(len, column)) for column in columns]
@@ -373,9 +376,9 @@ _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 
 def aligned_rows(table: Table) -> list[list[str]]:
-    """Return the rows with numbers shifted so that the decimal points of each column of numbers are aligned.
+    """Return the rows with numbers shifted so that the decimal points of each numeric column are aligned.
 
-    A column is one of numbers if all of its cells are decimal numbers, empty, or a dash.
+    A column is numeric if all of its cells are decimal numbers, empty, or a dash.
     """
     if table.wide:
         return [list(row) for row in table.rows]
@@ -397,7 +400,7 @@ def _columns(table: Table) -> list[tuple[str, ...]]:
 
 
 def _minimum(column: Sequence[str], whole: bool) -> int:
-    """What a column takes at least: its longest word, or its longest cell where cells do not wrap."""
+    """Return the minimum width of a column: its longest word, or its longest cell if cells do not wrap."""
     pieces = column if whole else [word for cell in column for word in cell.split()]
     return max(1, *(len(piece) for piece in pieces), 0)
 

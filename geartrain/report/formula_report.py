@@ -1,4 +1,4 @@
-"""Outputs as formulas in tooth counts, as a page."""
+"""Document on outputs as formulas in tooth counts."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _HEAD = "z_NAME stands for the tooth count of the wheel NAME, and the name of a 
 
 @dataclass(frozen=True)
 class RatioElasticity(Result):
-    """How a tooth count changes a ratio."""
+    """Elasticity of a ratio with respect to a tooth count."""
 
     state: str | None
-    """The state."""
+    """Name of the state; None for a train without states."""
     output: str
     """Output of the ratio."""
     input: str
@@ -30,16 +30,16 @@ class RatioElasticity(Result):
     wheel: str
     """Wheel whose tooth count varies."""
     elasticity: ClosedForm
-    """(z/f) df/dz: by how many per cent the ratio grows where the count grows by one per cent."""
+    """Elasticity (z/f) df/dz: relative change of the ratio f per relative change of the tooth count z."""
 
 
 @dataclass(frozen=True)
 class FormulaReport(Result):
-    """Formulas of outputs, in each state that was asked for.
+    """Formulas of outputs in each requested state.
 
     See Also
     --------
-    describe_formulas : Its page.
+    describe_formulas : Return the document of a formula report.
     """
 
     PAGE = "report.formula_report:describe_formulas"
@@ -49,31 +49,31 @@ class FormulaReport(Result):
     title: str
     """Title of the train."""
     formulas: tuple[OutputFormula, ...]
-    """State by state."""
+    """Formulas of the outputs, state by state."""
     sensitivities: tuple[RatioElasticity, ...] = ()
-    """Of all counts, where they were asked for."""
+    """Elasticities with respect to all tooth counts, if requested."""
 
 
 def collect_formulas(
     train: GearTrain, states: Sequence[str | None], outputs: Sequence[str] = (), sensitivities: bool = False
 ) -> FormulaReport:
-    """The formulas of a train in some states, to be told.
+    """Return the formulas of a train in some states.
 
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train whose outputs are described.
     states : sequence of str or None
-        States; None of a train that has none.
+        Names of states; None for a train without states.
     outputs : sequence of str
-        Some outputs; by default all.
+        Names of outputs; by default all.
     sensitivities : bool
-        With all elasticities.
+        Whether to include all elasticities.
 
     Returns
     -------
     FormulaReport
-        Without outputs that the inputs do not determine.
+        Formulas of the outputs that the inputs determine.
 
     Examples
     --------
@@ -93,21 +93,21 @@ def collect_formulas(
 
 
 def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    """Those of some outputs, by default of all that the inputs determine."""
+    """Yield the formulas of some outputs, by default of all that the inputs determine."""
     return speed_formulas(train.declaration, train.declaration.single_state(state), outputs)
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Each output with its formula, its value, and where it locks; elasticities where they were asked for.
+    """Return a document with each output's formula, value and locking condition, and elasticities if requested.
 
     Parameters
     ----------
     found : FormulaReport
         Formulas of a train.
     latex : bool
-        Formulas as LaTeX.
+        Whether formulas are written as LaTeX.
     inverse : bool
-        Ratios as input over output too.
+        Whether ratios are also written as input over output.
 
     Returns
     -------
@@ -128,9 +128,9 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
 
 
 def formula_section(train: GearTrain, state: str | None, explained: bool = True) -> Iterator[Section]:
-    """What a report tells: the formulas of one state, without outputs that are inputs themselves.
+    """Yield a section with the formulas of one state, without outputs that are inputs themselves.
 
-    explained   with the words that say how a formula is read
+    explained   whether the section begins with an explanation of the notation
     """
     told = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
     if told:

@@ -22,22 +22,22 @@ _OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "m
 
 @dataclass(frozen=True)
 class DrivenPair(Result):
-    """A pair with real teeth in one way in which it is driven."""
+    """A pair with real teeth, driven by one of its wheels."""
 
     KEYS = (Key("pair", "mesh.name"), Key("", "mesh.who"), "states", *_OF_PAIR)
 
     mesh: GearMesh
     states: tuple[str, ...] = ()
-    """In which it is driven so."""
+    """States in which it is driven by this wheel."""
 
     @cached_property
     def account(self) -> PairAccount:
-        """What the mesh tells of itself."""
+        """Figures, text and tables of the mesh."""
         return self.mesh.account()
 
     @property
     def figures(self) -> PairFigures:
-        """Its figures."""
+        """Figures of the mesh."""
         return self.account.figures
 
 
@@ -50,14 +50,14 @@ class DrivenPin(Result):
     coupling: str
     """Name of the coupling."""
     figures: PinFigures
-    """Its figures with the pin driving."""
+    """Figures of the coupling with the pin driving."""
 
 
 _MOST_PAIRS = 12  # with more, a report as text omits their tables
 
 
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
-    """The real teeth and pins of a train; nothing where none are declared."""
+    """Yield sections on the real teeth and pins of a train; nothing if none are declared."""
     if pairs:
         yield _teeth(train, pairs)
     if pins:
@@ -79,17 +79,17 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
 
 
 def joined_table(rows: Sequence[AccountTable]) -> Table:
-    """One table of all pairs of a kind."""
+    """Return one table of all pairs of a kind."""
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 
 def fault_text(fault: Problem) -> str:
-    """What is wrong, why, and what to do, as sentences."""
+    """Return what is wrong, why, and the remedy, as sentences."""
     return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."
 
 
 def _drivers(pairs: Sequence[DrivenPair]) -> Table:
-    """The wheel that drives each pair, and how that is known."""
+    """Return a table of the driving wheel of each pair and the basis of this conclusion."""
     rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
     return filled_table(("pair", "driver", "how that is known", "states"), rows, 3, wide=True)
 
@@ -116,10 +116,10 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Real teeth of a train in every way they are driven; empty where none are declared."""
+    """Return the pairs with real teeth, once for each wheel that drives; empty if none are declared."""
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
-    """Pins of a train; empty where none has dimensions."""
+    """Return the pins of a train; empty if none has dimensions."""
     return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.transmission)) for joint in train.mechanics.pins)

@@ -1,4 +1,4 @@
-"""Gearboxes as pages: states by rows, elements and links by columns; and all gears that there are."""
+"""Documents on gearboxes: states by rows, elements and links by columns; and all possible gears."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ _ELEMENTS = "Greatest of all states, in sizes over the input's torque and speed.
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """States, speeds, slip and torques of elements, and what each element must bear.
+    """Return a document on states, speeds, slip and torques of shift elements, and the maximum load of each element.
 
     Parameters
     ----------
     found : Gearbox
-        As `GearTrain.gearbox` gives it.
+        Result of `GearTrain.gearbox`.
 
     Returns
     -------
     Document
-        Speeds and torques over those of the input.
+        Speeds and torques relative to those of the input.
 
     Examples
     --------
@@ -49,7 +49,7 @@ def describe_gearbox(found: Gearbox) -> Document:
 
 
 def gearbox_sections(found: Gearbox) -> Iterator[Section]:
-    """What `describe_gearbox` tells, as sections of a longer page."""
+    """Yield the sections of `describe_gearbox`, for use in a longer document."""
     names = [each.name for each in found.elements]
     header = ("state", *names, "verdict", "ratio", "step", "efficiency", "recirculating", "inside")
     lines = [f"From '{found.input}' to '{found.output}'. x marks a closed clutch or brake.", _RATIOS]
@@ -71,7 +71,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
 
 
 def _unit(found: Gearbox) -> str:
-    """The unit of the speeds in a table, with the states whose input is at rest."""
+    """Return the unit of the speeds in a table, with the states whose input is at rest."""
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
     return "Over the input's speed" + (f"; over that of another link in {named}." if named else ".")
@@ -122,12 +122,12 @@ def _elements(found: Gearbox) -> Table:
 
 
 def describe_gear_search(found: GearSearch) -> Document:
-    """All gears, then the series that were asked for.
+    """Return a document on all gears, then on the requested series.
 
     Parameters
     ----------
     found : GearSearch
-        As `geartrain.analysis.find_gears` gives it.
+        Result of `geartrain.analysis.find_gears`.
 
     Returns
     -------
@@ -164,7 +164,7 @@ def describe_gear_search(found: GearSearch) -> Document:
 
 
 def _some(ways: Sequence[Sequence[str]]) -> str:
-    """Ways to close elements, not all where there are many."""
+    """Return combinations of closed elements as text, abridged if there are many."""
     more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
     return "; ".join(", ".join(way) for way in ways[:_MOST]) + more
 

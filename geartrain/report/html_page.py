@@ -1,4 +1,4 @@
-"""Documents as one HTML page that stands alone: it asks the network for nothing, and nothing a user wrote can run."""
+"""Documents as one self-contained HTML page: it loads nothing from the network, and no text of a user is executed."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from geartrain.report.document import CitedText, Document, Table, strips
 from geartrain.scene.palette import THEMES
 
 ON_PAPER = 110
-"""Characters across a sheet of A4 or letter, in the type in which a page prints its tables."""
+"""Characters per line on a sheet of A4 or letter paper, in the typeface of printed tables."""
 WORDS = {"viewer": "The train turning", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
-"""A viewer in a frame obeys the page's own policy too, and its scripts are not known here."""
+"""Policy for pages with a viewer: a frame inherits the page's policy, and the viewer's scripts are not known here."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Anchors:
-    """Names of places in one document of a page; `contents` are those of its headings, with their titles."""
+    """Anchor names in one document of a page; `contents` has the anchors of its headings with their titles."""
 
     contents: Sequence[tuple[str, str]]
     sections: Sequence[str]
@@ -39,23 +39,22 @@ class _Anchors:
 
 
 def to_html(documents: Sequence[Document]) -> str:
-    """Documents as one self-contained page of HTML, which asks the network for nothing.
+    """Return documents as one self-contained HTML page, which loads nothing from the network.
 
     Parameters
     ----------
     documents : sequence of Document
-        One or more, each with its own contents.
+        One or more documents, each with its own table of contents.
 
     Returns
     -------
     str
-        The whole page. Texts are escaped; pictures stand in it as SVG, a viewer in a frame of its own that cannot reach
-        the page.
+        Whole page. Texts are escaped, pictures are included as SVG, and a viewer is in a sandboxed frame.
 
     Raises
     ------
     MissingExtraError
-        Without jinja2, which the extra `report` brings.
+        Without jinja2, which is installed with the extra `report`.
 
     Examples
     --------
@@ -84,12 +83,12 @@ def to_html(documents: Sequence[Document]) -> str:
 
 
 def to_fragment(documents: Sequence[Document]) -> str:
-    """Return titles, paragraphs and tables of documents as on their page, without its style and script.
+    """Return titles, paragraphs and tables of documents as HTML without the style and script of a page.
 
     Parameters
     ----------
     documents : sequence of Document
-        What is shown; pictures and other extras of pages are left out.
+        Documents to show; pictures and other extras of pages are left out.
 
     Returns
     -------
@@ -99,7 +98,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
     Raises
     ------
     MissingExtraError
-        Without jinja2, which the extra `report` brings.
+        Without jinja2, which is installed with the extra `report`.
     """
     check_pages()
     fragment: str = _template("fragment.html").render(documents=documents)
@@ -107,7 +106,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
 
 
 def check_pages() -> None:
-    """Make sure that pages can be made, before what is to stand in them is worked out; else `MissingExtraError`."""
+    """Raise `MissingExtraError` if pages cannot be made, before their contents are computed."""
     try:
         import jinja2  # noqa: F401
     except ImportError:
@@ -116,7 +115,7 @@ def check_pages() -> None:
 
 @cache
 def _template(name: str) -> Any:
-    """A template, compiled once: that takes longer than to fill it."""
+    """Return a compiled template, cached because compiling takes longer than rendering."""
     from jinja2 import Environment, FunctionLoader
 
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, loader=FunctionLoader(_shipped))
@@ -131,20 +130,20 @@ def _template(name: str) -> Any:
 
 
 def _on_paper(table: Table) -> list[Table]:
-    """The strips in which a table that is wider than a sheet is printed; none for others."""
+    """Return the strips in which a table wider than a sheet is printed; none for other tables."""
     parts = list(strips(table, ON_PAPER))
     return parts if len(parts) > 1 else []
 
 
 def _with_code(line: str) -> Any:
-    """A line in which what stands between backticks is marked as code; everything else is escaped."""
+    """Return a line as HTML in which text between backticks is marked as code; everything else is escaped."""
     from markupsafe import Markup, escape
 
     return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(line))))
 
 
 def is_web(url: str) -> bool:
-    """Whether an address may become a link: of http or https, with a host."""
+    """Return whether an address may become a link: an http or https address with a host."""
     try:
         parts = urlsplit(url)
     except ValueError:
@@ -153,9 +152,9 @@ def is_web(url: str) -> bool:
 
 
 def inline(svg: str, number: int) -> str:
-    """An SVG document as an element of a page, its names made its own by `number`; sizes are left to the page.
+    """Return an SVG document as an element of a page, with ids made unique by `number` and without fixed sizes.
 
-    Lengths in paths keep two decimals: a hundredth of a point is finer than any screen or printer.
+    Lengths in paths are cut to two decimals. A hundredth of a point is finer than any screen or printer resolves.
     """
     element = re.sub(r'(?<=\sd=")[^"]*', lambda path: _LONG.sub(r"\1", path[0]), svg[svg.index("<svg") :])
     names = set(re.findall(r'\bid="([^"]+)"', element))
@@ -188,7 +187,7 @@ def _anchors(document: Document, prefix: str) -> _Anchors:
 
 
 def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
-    """A name for each title: its words with hyphens, numbered where they come again."""
+    """Yield an anchor for each title: its words joined by hyphens, numbered if repeated."""
     seen: dict[str, int] = {}
     for title in titles:
         name = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "section"
@@ -197,14 +196,16 @@ def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
 
 
 def _policy(script: str, framed: bool) -> str:
-    """What the page may load: nothing; and run: the one script it carries, known by its hash."""
+    """Return the content security policy: nothing is loaded, and only the page's own script runs, identified by its
+    hash.
+    """
     if framed:
         return _POLICY + _INTO_FRAMES
     return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"
 
 
 def _colours() -> str:
-    """The palette, light and dark as the reader's system is."""
+    """Return the CSS variables of the palette, light or dark according to the reader's system."""
     light, dark = THEMES["light"].css, THEMES["dark"].css
     return f":root {{ {light} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n"
 

@@ -1,8 +1,8 @@
 """JSON Schema (draft 2020-12) of the answers of all commands, and of the declaration.
 
-Keys of an answer are those of `geartrain.numerics.results`, kinds of values come from annotations, and descriptions
-from docstrings. What commands add to a result is written by hand. The reference of the declaration is written from its
-models.
+Keys of an answer follow from `geartrain.numerics.results`, kinds of values from annotations, and descriptions from
+docstrings. Additions of commands to a result are written by hand. The reference of the declaration is generated from
+its models.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ FLAG: Schema = {"type": "boolean"}
 
 
 def _list(item: Schema) -> Schema:
-    """A list of one kind of thing."""
+    """Return the schema of a list whose items have one schema."""
     return {"type": "array", "items": item}
 
 
 def _has(keys: Schema) -> Schema:
-    """An object with all of these keys; a later version may add others."""
+    """Return the schema of an object with all of these keys; a later version may add others."""
     return {"type": "object", "required": list(keys), "properties": keys}
 
 
@@ -52,7 +52,7 @@ OBJECT: Schema = {"type": "object"}
 
 @cache
 def answers() -> dict[str, Schema]:
-    """By question, the schema of its answer."""
+    """Return the schema of each answer by question."""
     found = {**_of_trains(), **_of_spheres(), **_of_pairs()}
     for name in filter(has_wing, WINGS):
         found |= {question: shape_of(kind) for question, kind in wing(f"{name}.answers").answers().items()}
@@ -102,7 +102,7 @@ def _of_spheres() -> dict[str, Schema]:
 
 
 def _of_any_form(kind: type) -> Schema:
-    """A result on a pair with teeth of any form, with the figures of that form."""
+    """Return the schema of a result on a pair with any tooth form, with the figures of each form."""
     from geartrain.teeth.any_tooth_form import tooth_forms
 
     pair = shape_of(kind)
@@ -130,13 +130,13 @@ def _of_pairs() -> dict[str, Schema]:
 
 
 def answer_schema() -> Schema:
-    """One JSON Schema (draft 2020-12) for all answers; `#/$defs/QUESTION` is that of one question's answer.
+    """Return one JSON Schema (draft 2020-12) of all answers, in which `#/$defs/QUESTION` is the schema of one answer.
 
     Returns
     -------
     dict
         Keys and kinds of values follow from the classes of the results, descriptions from the docstrings of their
-        fields. Questions are commands, or uses of a command whose answer has another shape.
+        fields. A question is a command, or a use of a command whose answer has another shape.
 
     Examples
     --------
@@ -153,14 +153,14 @@ def answer_schema() -> Schema:
 
 
 def describe_answer(question: str) -> Document:
-    """The keys of one question's JSON answer as a table: key, kind of value, meaning.
+    """Return the keys of one question's JSON answer as a table: key, kind of value, meaning.
 
-    `states[]` are the entries of a list, `outputs.*` the values of an object with any keys.
+    `states[]` are the entries of a list, `outputs.*` the values of an object with arbitrary keys.
 
     Parameters
     ----------
     question : str
-        A key of `answer_schema()["$defs"]`.
+        Key of `answer_schema()["$defs"]`.
 
     Returns
     -------
@@ -175,7 +175,7 @@ def describe_answer(question: str) -> Document:
     Examples
     --------
     >>> describe_answer("solve").sections[0].tables[0].rows[0]
-    ('name', 'string', 'Of the train.')
+    ('name', 'string', 'Name of the train.')
     """
     known = answers()
     check_choice("question", question, known)
@@ -213,7 +213,7 @@ _PLAIN: dict[Any, Schema] = {
 
 
 def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
-    """The schema of values of a kind, told as plain data; `to` and `keys` as in `Key`."""
+    """Return the schema of values of a kind as plain data; `to` and `keys` as in `Key`."""
     origin, parts = get_origin(kind), get_args(kind)
     if origin is Annotated and isinstance(parts[1], WingResult):
         result = parts[1].kind()
@@ -236,7 +236,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
 
 
 def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, ...]) -> Schema:
-    """The schema of what is no mapping, list or None."""
+    """Return the schema of a kind that is not a mapping, list or None."""
     if to is not None:
         return shape_of(to) if isinstance(to, type) or to in _PLAIN else shape_of(_returned(to))
     if keys:
@@ -255,7 +255,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
 
 
 def _typed_dict(kind: Any) -> Schema:
-    """A dictionary with known keys, of which some may be left out."""
+    """Return the schema of a dictionary with known keys, some of which may be optional."""
     kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
     needed = {Required: True, NotRequired: False}
     required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
@@ -263,14 +263,14 @@ def _typed_dict(kind: Any) -> Schema:
 
 
 def _one_of(shapes: list[Schema]) -> Schema:
-    """Any of these; one alone as itself."""
+    """Return the schema of a union without duplicates; a single schema is returned as it is."""
     flat = [each for shape in shapes for each in shape.get("anyOf", [shape])]
     different = [each for at, each in enumerate(flat) if each not in flat[:at]]
     return different[0] if len(different) == 1 else {"anyOf": different}
 
 
 def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
-    """A result: its keys, and those of its parts that stand among them."""
+    """Return the schema of a result: its keys, and the keys of the parts that are merged into it."""
     properties: dict[str, Schema] = {}
     required = []
     for key in keys:
@@ -290,7 +290,7 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """The docstring of a field or property, `part.attribute` for one of a part; "" where there is none."""
+    """Return the docstring of a field or property, `part.attribute` for one of a part; "" without docstring."""
     first, _, rest = path.partition(".")
     if rest:
         parts = (part for part in _parts(attribute_kind(kind, first)) if part is not NoneType)
@@ -299,12 +299,12 @@ def meaning_of(kind: Any, path: str) -> str:
 
 
 def _parts(kind: Any) -> list[Any]:
-    """A kind, or those of a union."""
+    """Return the members of a union, or a kind that is not a union as the only entry."""
     return list(get_args(kind)) if get_origin(kind) in (Union, UnionType) else [kind]
 
 
 def _fields(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
-    """An object whose keys are the fields of a class."""
+    """Return the schema of an object whose keys are the fields of a class."""
     meanings = field_docs(kind)
     described = {name: _described(each, meanings.get(name, "")) for name, each in properties.items()}
     return _object(described, required, kind)
@@ -320,7 +320,7 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 
 def _summary(what: Any) -> str:
-    """The first paragraph of a docstring, on one line; "" for what has none of its own."""
+    """Return the first paragraph of a docstring on one line; "" for an object without a docstring of its own."""
     maker = getattr(what, "func", what)  # of a cached property
     own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
     text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
@@ -331,7 +331,7 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """The annotation of a field or property, `part.attribute` for one of a part. Raises `AttributeError`."""
+    """Return the annotation of a field or property, `part.attribute` for one of a part. Raise `AttributeError`."""
     for name in path.split("."):
         kind = _own_kind(kind, name)
     return kind
@@ -358,7 +358,7 @@ def _evaluated(annotation: Any, module: ModuleType) -> Any:
 
 
 class _Names(dict[str, Any]):
-    """Names in a module, those among them that it imports for annotations alone."""
+    """Names in a module, including those that it imports only for annotations."""
 
     def __init__(self, module: ModuleType) -> None:
         super().__init__(vars(builtins) | vars(module))
@@ -371,16 +371,16 @@ class _Names(dict[str, Any]):
 
 @cache
 def _imports(module: ModuleType) -> dict[str, str]:
-    """Where names come from that a module imports, be it for annotations alone."""
+    """Return the module of origin of each name that a module imports, including imports only for annotations."""
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
 
 
 class DefaultsAsWritten(GenerateJsonSchema):
-    """Numbers and quantities as a declaration writes them, where pydantic would write out their fields."""
+    """Schema generator that writes numbers and quantities as in a declaration, not as pydantic's fields."""
 
     def encode_default(self, dft: Any) -> Any:
-        """A default value as JSON."""
+        """Return a default value as JSON data."""
         if isinstance(dft, tuple):
             return [self.encode_default(each) for each in dft]
         return str(dft) if isinstance(dft, Figure | Quantity) else super().encode_default(dft)
@@ -391,7 +391,7 @@ class DefaultsAsWritten(GenerateJsonSchema):
 
 _URL = "https://json-schema.org/draft/2020-12/schema"
 _SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
-"""The sections of a numpydoc docstring, from the first on."""
+"""Regular expression of the sections of a numpydoc docstring, from the first section on."""
 
 _MERGED = (
     "Wheel",
@@ -404,11 +404,11 @@ _MERGED = (
     "Source",
     "Published",
 )
-"""Parts that a child of `extends` may give in pieces: an editor must not ask it for all of them."""
+"""Parts that a child of `extends` may declare incompletely, so that an editor must not require all their keys."""
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema of a declaration, as editors take it."""
+    """Return the JSON Schema of a declaration for editors."""
     found = {key: part for key, part in _models().items() if key not in ("title", "required")}
     for name in _MERGED:
         part = found["$defs"][name]
@@ -424,7 +424,7 @@ def _models() -> dict[str, Any]:
 
 
 def _without_sections(schema: Any) -> Any:
-    """A schema whose descriptions end where a docstring turns to examples and what else to see."""
+    """Return a schema whose descriptions omit the numpydoc sections of docstrings."""
     if isinstance(schema, list):
         return [_without_sections(part) for part in schema]
     if not isinstance(schema, dict):
@@ -436,7 +436,7 @@ def _without_sections(schema: Any) -> Any:
 
 
 def declaration_reference() -> str:
-    """One table of keys for the train and for each of its parts, as Markdown."""
+    """Return tables of keys for the train and for each of its parts, as Markdown."""
     found = _models()
     parts: dict[str, Any] = found["$defs"]
     lines = [
@@ -480,7 +480,7 @@ def _text(field: Mapping[str, Any]) -> str:
 
 
 def _kind(field: Mapping[str, Any]) -> str:
-    """What a value may be, in a few words."""
+    """Return the permitted values of a field in a few words."""
     if "$ref" in field:
         name = field["$ref"].rsplit("/", 1)[-1]
         return f"[{name}](#{name.lower()})"

@@ -1,4 +1,4 @@
-"""Transmission errors and speeds of outputs over a run: figures for JSON, and the page."""
+"""Anomalies, transmission errors and speeds of outputs over a run: figures for JSON, and the document."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ _TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
 
 
 class PhaseRange(NamedTuple):
-    """Least and greatest error (rad) of one output over runs with other phases."""
+    """Minimum and maximum deviation of one output over runs with random phases of the teeth."""
 
     peak_to_peak: tuple[float, float]
-    """Least and greatest peak-to-peak error [rad]."""
+    """Minimum and maximum peak-to-peak deviation [rad]."""
     rms: tuple[float, float]
-    """Least and greatest root mean square error [rad]."""
+    """Minimum and maximum root mean square deviation [rad]."""
 
 
 class PhaseSets(NamedTuple):
-    """How many sets of random phases were tried, and their seed."""
+    """Number of sets of random phases, and their seed."""
 
     sets: int
     """Number of sets of random phases."""
@@ -42,7 +42,7 @@ class PhaseSets(NamedTuple):
 
 
 class PartialRun(NamedTuple):
-    """What was done of an interrupted run."""
+    """Progress of an interrupted run."""
 
     done: int
     """Positions computed."""
@@ -52,31 +52,31 @@ class PartialRun(NamedTuple):
 
 @dataclass(frozen=True)
 class OutputMotion:
-    """One output of a run; what was not asked for is None."""
+    """Motion of one output over a run; what was not requested is None."""
 
     KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "estimates", "spectrum")
 
     tally: RunningStatistics
     """Peaks and moments of the run."""
     setting: float
-    """By how much the pointer is turned on its wheels, so that at turn 0 its teeth do not displace it (rad)."""
+    """Angle by which the pointer is turned on its wheels so that at turn 0 its teeth do not displace it [rad]."""
     sensitivity: Mapping[str, float]
-    """Radians of the output per radian of error of a pair's driven side, by pair."""
+    """Rotation of the output per rotation error of a pair's driven side [rad/rad], by pair."""
     phases: PhaseRange | None
-    """Errors over runs with random phases; None unless requested."""
+    """Deviations over runs with random phases; None unless requested."""
     estimates: ErrorEstimates | None
-    """Estimates of the error without composition; None unless requested."""
+    """Estimates of the deviation without composition; None unless requested."""
     spectrum: Sequence[SpectrumLine] | None
     """Lines of the spectrum by exact orders of the input; None unless requested."""
 
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Errors and speeds of a train with real teeth and pins in one state, over a run; angles in rad.
+    """Deviations and speeds of a train with real teeth and pins in one state, over a run; angles in rad.
 
     See Also
     --------
-    collect_motion : Gives it.
+    collect_motion : Return the figures of a run.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -87,72 +87,72 @@ class MotionFigures(Result):
     )
 
     run: MotionRun
-    """What was done; not part of the data."""
+    """Run that was evaluated; not part of the data."""
     name: str
-    """Of the train."""
+    """Name of the train."""
     state: str | None
-    """As it was named."""
+    """Name of the requested state; None if none was named."""
     input: str
-    """The link whose turns are counted."""
+    """Link whose turns are counted."""
     turns: float
-    """Of the input [turn]; negative backwards."""
+    """Turns of the input; negative for backward motion."""
     positions: int
-    """At which the motion was worked out."""
+    """Number of positions at which the motion was computed."""
     period: Fraction | None
-    """Turns of the input after which everything repeats; None where nothing ripples."""
+    """Turns of the input after which everything repeats; None if every output moves uniformly."""
     drivers: Mapping[str, MeshDriver]
-    """The driving wheel of each pair that ripples."""
+    """Driving wheel of each pair whose ratio varies."""
     reversing_drivers: Sequence[str]
-    """Pairs whose driver turns against its mean at times."""
+    """Pairs whose driver temporarily turns against its mean sense."""
     rigid: Sequence[str]
-    """Pairs with real teeth that keep their ratio at every instant and add nothing."""
+    """Pairs with real teeth that keep their ratio at every instant and contribute no error."""
     outputs: Mapping[str, OutputMotion]
-    """Transmission error, speed and whatever else was asked, by output."""
+    """Deviation, speed and all other requested results, by output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
-    """Up to which rate of the input this motion holds; None where no inertia is declared."""
+    """Rates of the input up to which this motion is valid; None if no inertia is declared."""
     phases: PhaseSets | None
     """Random phases that were tried."""
     partial: PartialRun | None
-    """What was done of an interrupted run."""
+    """Progress of an interrupted run; None for a complete one."""
 
 
 @dataclass(frozen=True)
 class UnfollowedMotion:
-    """A state in which the motion cannot be followed, and why."""
+    """A state in which the motion cannot be computed, and the reason."""
 
     KEYS = ("name", "state", "error")
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     why: GearTrainError
-    """Why the motion cannot be followed."""
+    """Error that prevents the computation."""
 
     @property
     def error(self) -> str:
-        """Why, in words."""
+        """Reason as text."""
         return str(self.why)
 
 
 def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any = None) -> MotionFigures:
-    """Figures of a run, by output.
+    """Return the figures of a run, by output.
 
     Parameters
     ----------
     run : MotionRun
-        After its `run`, and `run_random_phases`, `find_estimates` or `find_spectra` where these are wanted.
+        Run after its `run`, and after `run_random_phases`, `find_estimates` or `find_spectra` if these are wanted.
     name : str
-        Of the train.
+        Name of the train.
     state : str or None
-        As it was named.
+        Name of the requested state.
     separation : geartrain.simulation.SeparationRates, optional
-        Up to which rate of the input this motion holds.
+        Rates of the input up to which this motion is valid.
 
     Returns
     -------
     MotionFigures
-        Its `to_dict` is the answer of `geartrain motion --json`.
+        Figures whose `to_dict` is the answer of `geartrain motion --json`.
 
     Examples
     --------
@@ -204,7 +204,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Motion in every state; nothing, and no computation, for a train of ideal teeth and pins without sizes."""
+    """Yield the motion in every state; nothing for a train without real teeth or dimensioned pins."""
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -221,9 +221,10 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
 
 
 def separation_rates(train: GearTrain, state: str | None, without: Sequence[str] = ()) -> Any:
-    """The `geartrain.simulation.SeparationRates` of a state.
+    """Return the `geartrain.simulation.SeparationRates` of a state.
 
-    None if nothing behind the input has an inertia, if torques have no units, or without the wing `simulation`.
+    Return None if nothing driven by the input has an inertia, if torques have no units, or without the optional package
+    `simulation`.
     """
     if not (train.declaration.has_inertia and has_wing("simulation")):
         return None
@@ -234,7 +235,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 
 def ripples(train: GearTrain) -> bool:
-    """Whether any pair or pin has an error of its own."""
+    """Return whether the ratio of any pair or pin varies within a turn."""
     return bool(train.mechanics.pins) or any(not mesh.rigid for mesh in train.meshes)
 
 
@@ -245,20 +246,20 @@ _ABREAST = 8  # outputs side by side
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
-    """Transmission error and speed of each output of a run, and whatever else was asked of it.
+    """Return a document on the deviation and speed of each output of a run, and on all other requested results.
 
     Parameters
     ----------
     found : MotionFigures
-        From `collect_motion`.
+        Result of `collect_motion`.
     every_output : bool
-        What each pair gives to every output, in as many tables as that takes; else to the first eight that it moves,
-        and the names of the others.
+        Whether the contributions of each pair to every output are shown, in as many tables as necessary. Otherwise the
+        first eight outputs that pairs affect are shown, and the names of the others.
 
     Returns
     -------
     Document
-        Errors in degrees; speeds over those of the input, their range over the mean.
+        Deviations in degrees; speeds relative to the input, their range relative to the mean.
 
     Examples
     --------
@@ -288,7 +289,7 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
-    """Return what `geartrain motion` prints for a run, or for its usual run of a motion; None before the run."""
+    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None before the run."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import MotionRun
 
@@ -302,7 +303,7 @@ def motion_document(found: Motion | MotionRun) -> Document | None:
 
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
-    """Outputs, the pairs that make their errors, and whatever else was asked for."""
+    """Yield sections on outputs, on the pairs that cause their deviations, and on all other requested results."""
     yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics),))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
@@ -320,7 +321,10 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Motion in every state of a train with real teeth or pins; `toothed`, whether its teeth are told of."""
+    """Yield the motion in every state of a train with real teeth or pins.
+
+    toothed   whether the train has real teeth
+    """
     for each in found:
         head = "Motion" if each.state is None else f"State {each.state}: motion"
         if isinstance(each, UnfollowedMotion):
@@ -337,7 +341,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Which pairs add nothing to any motion, by form."""
+    """Return a sentence on the pairs that contribute to no deviation, by tooth form."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -381,7 +385,7 @@ def _remarks(run: MotionRun) -> Iterator[str]:
 
 
 def _left(tally: RunningStatistics) -> str:
-    """What an output's extremes leave open."""
+    """Return the uncertainty of an output's extremes as text."""
     error, speed = tally.error_within, tally.speed_within
     if error is None or speed is None:
         return f"{tally.name} may lie anywhere beyond those told"
@@ -403,7 +407,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """What each pair gives to these outputs (deg, peak to peak)."""
+    """Return a table of each pair's contribution to some outputs [deg, peak to peak]."""
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]

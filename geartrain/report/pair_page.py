@@ -1,6 +1,6 @@
-"""Pages on one pair of wheels, whatever the form of its teeth, and on one pin in a slot.
+"""Documents on one pair of wheels with any tooth form, and on one pin in a slot.
 
-A pair with triangular teeth has sizes, clearance, path of contact, transmission function, collisions and losses;
+A pair with triangular teeth has sizes, clearance, path of contact, transmission function, impacts and losses.
 `conjugate_pair_page` describes conjugate teeth.
 """
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FormedPair(Result):
-    """A pair of any form, with the figures of its mesh."""
+    """A pair of any tooth form, with the figures of its mesh."""
 
     KEYS = (
         *(Key("form", "mesh.form"), Key("driver", "mesh.driver"), Key("gears", "mesh.gears"), Key("note", "mesh.note")),
@@ -42,49 +42,49 @@ class FormedPair(Result):
     )
 
     mesh: GearMesh
-    """The pair, as it is driven."""
+    """Mesh with its driving wheel."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Wheels that were cut."""
+    """Outlines of the wheels that were cut."""
 
     @property
     def figures(self) -> PairFigures:
-        """What the mesh tells of itself."""
+        """Figures of the mesh."""
         return self.mesh.account().figures
 
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given."""
+    """A pair with triangular teeth outside a train, with the effects of its impacts if its operation is given."""
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
     figures: TriangularFigures
     course: ContactCourse
-    """Speed ratio, instant centre and moment arms over the pitch."""
+    """Speed ratio, instant centre and moment arms over one pitch."""
     impacts: PairImpacts | None
-    """What its collisions cost; None unless a run of it is given."""
+    """Energies and limits of its impacts; None unless its operation is given."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Wheels that were cut."""
+    """Outlines of the wheels that were cut."""
 
 
 def collect_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> PairDesign | TriangularPair | FormedPair:
-    """What there is to tell of one pair without a train: its design, or the figures that its form has.
+    """Return the data of one pair outside a train: its design, or the figures of its tooth form.
 
     Parameters
     ----------
     mesh : GearMesh
-        The pair, as it is driven.
+        Mesh with its driving wheel.
     outlines : sequence of WheelOutline
-        Wheels that were cut.
+        Outlines of the wheels that were cut.
     operation : PairOperation, optional
-        How the pair is run, for the impacts of triangular teeth.
+        Operating conditions of the pair, for the impacts of triangular teeth.
 
     Returns
     -------
     PairDesign, TriangularPair or FormedPair
-        Conjugate teeth at their design distance; triangular teeth; any others. `to_dict()` gives the data.
+        Conjugate teeth at their design distance; triangular teeth; any others. `to_dict()` returns the data.
 
     Examples
     --------
@@ -102,21 +102,21 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """A page on one pair without a train: verdict, design or figures, motion, losses, and wheels that were cut.
+    """Return a document on one pair outside a train: verdict, design or figures, motion, losses, and wheels that were cut.
 
     Parameters
     ----------
     mesh : GearMesh
-        The pair, as it is driven.
+        Mesh with its driving wheel.
     outlines : sequence of WheelOutline
-        Wheels that were cut.
+        Outlines of the wheels that were cut.
     operation : PairOperation, optional
-        How the pair is run, for the impacts of triangular teeth.
+        Operating conditions of the pair, for the impacts of triangular teeth.
 
     Returns
     -------
     Document
-        What `collect_pair` gives as data, with the limits of a friction or a clearance that is out of range.
+        The data of `collect_pair`, with the limits of a friction or a clearance factor that is out of range.
 
     Examples
     --------
@@ -160,7 +160,7 @@ def _triangular_page(
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
-    """The design of conjugate teeth; None for others, and at a distance at which they are conjugate no more."""
+    """Return the design of conjugate teeth; None for other teeth, and at a distance where they are not conjugate."""
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
@@ -204,12 +204,12 @@ def _outline(wheel: WheelOutline) -> Section:
 
 
 def describe_pin(transmission: PinTransmission) -> Document:
-    """A page on a pin in a slot: mean ratio, amplitude, extreme speeds and friction.
+    """Return a document on a pin in a slot: mean ratio, amplitude, extreme speeds and friction.
 
     Parameters
     ----------
     transmission : PinTransmission
-        Of the pin in the slot, whichever drives.
+        Transmission function of the pin in the slot, with either one driving.
 
     Returns
     -------
@@ -247,7 +247,7 @@ def describe_pin(transmission: PinTransmission) -> Document:
 
 
 def _share(efficiency: float | None) -> str:
-    """An efficiency; `-` where friction locks, or no work is done on a constant load."""
+    """Return an efficiency as text; `-` where friction locks, or where no work is done on a constant load."""
     return "-" if efficiency is None else f"{efficiency:.9f}"
 
 
@@ -255,7 +255,7 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """What there is to tell; of teeth that never touch, sizes and clearance only."""
+    """Yield the sections on a pair; for teeth that never touch, only sizes and clearance."""
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
     if window is not None:
@@ -272,7 +272,7 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
-    """Whether the pair can turn, why not, and what to do."""
+    """Return whether the pair can turn, and if not, the reason and the remedy."""
     transmission, found = mesh.transmission, mesh.transmission.verdict
     words = [f"Verdict: {found.kind}: {found.text}."]
     if not found:
@@ -351,7 +351,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Speed ratio, instant centre and moment arms at the ends of every interval and between them."""
+    """Return speed ratio, instant centre and moment arms at the ends of every interval and between them."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     columns = (found.speed_ratio, found.instant_centre, found.driver_arm, found.driven_arm, found.efficiency)
     rows = [
@@ -404,7 +404,7 @@ def _collisions(transmission: TriangularTransmission) -> Section:
 
 
 def _lock(mesh: TriangularMesh) -> tuple[str, str, str]:
-    """What is said of friction that locks."""
+    """Return what, why and remedy of friction that locks."""
     declared = mesh.wheels.friction_law
     if declared is None:
         return explain_friction_lock(mesh.transmission)

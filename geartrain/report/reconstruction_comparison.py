@@ -1,4 +1,4 @@
-"""Alternative reconstructions side by side."""
+"""Document that compares alternative reconstructions side by side."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from geartrain.report.document import Document, ExactText, Section, Table, exact
 
 
 def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -> Document:
-    """The outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ.
+    """Return the outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ.
 
     Parameters
     ----------
     trains : sequence of GearTrain
-        A column for each, and for each of its states.
+        Trains; each of their states has a column.
     everything : bool
-        All outputs; by default pointers alone (outputs with a dial or a target), where there are any.
+        Whether all outputs are shown; by default only pointers (outputs with a dial or a target), if there are any.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str
 
 
 def _error(target: TargetResult) -> str:
-    """In ppm, or as a difference where 0 is wanted."""
+    """Return an error in ppm, or the difference in speed if the target is 0."""
     return ppm(target.ppm) if target.speed else f"off by {figure(target.error, 7)}"
 
 

@@ -1,4 +1,4 @@
-"""Whether a train is sound: what fails, and what is to be noted of it, on lines that begin with a place in a file."""
+"""Judgement of a train: failures and remarks, as lines that begin with a place in a file."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """What was found of a train in a file; true if nothing fails."""
+    """Findings on a train in a file; true if nothing fails."""
 
     train: GearTrain
     file: str
     answers: Sequence[Answer]
     failures: tuple[str, ...]
-    """Verdicts that leave speeds open, figures that do not hold, what cannot be built, teeth that cannot turn."""
+    """Verdicts that leave speeds open, unmet expectations, parts that cannot be built, and teeth that cannot turn."""
     whole: bool = True
-    """False where nothing was asked that takes numpy: teeth, loads, and whether loops close."""
+    """True if checks that need numpy are included: teeth, loads, and closure of loops."""
 
     def __bool__(self) -> bool:
         return not self.failures
 
     def lines(self, quiet: bool = False) -> Iterator[str]:
-        """As `geartrain check` prints them; `quiet` leaves out what is said of trains that are sound."""
+        """Yield the lines of `geartrain check`; `quiet` omits remarks on trains that are sound."""
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
         if whole:
@@ -56,7 +56,7 @@ class Soundness:
 
 
 def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness:
-    """Judge every state of a train that was read from a file. Raises `GearTrainError` for teeth that cannot be made."""
+    """Judge every state of a train read from a file. Raise `GearTrainError` for teeth that cannot be made."""
     answers = list(train.answers())
     failures = [line for answer in answers for line in _failures(train, answer, file)]
     failures += map(str, build_errors(train.build_findings))
@@ -72,7 +72,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """The verdict if it leaves speeds open, or each figure that does not hold, with its place."""
+    """Yield the verdict if it leaves speeds open, or each unmet expectation, with its place in the file."""
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
@@ -88,7 +88,7 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _left_out(train: GearTrain) -> Iterator[str]:
-    """What the torques of loaded states do not count; nothing of teeth that cannot turn."""
+    """Yield the effects that the torques of loaded states neglect; nothing for teeth that cannot turn."""
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:
@@ -98,7 +98,7 @@ def _left_out(train: GearTrain) -> Iterator[str]:
 
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
-    """States whose rate is beyond that at which teeth first part."""
+    """Yield the states whose rate exceeds the rate at which teeth first separate."""
     from geartrain.report.motion_report import separation_rates
 
     for state in train.kinematics.usable_states:
@@ -117,9 +117,9 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 
 
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
-    """States in which the link of the escapement turns at another speed than its beat gives it.
+    """Yield the states in which the escape wheel's speed does not match its beat.
 
-    Pallets ride on the link that bears the escape wheel: its speed relative to that link counts.
+    Pallets are carried by the link that bears the escape wheel. Therefore the speed relative to that link counts.
     """
     declared = train.declaration
     escapement = declared.escapement
@@ -144,7 +144,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Turns a second in the unit of a train's speeds; None where they are plain numbers."""
+    """Return turns per second in the unit of a train's speeds; None if speeds are plain numbers."""
     if declared.unit_speed is not None:
         return declared.unit_speed
     case = declared.case(answer.state)

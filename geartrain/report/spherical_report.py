@@ -1,4 +1,4 @@
-"""Pages on gears on a sphere: a set of them, a survey of solids, and tooth numbers to choose from."""
+"""Documents on gears on a sphere: one set, a survey of polyhedra, and suggested tooth counts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def describe_sphere(found: GearSphere) -> Document:
-    """Whether a set turns, closes and fits, and its sizes."""
+    """Return a document on whether a set turns, closes and fits, and on its sizes."""
     configuration = found.configuration
     summary = [
         f"{len(configuration.names)} gears, {len(configuration.meshes)} meshes, on a sphere of radius "
@@ -100,7 +100,7 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """The table of solids: which turn, what frees them, which can have one pitch."""
+    """Return a table of polyhedra: which turn, which meshes to remove, which can have one pitch."""
     table = result_table(
         rows,
         *("faces of=solid", "gears", "meshes", ("turns", lambda row: "yes" if row.bipartite else "no")),
@@ -117,7 +117,8 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Tooth numbers whose loops close and whose tips clear, best first, and what removed the rest."""
+    """Return tooth counts for which loops close and tips clear, best first, and the reasons for rejecting the others.
+    """
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = [
         (

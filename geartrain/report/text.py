@@ -1,4 +1,4 @@
-"""A document as Markdown, as plain text, or on a terminal."""
+"""Conversion of a document to Markdown, to plain text, or to a terminal."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 
 def to_markdown(documents: Sequence[Document]) -> str:
-    """Documents as Markdown, one after the other.
+    """Return documents as Markdown, one after the other.
 
     Parameters
     ----------
     documents : sequence of Document
-        What is shown; pictures and other extras of pages are left out.
+        Documents to show; pictures and other extras of pages are left out.
 
     Returns
     -------
     str
-        CommonMark with tables in pipes. What a user wrote is text in it: no HTML, no further cells, and no links but
-        relative ones and those of http, https and mailto.
+        CommonMark with pipe tables. Text of users is escaped: no HTML, no further cells, and no links except relative
+        ones and those of http, https and mailto.
 
     Examples
     --------
@@ -41,7 +41,7 @@ def to_markdown(documents: Sequence[Document]) -> str:
 
 
 def _line(text: str) -> str:
-    """Text on one line, for a heading or a cell."""
+    """Return text on one line, for a heading or a cell."""
     from geartrain.numerics.markdown_text import markdown_text
 
     return " ".join(markdown_text(text).split())
@@ -65,7 +65,7 @@ def _markdown(document: Document) -> Iterator[str]:
 
 
 def _list(branches: Sequence[Branch], depth: int = 0) -> Iterator[str]:
-    """A tree as a list of lists."""
+    """Yield a tree as the lines of a nested list."""
     for branch in branches:
         yield f"{'  ' * depth}- {_line(branch.text)}"
         yield from _list(branch.below, depth + 1)
@@ -83,23 +83,23 @@ def _pipes(table: Table) -> Iterator[str]:
 
 
 PIPED = 80
-"""Characters in a line where nobody says how many there are."""
+"""Characters per line if the width of the output is not known."""
 
 
 def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
-    """Documents as plain text within a width, as a terminal of that width shows them, headings underlined.
+    """Return documents as plain text within a width, as on a terminal of that width, with underlined headings.
 
     Parameters
     ----------
     documents : sequence of Document
-        What is shown; pictures and other extras of pages are left out.
+        Documents to show; pictures and other extras of pages are left out.
     width : int
-        Characters in a line. A word that is longer is broken.
+        Characters per line. A longer word is broken.
 
     Returns
     -------
     str
-        Lines without trailing blanks. A table too wide for its words is cut into strips of columns.
+        Lines without trailing blanks. A table too wide for its words is split into strips of columns.
 
     Examples
     --------
@@ -119,9 +119,9 @@ def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
 
 
 def to_terminal(documents: Sequence[Document], console: Console, marks: str = "") -> None:
-    """The documents on a console, within its width.
+    """Print documents on a console, within its width.
 
-    marks   what headings of the two levels are underlined with where colours cannot tell them
+    marks   characters that underline headings of the two levels where colours cannot distinguish them
     """
     for document in documents:
         _heading(document.title, "bold underline", console, marks[:1])
@@ -143,7 +143,7 @@ def to_terminal(documents: Sequence[Document], console: Console, marks: str = ""
 
 
 def _heading(title: str, style: str, console: Console, mark: str) -> None:
-    """A heading, underlined where its style may not be seen."""
+    """Print a heading, underlined where its style may not be visible."""
     shown = _shown(title, style=style)
     console.print(shown)
     if mark:
@@ -153,14 +153,14 @@ def _heading(title: str, style: str, console: Console, mark: str) -> None:
 
 
 def _shown(text: str, style: str = "") -> Text:
-    """Text of a document for a terminal, which it does not steer."""
+    """Return text of a document for a terminal, without control characters."""
     from rich.text import Text
 
     return Text(printable(text), style=style)
 
 
 def _rich_tree(branch: Branch) -> Tree:
-    """A line with those below it, joined by strokes."""
+    """Return a line with the lines below it as a tree."""
     from rich.tree import Tree
 
     shown = Tree(_shown(branch.text))
@@ -170,7 +170,7 @@ def _rich_tree(branch: Branch) -> Tree:
 
 
 def _rich_table(table: Table, width: int) -> RenderableType:
-    """A table without rules; failures in red."""
+    """Return a table without rules; failures are red."""
     from rich.table import Table as RichTable
 
     shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap_of(table), 0, 0))

@@ -1,4 +1,4 @@
-"""Torques, power flow and losses of a train, and torque over some turns of the input: figures, and the page."""
+"""Torques, power flow and losses of a train, and torque over some turns of the input: figures, and the document."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
 
 
 class Impact(NamedTuple):
-    """Power (W) that the collisions of a pair dissipate."""
+    """Power [W] that the impacts of a pair dissipate."""
 
     impact: float
-    """Power that the collisions of the pair dissipate [W]."""
+    """Power that the impacts of the pair dissipate [W]."""
 
 
 @dataclass(frozen=True)
 class LossFigures:
-    """What a pair or bearing loses; of a pair whose collisions are known, their `impact`."""
+    """Loss of a pair or bearing; for a pair whose impacts are known, also their `impact`."""
 
     KEYS = (Key("", "loss"), Key("", "collisions"))
 
@@ -40,7 +40,7 @@ class LossFigures:
 
 @dataclass(frozen=True)
 class DrivenFigures:
-    """The efficiency of a train driven one way; None where it is not determined."""
+    """Efficiency of a train driven in one direction; None if it is not determined."""
 
     KEYS = (
         *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),
@@ -51,22 +51,22 @@ class DrivenFigures:
 
     @property
     def verdict(self) -> TorqueVerdict:
-        """Whether the train can be driven so."""
+        """Verdict on whether the train can be driven in this direction."""
         return self.way.torques.verdict
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power out over power in; None where it is not determined."""
+        """Power out over power in; None if it is not determined."""
         return self.way.torques.efficiency if self.verdict else None
 
     @property
     def exact_efficiency(self) -> Fraction | None:
-        """The efficiency where it is exact; None for a float."""
+        """Efficiency as a fraction; None if it is a float."""
         return self.efficiency if isinstance(self.efficiency, Fraction) else None
 
 
 class DrivenWays(NamedTuple):
-    """Driven from the input, and from the output."""
+    """Efficiencies when driven from the input, and from the output."""
 
     forward: DrivenFigures
     backward: DrivenFigures
@@ -74,24 +74,24 @@ class DrivenWays(NamedTuple):
 
 @dataclass(frozen=True)
 class TorqueFigures(Result):
-    """Torques, flow of power and losses of one state."""
+    """Torques, power flow and losses of one state."""
 
     KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
 
     torques: Torques
     drives: DrivenWays | None
-    """None where it is not plain which link is the output."""
+    """Efficiencies in both directions; None if the output is ambiguous."""
     watts_per_unit: float | None
-    """None where torques or speeds are plain numbers."""
+    """Watts per unit of power; None if torques or speeds are plain numbers."""
     in_newton_metres: bool
-    """Whether torques have a unit."""
+    """True if torques have a unit."""
     flow: PowerFlow
     impact_power: Mapping[str, float]
-    """What the collisions of each pair dissipate (W), where inertias and a rate are declared."""
+    """Power [W] that the impacts of each pair dissipate, if inertias and a rate are declared."""
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
-        """What each pair and bearing loses."""
+        """Loss of each pair and bearing."""
         struck = {name: Impact(power) for name, power in self.impact_power.items()}
         return tuple(
             LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None)
@@ -101,25 +101,25 @@ class TorqueFigures(Result):
 
 @dataclass(frozen=True)
 class TorqueReport(Result):
-    """Torques of a train in every state that was asked for.
+    """Torques of a train in every requested state.
 
     See Also
     --------
-    collect_torque_report : Gives it.
+    collect_torque_report : Return a torque report.
     """
 
     PAGE = "report.torque_report:describe_torques"
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     title: str
-    """One line for a reader."""
+    """Title of the train."""
     states: tuple[TorqueFigures, ...]
-    """Torques, powers, flow and losses of each state, in the order asked."""
+    """Torques, powers, flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
-    """Torque over some turns of the one state asked for; None where it was not asked for."""
+    """Torque over some turns of the one requested state; None unless requested."""
     friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
-    """The same in trials of friction; None where none were asked for."""
+    """Torque over some turns in trials of friction; None unless requested."""
 
 
 def collect_torque_report(
@@ -128,23 +128,23 @@ def collect_torque_report(
     over_turn: TorqueCycle | None = None,
     friction_trials: Any = None,
 ) -> TorqueReport:
-    """Torques of some states of a train with their flow of power, what is lost where, and the efficiency both ways.
+    """Return torques of some states of a train with their power flow, losses, and the efficiency in both directions.
 
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train to which the torques belong.
     found : sequence of Torques
-        What `train.torques` gave, one for each state.
+        Results of `train.torques`, one for each state.
     over_turn : TorqueCycle, optional
-        What `train.torques` gave over some turns.
+        Result of `train.torques` over some turns.
     friction_trials : geartrain.workshop.FrictionTrials, optional
-        What `try_frictions` gave.
+        Result of `try_frictions`.
 
     Returns
     -------
     TorqueReport
-        Its `to_dict` is the answer of `geartrain torques --json`.
+        Report whose `to_dict` is the answer of `geartrain torques --json`.
 
     Examples
     --------
@@ -163,7 +163,7 @@ def collect_torque_report(
 
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
-    """Torques of one state, with the flow of power and the efficiency there and back."""
+    """Return the torques of one state with the power flow and the efficiency in both directions."""
     from geartrain.dynamics.torques.power_flow import find_power_flow, has_torque_units, watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
 
@@ -195,19 +195,19 @@ _UNITS_IN_WATTS = (
 
 
 def describe_torques(found: TorqueReport) -> Document:
-    """Torques under the declared loads, state by state: verdict, efficiency both ways, links, pairs, flow and losses.
+    """Return a document on torques by state: verdict, efficiency in both directions, links, pairs, power flow and losses.
 
-    Where they were asked for, the torque over some turns follows, and trials of its friction.
+    The torque over some turns and trials of its friction follow if requested.
 
     Parameters
     ----------
     found : TorqueReport
-        From `collect_torque_report`.
+        Result of `collect_torque_report`.
 
     Returns
     -------
     Document
-        Torques in the unit of the loads; powers in watts where loads and speeds have units.
+        Torques in the unit of the loads; powers in watts if loads and speeds have units.
 
     Examples
     --------
@@ -230,7 +230,7 @@ def describe_torques(found: TorqueReport) -> Document:
 
 
 def torques_document(found: Torques | TorqueCycle) -> Document | None:
-    """Return what `geartrain torques` prints for the torques of one state; None where the train is not known."""
+    """Return the output of `geartrain torques` for the torques of one state; None if the train is not known."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
 
@@ -243,14 +243,14 @@ def torques_document(found: Torques | TorqueCycle) -> Document | None:
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
-    """Sections of the loaded states of a train."""
+    """Yield sections on the loaded states of a train."""
     sections = (section for each in found for section in torque_sections(each))
     for at, section in enumerate(sections):
         yield section if at else replace(section, paragraphs=(_units(found), *section.paragraphs))
 
 
 def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
-    """Links, pairs and verdict of one state, then how power flows and where it is lost."""
+    """Yield links, pairs and verdict of one state, then its power flow and losses."""
     found, flow = figures.torques, figures.flow
     state = found.state
     head = "Torques" if state is None else f"State {state}: torques"
@@ -281,7 +281,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
 
 
 class _Amounts:
-    """Powers and torques in words: in watts and N m where they are real."""
+    """Conversion of powers and torques to text, in watts and N m if the units are known."""
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit
@@ -313,7 +313,7 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _held(found: Torques) -> Iterator[Table]:
-    """Brakes and locks, with what they exert on the links they hold."""
+    """Yield a table of brakes and locks with the torques they exert on the links they hold."""
     rows = []
     for held in found.held:
         torques = ["open"] * len(held.links) if held.torques is None else [figure(each, 6) for each in held.torques]
@@ -326,7 +326,7 @@ def _held(found: Torques) -> Iterator[Table]:
 
 
 def uncounted_words(found: Torques) -> str:
-    """What an efficiency does not count, to stand behind it."""
+    """Return the effects that an efficiency neglects, as a suffix of its figure."""
     uncounted = ", ".join(map(str, found.uncounted))
     return f" without {uncounted}" if uncounted else ", mean over a turn" if found.left_out else ""
 
@@ -349,7 +349,7 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
-    """Which pairs hand power round in circles, and how much."""
+    """Yield sentences on the pairs and shafts through which power circulates, and its amount."""
     if flow.loops:
         yield "Here power is torque times absolute speed, so that every shaft and pair gives on what it takes in."
     for loop in flow.loops:
@@ -361,7 +361,7 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """What each pair and bearing loses, the total last; what collisions take stands in columns of its own."""
+    """Yield a table of the losses of each pair and bearing, the total last; impacts have columns of their own."""
     if not flow.losses and not impact_power:
         return
     struck = [node for node in flow.nodes if node.kind == "pair" and node.name in impact_power]
@@ -385,7 +385,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """A loss with its shares, then what collisions dissipate, and its share."""
+    """Return a loss with its shares, then the power that impacts dissipate and its share."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")
@@ -394,7 +394,7 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Efficiency, or why there is none, and what is lost where."""
+    """Return the efficiency, or why it is not determined, and the losses by cause."""
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     teeth = torques.loss - torques.bearing_loss
@@ -426,7 +426,7 @@ _MINIMUM = 1e-12  # of all that is lost: less is rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
-    """Torque at the crank over a run, energies, and what each pair, pin and bearing takes."""
+    """Yield sections on crank torque over a run, energies, and the losses of each pair, pin and bearing."""
     head = "Torque over a turn" if found.state is None else f"State {found.state}: torque over a turn"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Left out: {each}: {each.why}." for each in found.left_out]
@@ -444,7 +444,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
 
 
 def turns_text(turns: float) -> str:
-    """`1 turn`, `2.5 turns`."""
+    """Return a number of turns as text, `1 turn` or `2.5 turns`."""
     return f"{turns:g} turn{'' if turns == 1 else 's'}"
 
 
@@ -460,7 +460,7 @@ def _run(found: TorqueCycle) -> str:
 
 
 def _shares(found: TorqueCycle) -> Iterator[str]:
-    """Where the train locks, is held from both sides, or may turn in several ways."""
+    """Yield the shares of the run in which the train locks, is driven from both sides, or is ambiguous."""
     shares = {
         "no torque balances: the train locks": found.locked_share,
         "loads and the crank both put power in, and all of it is lost": found.held_share,
@@ -536,7 +536,8 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Energies over a run with their shares of all that is put in; those that are rounding are left out."""
+    """Return energies over a run with their shares of all energy put in; values at the level of rounding are left out.
+    """
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()
@@ -546,7 +547,7 @@ def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: 
 
 
 def _parts(found: TorqueCycle) -> Iterator[Table]:
-    """What each pair, pin and bearing takes, the greatest loss first."""
+    """Yield a table of losses and transmitted energy of each pair, pin and bearing, the largest loss first."""
     assert found.energy is not None
     lost = found.energy.lost
     ranked = sorted(found.parts.items(), key=lambda each: -each[1].loss)

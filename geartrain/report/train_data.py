@@ -1,4 +1,4 @@
-"""What is told of one train as plain data: its answers alone, and all that a report holds."""
+"""Data on one train: only its answers, and the contents of a report."""
 
 from __future__ import annotations
 
@@ -30,41 +30,41 @@ _MOST_LINKS = 500  # of a train whose adjacency is told
 
 @dataclass(frozen=True)
 class TrainAnswers(Result):
-    """A train and its answers: one for each state that was asked for."""
+    """A train and its answers, one for each requested state."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = ("name", "title", "unit", "mobility", "states")
 
     train: GearTrain
-    """The train itself, which is not part of the data."""
+    """The train, which is not part of the data."""
     mobility: Mobility | None
-    """None where one output was asked for: it takes all circuits, where that takes those that drive it."""
+    """Mobility of the train; None if only one output was requested, as mobility takes all circuits."""
     states: tuple[Answer, ...]
     """Answers; a train without states has one, whose `state` is None."""
 
     @property
     def name(self) -> str:
-        """Of the train."""
+        """Name of the train."""
         return self.train.name
 
     @property
     def title(self) -> str:
-        """One line for a reader."""
+        """Title of the train."""
         return self.train.declaration.title
 
     @property
     def unit(self) -> str:
-        """Of speeds; empty for plain numbers."""
+        """Unit of speeds; empty for plain numbers."""
         return self.train.declaration.unit_name
 
 
 def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
-    """What `solve` tells: answers of a train; without its mobility unless it is solved as a whole."""
+    """Return the data of `geartrain solve`: answers of a train, with its mobility if it is solved as a whole."""
     return TrainAnswers(train, train.mobility if whole else None, tuple(answers))
 
 
 @dataclass(frozen=True)
 class AdjacencyLetters:
-    """Which links are joined: in row and column order of `links` the turning pairs, gear pairs and couplings."""
+    """Adjacency matrix of links with letters for turning pairs, gear pairs and couplings."""
 
     links: tuple[str, ...]
     """Names of the rows and columns, in order."""
@@ -74,23 +74,23 @@ class AdjacencyLetters:
 
 @dataclass(frozen=True)
 class StateSensitivity:
-    """What one tooth on a wheel in doubt does to an output in a state."""
+    """Effect of one tooth on a wheel of uncertain tooth count on an output in a state."""
 
     KEYS = ("state", Key("", "change"))
 
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     change: Sensitivity
-    """What one tooth less and one more change."""
+    """Changes of the output with one tooth less and one tooth more."""
 
 
 @dataclass(frozen=True)
 class TrainReport(TrainAnswers):
-    """All that a report on a train holds; `to_dict` gives its JSON, `describe_train` its page.
+    """Contents of a report on a train; `to_dict` returns its JSON data, `describe_train` its document.
 
     See Also
     --------
-    collect_report : Gives it.
+    collect_report : Return the report of a train.
     """
 
     PAGE = "report.train_report:describe_train"
@@ -103,49 +103,49 @@ class TrainReport(TrainAnswers):
     )
 
     gridlock: Gridlock
-    """Links that are locked together, and the least meshes to remove."""
+    """Links that are locked together, and the minimum set of meshes to remove."""
     closure: MeshPhasing | None
-    """Whether the teeth of all loops meet; None where axes have no positions."""
+    """Phase closure: whether the teeth of all loops meet; None if axes have no positions."""
     sources: Mapping[str, str]
     """Citations by key."""
     circuits: tuple[Circuit, ...]
-    """The fundamental circuit of each gear pair and coupling."""
+    """Fundamental circuit of each gear pair and coupling."""
     adjacency: AdjacencyLetters | None
-    """Which links are joined; None for very large trains."""
+    """Adjacency matrix of the links; None for very large trains."""
     build_findings: tuple[BuildFinding, ...]
-    """What of the train cannot be built, and what is unwise."""
+    """Errors and warnings on whether the train can be built."""
     remarks: tuple[Problem, ...]
-    """Conventions that the answers rest on."""
+    """Conventions on which the answers are based."""
     sensitivity: tuple[StateSensitivity, ...]
-    """What one tooth more or less on a wheel in doubt does."""
+    """Effects of one tooth more or less on each wheel of uncertain tooth count."""
     teeth: tuple[DrivenPair, ...]
-    """Pairs with real teeth, in every way in which they are driven."""
+    """Pairs with real teeth, once for each wheel that drives."""
     pins: tuple[DrivenPin, ...]
     """Couplings with dimensions."""
     torques: tuple[TorqueFigures, ...]
-    """Of every state with loads, or friction of bearings."""
+    """Torques of every state with loads, or with friction of bearings."""
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
-    """Of every state with loads in units, where a train says what its wheels are made of."""
+    """Strength in every state with loads in units, if the train declares materials of its wheels."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Of every state of a train with real teeth or pins; where it cannot be followed, the `error`."""
+    """Motion in every state of a train with real teeth or pins; the `error` if it cannot be computed."""
     errata: tuple[Erratum, ...]
     """Errors of the sources, as declared."""
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
-    """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata.
+    """Return the contents of a report: answers, structure, teeth, torques, motion, uncertain tooth counts and errata.
 
     Parameters
     ----------
     train : GearTrain
-        A train in all its states. What it does not declare, such as teeth or loads, is not worked out.
+        Train, reported in all its states. What it does not declare, such as teeth or loads, is not computed.
     whole : bool
-        False leaves out what takes numpy: teeth, pins, torques, strength, motion, and whether loops close.
+        Whether to include what needs numpy: teeth, pins, torques, strength, motion, and closure of loops.
 
     Returns
     -------
     TrainReport
-        Its `to_dict` is the answer of `geartrain report --json`.
+        Report whose `to_dict` is the answer of `geartrain report --json`.
 
     Raises
     ------
@@ -154,7 +154,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
 
     Examples
     --------
-    The carrier of a planetary set whose ring is held turns 24/(24 + 60) as fast as its sun (docs/theory.md, 4):
+    The carrier of a planetary set with a fixed ring turns 24/(24 + 60) times as fast as its sun (docs/theory.md, 4):
 
     >>> import geartrain
     >>> report = collect_report(geartrain.load("planetary-24-18-60"))
@@ -194,7 +194,7 @@ def _torques(train: GearTrain, loaded: Sequence[str | None]) -> tuple[TorqueFigu
 
 
 def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
-    """The fields on real teeth and pins, empty for a train that has none."""
+    """Return the fields on real teeth and pins, empty for a train that has none."""
     if not (whole and (train.mechanics.teeth or train.mechanics.pins)):
         return {"teeth": (), "pins": (), "motion": ()}
     from geartrain.report.gear_pairs import driven_pairs, driven_pins
@@ -204,7 +204,7 @@ def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:
-    """True if a state has loads in units, a wheel declares its material, and the wing `simulation` is installed."""
+    """Return whether a state has loads in units, a wheel declares its material, and `simulation` is installed."""
     if not has_wing("simulation"):
         return False
     if declared.material is None and all(wheel.material is None for _, wheel in declared.wheels.values()):

@@ -1,7 +1,7 @@
-"""The report on one train, section by section; its graph as tables; and the report as a page to share.
+"""Report on one train, section by section; its graph as tables; and the report as a page to share.
 
-A page to share has its verdict as a badge, pictures, wheels with their sources, and the animated train.
-Teeth, loads and motion are described in modules of their own, which are imported only where a train declares them.
+A page to share shows the verdict as a badge, pictures, wheels with their sources, and the animated train. Teeth, loads
+and motion are described in separate modules, which are imported only if a train declares them.
 """
 
 from __future__ import annotations
@@ -48,23 +48,23 @@ _MOST_SPACED, _MOST_LETTERS = 32, 72  # links of a matrix whose columns are sepa
 _MOST_CARRIERS = 4  # carriers of circuits that are named
 _LETTERS = {"": ".", "revolute": "R", "gear": "G", "several": "+"}
 SOURCES = "Sources"
-"""The title under which a report cites; a page has a list with links in its place."""
+"""Title of the section of references; a page has a list with links instead."""
 
 _SIDES = ("above", "below", "behind")  # from which one looks without an article
 
 
 def describe_train(found: TrainReport) -> Document:
-    """The report on one train: outputs, speeds, torques, strength, motion and doubts; then structure, circuits, errata.
+    """Return the report on one train: outputs, speeds, torques, strength, motion; then structure, circuits, errata.
 
     Parameters
     ----------
     found : TrainReport
-        From `collect_report`.
+        Result of `collect_report`.
 
     Returns
     -------
     Document
-        Answers first, then what they follow from; sections on which the train declares nothing are left out.
+        Answers first, then the structure from which they follow; sections without declared content are left out.
 
     Examples
     --------
@@ -114,7 +114,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """What each state shows: outputs against their targets, speeds, formulas; a gearbox in tables of all its states."""
+    """Yield the outputs, targets and speeds of each state, after tables of all states for a gearbox."""
     box = _gearbox(train)
     if box is not None:
         from geartrain.report.gearbox_report import gearbox_sections
@@ -131,7 +131,7 @@ def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
 
 
 def _findings(train: GearTrain) -> Iterator[Section]:
-    """What of it cannot be built, and what is odd."""
+    """Yield sections on parts of the train that cannot be built, and on remarks."""
     if train.build_findings:
         head = "From the declaration alone. An error cannot be built as it is declared; a note is unwise, or left open."
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
@@ -144,7 +144,7 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 
 def _teeth(found: TrainReport) -> Iterator[Section]:
-    """Real teeth and pins; nothing where none are declared."""
+    """Yield sections on real teeth and pins; nothing if none are declared."""
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
@@ -152,7 +152,7 @@ def _teeth(found: TrainReport) -> Iterator[Section]:
 
 
 def _torques(found: TrainReport) -> Iterator[Section]:
-    """Torques of states with loads; nothing where none are declared."""
+    """Yield sections on torques of states with loads; nothing if none are declared."""
     if found.torques:
         from geartrain.report.torque_report import loaded_sections
 
@@ -160,7 +160,7 @@ def _torques(found: TrainReport) -> Iterator[Section]:
 
 
 def _motion(found: TrainReport) -> Iterator[Section]:
-    """Motion of states with real teeth or pins; nothing where none are declared."""
+    """Yield sections on motion of states with real teeth or pins; nothing if none are declared."""
     if found.motion or found.teeth:
         from geartrain.report.motion_report import moving_sections
 
@@ -168,19 +168,19 @@ def _motion(found: TrainReport) -> Iterator[Section]:
 
 
 def _strength(found: TrainReport) -> Iterator[Section]:
-    """Strength of states with loads; nothing where no material is declared."""
+    """Yield sections on strength of states with loads; nothing if no material is declared."""
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
 
 
 def _sources(declared: Train) -> Iterator[Section]:
-    """All that the declaration cites."""
+    """Yield a section with all references of the declaration."""
     if declared.sources:
         yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
-    """The train as a gearbox, where it is one."""
+    """Return the train as a gearbox, or None if it is not one."""
     try:
         return train.gearbox() if train.declaration.clutches and train.states else None
     except GearTrainError:
@@ -215,7 +215,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def source_line(key: str, source: Source) -> str:
-    """A source by its key and in full."""
+    """Return the full reference of a source with its key."""
     return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
 
 
@@ -252,7 +252,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
 
 
 def _note(link: Link) -> str:
-    """What is declared, after how many there are."""
+    """Return the declared note of a link, after the number of its copies."""
     number = f"{link.copies} of them, equal" if link.copies > 1 else ""
     return "; ".join(filter(None, (number, link.note or "")))
 
@@ -299,11 +299,11 @@ _ENDS = {
     "pins_in_holes": ("holes", "pins"),
     "parallel": ("1", "1"),
 }
-"""What circuits of couplings have in place of wheels."""
+"""Names of the two sides of couplings, which have no wheels."""
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Circuits side by side, one row each for bodies, carrier, teeth and ratio."""
+    """Return circuits side by side, with rows for bodies, carrier, teeth and ratio."""
     wheels = declared.wheels
 
     def teeth(circuit: Circuit, side: int) -> str:
@@ -329,7 +329,7 @@ def _mobility(train: GearTrain) -> Section:
 
 
 def _circuits_in_short(train: GearTrain) -> str:
-    """Return how many fundamental circuits there are, and with which carriers."""
+    """Return the number of fundamental circuits, and their carriers."""
     carriers = Counter(circuit.carrier for circuit in train.circuits).most_common()
     named = ", ".join(f"{count} with carrier '{link}'" for link, count in carriers[:_MOST_CARRIERS])
     rest = sum(count for _, count in carriers[_MOST_CARRIERS:])
@@ -338,7 +338,7 @@ def _circuits_in_short(train: GearTrain) -> str:
 
 
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
-    """Mobility by count and by rank, what is redundant, what holds the train, and what stands still."""
+    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and links at rest."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')} - {plural(found.gear_pairs, 'gear pair')}{minus}"
     yield f"By count: {pairs} = {found.by_count}."
@@ -359,18 +359,18 @@ def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
 
 
 def phasing_document(closure: MeshPhasing) -> Document:
-    """Return what the report says of phase closure."""
+    """Return the section of the report on phase closure as a document."""
     sections = list(_phasing(closure)) or [Section("Putting it together", ("No loop of the train is judged.",))]
     return Document("Phase closure", (), sections)
 
 
 def mobility_document(found: Mobility) -> Document:
-    """Return what the report says of mobility, without what holds a train that is locked."""
+    """Return the section of the report on mobility as a document, without the causes of a locked train."""
     return Document("Mobility", (), [Section("Mobility", list(_mobility_lines(found)))])
 
 
 def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
-    """Phase closure of a train whose axes have positions and whose pairs form loops; nothing for others."""
+    """Yield phase closure of a train whose axes have positions and whose pairs form loops; nothing for others."""
     if closure is None or closure.kind == "open":
         return
     rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
@@ -388,19 +388,20 @@ def _loop(loop: Loop) -> str:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Links by links; R(axis) is a turning pair, gear pairs and couplings stand by their ids."""
+    """Return the adjacency matrix of links; R(axis) is a turning pair, gear pairs and couplings are shown by their ids.
+    """
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
 
 
 def describe_adjacency(train: GearTrain) -> Document:
-    """The adjacency matrix alone."""
+    """Return a document of only the adjacency matrix."""
     return Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (adjacency_table(train),)),))
 
 
 def describe_edges(train: GearTrain) -> Document:
-    """Which two links are joined by what, a row for each joint, gear pair and coupling."""
+    """Return a document of the edge list, with a row for each joint, gear pair and coupling."""
     table = Table(("link", "link", "joined by", "axis or pair"), edge_rows(train.graph))
     return Document(f"Edges of {train.name}", (), (Section("Edges", (), (table,)),))
 
@@ -411,23 +412,23 @@ def describe_edges(train: GearTrain) -> Document:
 def describe_shared_page(
     found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """The report on a train with all that a page has room for; its sources are links.
+    """Return the report on a train with all extras of a page; its sources are links.
 
     Parameters
     ----------
     found : TrainReport
-        From `collect_report`.
+        Result of `collect_report`.
     pictures : sequence of Picture
-        Shown before the sections.
+        Pictures before the sections.
     viewer : str
-        A whole HTML page in which the train turns, embedded as it is; "" for none.
+        Whole HTML page with the animated train, embedded unchanged; "" for none.
     notes : sequence of str
-        Remarks on the page, below the lead.
+        Remarks on the page, below the summary.
 
     Returns
     -------
     Document
-        The document of `describe_train` with its `aside` filled, for `to_html`.
+        Document of `describe_train` with its `aside` filled, for `to_html`.
 
     Examples
     --------
@@ -456,7 +457,7 @@ def describe_shared_page(
 
 
 def _badge(found: TrainReport) -> tuple[str, bool]:
-    """The worst that is to be said of a train, in few words; and whether it is no complaint."""
+    """Return the worst verdict on a train in a few words, and whether it is acceptable."""
     train, answers = found.train, found.states
     wrong = [answer for answer in answers if not answer.as_expected]
     if wrong:
@@ -472,7 +473,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Every wheel with what is said of it; nothing where only teeth are."""
+    """Yield a table of every wheel with its source, status and note; nothing if only tooth counts are declared."""
     rows = []
     for name, (link, wheel) in declared.wheels.items():
         doubt = wheel.teeth if not isinstance(wheel.teeth, int) else None

@@ -61,7 +61,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
     for name, column in columns.items():
         assert [float(row[name]) for row in rows] == column
     told = json.loads((here / "t.json").read_text())
-    jams = sum(backlash < 0 for backlash in columns["p~w play (pitches)"])
+    jams = sum(backlash < 0 for backlash in columns["p~w backlash (pitches)"])
     assert told["pairs"][0]["jam"]["count"] == jams == sum(mark % 2 for mark in columns["p~w events"])
     free = [error for error, mark in zip(columns["b error (deg)"], columns["p~w events"], strict=True) if not mark & 25]
     mean = sum(free) / len(free)
@@ -171,8 +171,8 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
         (("--set", "pitch_deviation=45 %"), "cannot be cut"),
         (("--set", "pitch_deviation=20 deg"), "greater than the tooth"),
         (("--set", "tip=0.1 mm"), "no module"),
-        (("--set", "colour=3 %"), "sets no error"),
-        (("--set", "pitch_deviation=3 apples"), "sets no error"),
+        (("--set", "colour=3 %"), "does not set an error"),
+        (("--set", "pitch_deviation=3 apples"), "does not set an error"),
         (("--set", "pitch_deviation=-3 %"), "no width"),
         (("--set", "x9.pitch_deviation=3 %"), "no wheel 'x9'"),
         (("--set", "p.centre=3 %"), "no pair 'p'"),

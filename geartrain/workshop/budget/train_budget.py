@@ -79,7 +79,8 @@ class BudgetQuestion:
     samples: int = 20_000
     """Positions of these turns, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Errors of cutting in place of those declared, such as "pitch_deviation=1 %"; by default what the train declares."""
+    """Errors of cutting in place of those declared, such as "pitch_deviation=1 %"; by default what the train declares.
+    """
     trials: int = 256
     """How many times the wheels are cut."""
     seed: int = 1

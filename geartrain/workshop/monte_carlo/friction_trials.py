@@ -87,7 +87,7 @@ class FrictionPlan:
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
         """Coefficients to draw, by the train, pair or coupling that declares them."""
-        return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _drawn(friction)}
+        return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     @cached_property
     def _nominal(self) -> GearTrain:
@@ -208,15 +208,15 @@ def draw_friction(declared: Train, seed: int, trial: int) -> Train:
     streams = RandomStreams(seed, trial // BLOCK)
     drawn: dict[str, CoulombFriction] = {}
     for name, item, friction in _declarers(declared):
-        if _drawn(friction):
+        if _is_random(friction):
             unit = float(streams.rng(item, FRICTION).standard_normal(BLOCK)[trial % BLOCK])
             drawn[name] = _with_coefficient(friction, unit)
-    gears = [gear.model_copy(update=_own(gear.name, drawn)) for gear in declared.gears]
-    couplings = [joint.model_copy(update=_own(joint.name, drawn)) for joint in declared.couplings]
-    return declared.model_copy(update={**_own(_TRAIN, drawn), "gears": gears, "couplings": couplings})
+    gears = [gear.model_copy(update=_friction_update(gear.name, drawn)) for gear in declared.gears]
+    couplings = [joint.model_copy(update=_friction_update(joint.name, drawn)) for joint in declared.couplings]
+    return declared.model_copy(update={**_friction_update(_TRAIN, drawn), "gears": gears, "couplings": couplings})
 
 
-def _own(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[str, CoulombFriction]:
+def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[str, CoulombFriction]:
     return {"friction": drawn[name]} if name in drawn else {}
 
 
@@ -227,7 +227,7 @@ def _declarers(declared: Train) -> Iterator[tuple[str, int, Any]]:
         yield name, item, part.friction
 
 
-def _drawn(friction: Any) -> bool:
+def _is_random(friction: Any) -> bool:
     return isinstance(friction, CoulombFriction) and friction.deviation is not None and bool(friction.deviation.value)
 
 

@@ -1,7 +1,7 @@
 """Plots of Monte Carlo trials: pointer errors, probabilities of a jam, and sensitivities.
 
-`monte_carlo_figure` draws one picture of a result. It uses plots of plain numbers: bands and histograms of errors, a map
-of probabilities over two quantities, a tornado chart of variance shares, and the convergence of an estimate.
+`monte_carlo_figure` draws one picture of a result. It uses plots of plain numbers: bands and histograms of errors, a
+map of probabilities over two quantities, a tornado chart of variance shares, and the convergence of an estimate.
 """
 
 from __future__ import annotations
@@ -93,7 +93,8 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     --------
     >>> import geartrain
     >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["pitch_deviation=2 %"]), ("moon",))
+    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
     >>> found = MonteCarloResult(run_trials(plan, trials=2, seed=1))
     >>> monte_carlo_figure(found, "convergence").axes[0].get_ylabel()
     'probability of a jam'
@@ -113,14 +114,14 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     if picture == "convergence":
         return probability_convergence_figure(trials)
     if picture == "sobol":
-        _need(findings.indices, "Sobol indices were not computed", "give --sobol")
+        _require(findings.indices, "Sobol indices were not computed", "give --sobol")
         return indices_figure(findings.indices[0])
     if picture == "pairs":
         return pair_shares_figure(trials, trials.plan.outputs[0])
     return clearances_figure(findings.cleared)
 
 
-def _need(what: Sequence[object], why: str, fix: str) -> None:
+def _require(what: Sequence[object], why: str, fix: str) -> None:
     if not what:
         raise QuestionError(Problem("there is nothing to draw", why, fix))
 
@@ -135,7 +136,7 @@ def errors_figure(trials: TrialResults) -> Figure:
 
 def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str) -> Figure:
     """Draw bands of pointer errors along one turn of each pointer that was followed."""
-    _need(courses, "no pointer was followed along a turn", "name the outputs to follow: --output NAME")
+    _require(courses, "no pointer was followed along a turn", "name the outputs to follow: --output NAME")
     return pointer_error_figure(
         {each.name: ErrorBands.of(each.turns, np.degrees(each.errors)) for each in courses}, driving_link
     )
@@ -143,10 +144,10 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str) -> F
 
 def probability_convergence_figure(trials: TrialResults, event: str = "jam") -> Figure:
     """Draw the probability of an event in any pair over the number of trials."""
-    return convergence_figure({"any pair": _settling(trials.convergence(event))}, f"probability of a {event}")
+    return convergence_figure({"any pair": _trace_of(trials.convergence(event))}, f"probability of a {event}")
 
 
-def _settling(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> ConvergenceTrace:
+def _trace_of(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> ConvergenceTrace:
     """Convert the convergence steps of an estimate to arrays."""
     ends = np.array([share.interval for _, share in steps]).reshape(-1, 2)
     counts = np.array([float(count) for count, _ in steps])
@@ -210,14 +211,15 @@ class ErrorBands:
 
     @classmethod
     def of(cls, turns: ArrayLike, errors: ArrayLike) -> ErrorBands:
-        """Compute the bands from the errors [deg] of every trial, shape (trials, positions); trials with NaN are excluded.
+        """Compute the bands from the errors [deg] of every trial, shape (trials, positions); trials with NaN are
+        excluded.
 
         Raises `QuestionError` if no trial is left, or if positions and turns differ in number.
         """
         places, table = np.asarray(turns, dtype=float), np.atleast_2d(np.asarray(errors, dtype=float))
         table = table[np.isfinite(table).all(axis=1)]
         if table.shape[1:] != places.shape or not table.size:
-            raise _nothing(f"errors of shape {table.shape} at {places.size} positions")
+            raise _no_errors(f"errors of shape {table.shape} at {places.size} positions")
         levels = np.percentile(table, PERCENTS, axis=0)
         return cls(places, table.min(axis=0), table.max(axis=0), levels, len(table), table[0])
 
@@ -227,7 +229,7 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str =
 
     The thin dashed line is one trial. Raises `QuestionError` if there is no pointer to draw.
     """
-    shown, left = _most(pointers, lambda bands: float(np.ptp(bands.percentiles)))
+    shown, left = _largest_spreads(pointers, lambda bands: float(np.ptp(bands.percentiles)))
     spans = {float(np.ptp(bands.turns)) for bands in shown.values()}
     figure, panels = _panels(shown, sharex=len(spans) <= 1)  # each over a turn of its own pointer
     for axes, (name, bands) in zip(panels, shown.items(), strict=True):
@@ -254,13 +256,13 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
     note     text under the last panel, such as the range of positions
     Raises `QuestionError` if there is nothing to draw.
     """
-    shown, left = _most(errors, _spread)
+    shown, left = _largest_spreads(errors, _spread)
     figure, panels = _panels(shown)
     for axes, (name, given) in zip(panels, shown.items(), strict=True):
         values = np.asarray(given, dtype=float).ravel()
         values = values[np.isfinite(values)]
         if not values.size:
-            raise _nothing(f"'{name}' cannot turn in any trial")
+            raise _no_errors(f"'{name}' cannot turn in any trial")
         axes.hist(values, bins=_edges(values).tolist(), color=BLUE, alpha=0.45, edgecolor="white", linewidth=0.4)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=(1, 2, 5, 10), integer=True))
         _percentiles(axes, values)
@@ -269,7 +271,7 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
     return figure
 
 
-def _most(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
+def _largest_spreads(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
     """Select the pointers with the largest spread, in the given order, and return a note on the others."""
     straying = [name for name in what if spread(what[name]) > 0] or list(what)
     names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
@@ -311,7 +313,7 @@ def _edges(values: Floats) -> Floats:
 
 def _panels(what: Mapping[str, Any], sharex: bool = False) -> tuple[Figure, Sequence[Axes]]:
     if not what:
-        raise _nothing("no pointer is given")
+        raise _no_errors("no pointer is given")
     figure = Figure(figsize=(WIDTH, 1.3 + _ROW * len(what)), dpi=100, layout="constrained")
     panels = list(figure.subplots(len(what), 1, sharex=sharex, squeeze=False)[:, 0])
     for axes in panels:
@@ -337,7 +339,7 @@ def _legend(figure: Figure, axes: Axes) -> None:
     figure.legend(handles=handles, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
 
 
-def _nothing(why: str) -> QuestionError:
+def _no_errors(why: str) -> QuestionError:
     return QuestionError(Problem("there are no errors to draw", why, "give trials that turn, and at least one pointer"))
 
 
@@ -385,8 +387,9 @@ def jam_map_figure(
 
 
 def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: Any) -> Line2D:
-    # probabilities rise from 0 to 1 within few cells; arcsin(sqrt(p)) is more linear there, so contours interpolate well
-    contour = axes.contour(x, y, _straight(shown), levels=[_straight(level)], colors=BLACK, linewidths=2.0)
+    # probabilities rise from 0 to 1 within few cells; arcsin(sqrt(p)) is more linear there, so contours interpolate
+    # well
+    contour = axes.contour(x, y, _arcsine(shown), levels=[_arcsine(level)], colors=BLACK, linewidths=2.0)
     contour.set_linestyle([dashes])
     contour.set_gid(f"{level:.0%}")
     return Line2D([], [], color=BLACK, linestyle=dashes, linewidth=2.0, label=f"{level:.0%}")
@@ -403,7 +406,7 @@ def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
     return Line2D([], [], color=color, linestyle="dashdot", linewidth=2.0, label=f"bound of {_BOUND:.0%}")
 
 
-def _straight(chance: Any) -> Any:
+def _arcsine(chance: Any) -> Any:
     return np.arcsin(np.sqrt(chance))
 
 
@@ -444,8 +447,8 @@ class VarianceShare:
 def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: int = MOST) -> Figure:
     """Draw a tornado chart: for each cause a bar of its first-order and total share, with intervals as whiskers.
 
-    Only the `most` largest causes are drawn, and the axis label gives the number of the others. Raises `QuestionError` if
-    there are no causes.
+    Only the `most` largest causes are drawn, and the axis label gives the number of the others. Raises `QuestionError`
+    if there are no causes.
     """
     if not shares or most < 1:
         what, why = "there is no sensitivity to draw", "a tornado chart needs at least one cause"

@@ -32,7 +32,8 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     --------
     >>> import geartrain
     >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["pitch_deviation=2 %"]), ("moon",))
+    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
     >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).lead[0]
     '2 trials, seed 1; intervals are at the 95 % confidence level.'
     """
@@ -94,7 +95,7 @@ def _verdict(found: MonteCarloResult) -> Section:
 
 
 def _pairs(found: MonteCarloResult) -> Section:
-    rows = [_tallied(pair) for pair in (*found.trials.pairs, found.trials.train)]
+    rows = [_pair_row(pair) for pair in (*found.trials.pairs, found.trials.train)]
     header = ("pair", "backlash (pitches)", "jam", "clash", "dwell", "disengaged", "bound on jams")
     text = (
         "Probability of each event over the full meshing cycle. The backlash is for perfect wheels, in pitches of the "
@@ -113,7 +114,7 @@ def _filing(found: MonteCarloResult) -> Section:
     return Section("Filing", (text,), (Table(header, cut(rows)),))
 
 
-def _tallied(pair: PairEventRates) -> tuple[str, ...]:
+def _pair_row(pair: PairEventRates) -> tuple[str, ...]:
     backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
     events = (share_text(pair.events[name]) for name in ("jam", "clash", "dwell", "disengaged"))
     return (pair.name, backlash, *events, bound)

@@ -112,7 +112,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
             )
         if any(wheel.displaced is not None for wheel in plan.wheels):
             yield (
-                "Flanks of teeth that are not triangular are displaced at the point of contact, which is valid to first "
+                "Flanks of teeth that are not triangular are displaced at the point of contact. This is valid to first "
                 "order in the errors. Contact at tips is included, interference of tips with roots is not."
             )
         if plan.files:

@@ -39,7 +39,7 @@ NUMBER = {
 }
 
 
-def _never(item: int, kind: int) -> bool:
+def _first_sample(item: int, kind: int) -> bool:
     del item, kind
     return False
 
@@ -50,7 +50,7 @@ class RandomStreams:
 
     seed: int
     block: int
-    other: Callable[[int, int], bool] = field(default=_never)
+    other: Callable[[int, int], bool] = field(default=_first_sample)
     """Predicate (item, kind): True selects the second, independent sample, as Sobol indices need it."""
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
@@ -73,8 +73,8 @@ def draw_wheel(
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
     """Draw one wheel in some trials of a block; return its arrays and a mask of the trials in which it can be cut.
 
-    Drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1, internal ones -1. Wheels
-    that cannot be cut are returned without errors, so that later code never meets teeth without tips.
+    Drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1, internal ones -1.
+    Wheels that cannot be cut are returned without errors, so that later code never meets teeth without tips.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
@@ -87,9 +87,9 @@ def draw_wheel(
     # signs: declared errors are positive ahead and wider, the arrays of a wheel positive behind and flatter
     place, tip = -wheel.pitch * drawn("pitch_deviation"), wheel.depth * drawn("tip")
     flank = wheel.half_angle * drawn("aperture_deviation")
-    eccentric = _eccentric(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
+    eccentric = _draw_eccentricity(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
     if wheel.displaced is not None:
-        return _displaced(place, tip, flank, eccentric, trials)
+        return _displaced_wheel(place, tip, flank, eccentric, trials)
     cut = CutWheel(-1.0 if wheel.ring else 1.0, wheel.half_angle, place, tip, flank, flank)
     if eccentric is not None:
         cut = cut.moved(*eccentric)
@@ -100,7 +100,7 @@ def draw_wheel(
     return CutWheel(cut.radius, wheel.half_angle, *kept), good
 
 
-def _displaced(
+def _displaced_wheel(
     place: Floats, tip: Floats, flank: Floats, eccentric: tuple[Floats, Floats] | None, trials: int
 ) -> tuple[DisplacedWheel, Bools]:
     zero = np.zeros(place.shape[-1])
@@ -110,7 +110,7 @@ def _displaced(
     return (found if good.all() else replace(found, place=np.where(good[:, None], place, 0.0))), good
 
 
-def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:
+def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:
     e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (BLOCK,))[rows]
     if wheel.towards is not None:
         return e, np.full(len(e), wheel.towards)

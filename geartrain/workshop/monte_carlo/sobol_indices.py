@@ -172,16 +172,16 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Callab
     fits = [at for at in pairs if plan.pairs[at].fitting]
     found: list[tuple[str, Callable[[int, int], bool]]] = []
     if by == "wheel":
-        found += [(plan.wheels[at].name, _Item(at)) for at in off]
-        found += [(plan.pairs[at].name, _Item(len(plan.wheels) + at)) for at in fits]
+        found += [(plan.wheels[at].name, _OfItem(at)) for at in off]
+        found += [(plan.pairs[at].name, _OfItem(len(plan.wheels) + at)) for at in fits]
     else:
         errors = [plan.wheels[at].errors for at in off] + [plan.pairs[at].fitting for at in fits]
-        found += [(kind, _Kind(kind)) for kind in ERROR_KINDS if any(kind in each for each in errors)]
-    return [*found, ("position", _Item(plan.position))]
+        found += [(kind, _OfKind(kind)) for kind in ERROR_KINDS if any(kind in each for each in errors)]
+    return [*found, ("position", _OfItem(plan.position))]
 
 
 @dataclass(frozen=True, slots=True)
-class _Item:
+class _OfItem:
     item: int
 
     def __call__(self, item: int, kind: int) -> bool:
@@ -190,7 +190,7 @@ class _Item:
 
 
 @dataclass(frozen=True, slots=True)
-class _Kind:
+class _OfKind:
     kind: str
 
     def __call__(self, item: int, kind: int) -> bool:
@@ -199,12 +199,12 @@ class _Kind:
         return kind in {NUMBER[self.kind], *also}
 
 
-def _all(item: int, kind: int) -> bool:
+def _second_sample(item: int, kind: int) -> bool:
     del item, kind
     return True
 
 
-def _none(item: int, kind: int) -> bool:
+def _first_sample(item: int, kind: int) -> bool:
     del item, kind
     return False
 
@@ -223,7 +223,7 @@ class SobolBlock:
         """Compute the samples of one task as plain data."""
         first, trials = task
         inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
-        columns = [self._errors(first, trials, choice) for choice in (_none, *inputs, _all)]
+        columns = [self._errors(first, trials, choice) for choice in (_first_sample, *inputs, _second_sample)]
         found: list[list[float]] = np.stack(columns, axis=1).tolist()
         return found
 

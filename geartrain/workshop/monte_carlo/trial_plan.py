@@ -184,7 +184,7 @@ class TriangularTrialPair(TrialPair):
         strokes, teeth = np.zeros((2, count), np.int64)
         low = tuple(np.zeros((count, 2, z)) for z in self.teeth)
         if len(jams):
-            whole = FileableCutPair(_each(pair, count))
+            whole = FileableCutPair(_with_trial_axis(pair, count))
             limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
             work = file_to_fit(whole.taken(jams), self.stroke * self.depth, limit)
             strokes[jams], teeth[jams] = work.strokes, work.teeth
@@ -280,7 +280,7 @@ class DisplacedTrialPair(TrialPair):
         return replace(self, contact=self.contact.apart_by((clearance - 1) * self.contact.distance))
 
 
-def _each(pair: CutGearPair, count: int) -> CutGearPair:
+def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
     """Broadcast both wheels of a pair to arrays with an axis of trials."""
     wheels = [
         replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
@@ -351,7 +351,8 @@ class TrialPlan:
         Parameters
         ----------
         clearance : float
-            Factor of the minimum centre distance (1 or more), or fraction of the clearance window of each pair (below 1).
+            Factor of the minimum centre distance (1 or more), or fraction of the clearance window of each pair (below
+            1).
         """
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
@@ -429,7 +430,7 @@ def find_trial_plan(
     names = tuple(even)
     check_names(settings, names, [mesh.name for mesh in meshes])
     wheels = tuple(wheel_errors(train.declaration, each, settings) for each in even.values())
-    senses = _Senses(motion)
+    senses = _RotationSenses(motion)
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
     composition = motion.with_sources([pair.name for pair in pairs])
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
@@ -494,7 +495,7 @@ def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> 
     return tuple(at for at, name in enumerate(names) if name in used)
 
 
-class _Senses:
+class _RotationSenses:
     """Sense of rotation of each wheel in each of its pairs; teeth are numbered in the order they pass in the first
     pair.
     """
@@ -513,7 +514,7 @@ class _Senses:
 
 
 def _pair(
-    train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _Senses, settings: Sequence[ErrorOverride]
+    train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _RotationSenses, settings: Sequence[ErrorOverride]
 ) -> TrialPair:
     wheels, contact = _even_wheels(train, mesh), mesh.displaced_contact
     lesser = min(wheels, key=lambda wheel: wheel.depth) if contact is not None else _less_deep(mesh, wheels)

@@ -165,7 +165,8 @@ class TrialResults:
         return [(count, _share(whole[:count], mark)) for count in counts]
 
     def pointer_convergence(self, at: int) -> list[tuple[int, IntervalEstimate]]:
-        """Return the standard deviation of an output [rad] after 1/16, 1/8, ... and all of the trials that count for it.
+        """Return the standard deviation of an output [rad] after 1/16, 1/8, ... and all of the trials that count for
+        it.
 
         Parameters
         ----------
@@ -296,7 +297,8 @@ class FirstOrderError(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorStatistics(Result):
-    """Error statistics of one output at random positions of the input, relative to its mean position with perfect teeth.
+    """Error statistics of one output at random positions of the input, relative to its mean position with perfect
+    teeth.
 
     See Also
     --------

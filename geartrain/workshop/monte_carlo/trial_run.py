@@ -76,8 +76,8 @@ def check_trials(trials: int) -> None:
 def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
     """Split the trials into tasks, each given by its first trial and its number of trials.
 
-    A task is a block, or a half or quarter of a block if there are few. Sums are rounded task by task, so the tasks depend
-    only on the number of trials and of cases for which they are repeated, not on the number of workers.
+    A task is a block, or a half or quarter of a block if there are few. Sums are rounded task by task, so the tasks
+    depend only on the number of trials and of cases for which they are repeated, not on the number of workers.
     """
     blocks = [range(start, min(start + BLOCK, trials)) for start in range(0, trials, BLOCK)]
     parts = min(4, -(-_TASKS // (len(blocks) * cases)))

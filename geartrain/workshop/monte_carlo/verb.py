@@ -61,7 +61,9 @@ def run(
             "--clearance", help="Sweep of clearance factors (1.005:1.04:8) or fractions of windows (0.1:0.9:9)."
         ),
     ] = None,
-    sobol: Annotated[bool, typer.Option("--sobol", help="Compute Sobol indices by wheel and by kind of error.")] = False,
+    sobol: Annotated[
+        bool, typer.Option("--sobol", help="Compute Sobol indices by wheel and by kind of error.")
+    ] = False,
     workers: Workers = None,
     dask: Dask = None,
     resume: Resume = False,

@@ -295,7 +295,7 @@ def test_jams_are_counted_over_clearance() -> None:
 
 
 def test_cutting_that_is_requested_for_and_cannot_be_tried_is_refused() -> None:
-    with pytest.raises(geartrain.GearTrainError, match="no triangular teeth"):
+    with pytest.raises(geartrain.GearTrainError, match="no tooth form"):
         find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("pitch_deviation=1 %",), **SHORT))
 
 

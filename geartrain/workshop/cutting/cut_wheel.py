@@ -253,7 +253,8 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return the tooth pairs of a gear pair with tip heights, flank angles and centre distance increased by errors.
+        """Return the tooth pairs of a gear pair with tip heights, flank angles and centre distance
+        increased by errors.
         """
         R1, R2 = sizes.signed_radii
         return cls(

@@ -196,7 +196,8 @@ def pair_errors(
 
 
 def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
-    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is not filed.
+    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is
+    not filed.
     """
     fitting = mesh.gear.fitting or train.fitting
     filing = fitting.filing if fitting is not None else None

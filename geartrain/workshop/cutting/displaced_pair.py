@@ -127,7 +127,8 @@ class DisplacedWheel:
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lag of tooth pairs on one side at one position of the driver within a pitch, by the number n of pitches passed.
+    """Lag of tooth pairs on one side at one position of the driver within a pitch, by the number n of
+    pitches passed.
     """
 
     driver: Any
@@ -183,7 +184,8 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which a tooth reaches the end of its path earlier, or its start later, because of errors.
+        """Maximum angles by which a tooth reaches the end of its path earlier, or its start later, because
+        of errors.
         """
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))

@@ -78,7 +78,7 @@ class FilingWork(Generic[Pair]):
 
 
 def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
-    """File pairs until they pass, one `stroke` of depth at a time.
+    """Lower the flanks of pairs by filing until they pass, one `stroke` of depth at a time.
 
     A pair is given up, and still jams, if a flank would be lowered by more than `deepest`.
     """

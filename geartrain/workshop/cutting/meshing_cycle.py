@@ -83,7 +83,7 @@ class MeshingVerdicts:
 
     @classmethod
     def joined(cls, parts: list[MeshingVerdicts]) -> MeshingVerdicts:
-        """Concatenate the verdicts of several batches."""
+        """Combine the verdicts of several batches."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
@@ -206,8 +206,9 @@ class MeshingCycle:
         return self.tightest()[0]
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Return, for each trial, the minimum backlash, its front tooth pair, and the number of pairs back to its back
-        pair.
+        """Return for each trial the minimum backlash, its front tooth pair, and the distance of its back pair.
+
+        The distance is the number of tooth pairs by which the back pair precedes the front pair.
 
         The backlash is estimated for all tooth pairs, and computed exactly for those near the minimum.
         """
@@ -313,7 +314,8 @@ class MeshingCycle:
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask (trials,) of dwells: where some tooth pair leaves, no later pair touches its driven tooth yet.
+        """Return a mask (trials,) of dwells: where some tooth pair leaves, no later pair touches its driven
+        tooth yet.
         """
         front = self.front
         stands: Any = np.array(self._all(self.front.reach > -inf))
@@ -396,7 +398,8 @@ def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
-    """Return the minimum backlash over the cycle [rad of the driven wheel], (trials,), exact to a millionth of a pitch.
+    """Return the minimum backlash over the cycle [rad of the driven wheel], (trials,), exact to a millionth
+    of a pitch.
     """
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
@@ -415,7 +418,8 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
 
 
 def _extreme_sum(driver: Any, driven: Any, minimum: Any) -> Any:
-    """Return the minimum (or maximum) sum of a term of a driving and a term of a driven tooth that meet in the cycle.
+    """Return the minimum (or maximum) sum of a term of a driving and a term of a driven tooth that meet in
+    the cycle.
     """
     rests = gcd(driver.shape[-1], driven.shape[-1])
 
@@ -452,7 +456,8 @@ def _interpolate(table: Floats, spread: float, apart: Any) -> Any:
 
 
 class _EntriesAndExits:
-    """Entries and exits of teeth with a common contact function: driving teeth give the angle, driven teeth only add.
+    """Entries and exits of teeth with a common contact function: driving teeth give the angle, driven teeth
+    only add.
     """
 
     def __init__(self, pair: CutGearPair) -> None:

@@ -140,7 +140,8 @@ class _Unit:
 
 
 def _per_minute(work: SolidModel) -> Mapping[str, Fraction]:
-    """Return the speeds in turns per minute; dimensionless speeds and turns per length are taken as turns per minute.
+    """Return the speeds in turns per minute; dimensionless speeds and turns per length are taken as turns
+    per minute.
     """
     answer = work.train.solve(work.scene.state, method="exact")
     declared = work.train.declaration

@@ -134,7 +134,7 @@ def _shape(part: SolidPart) -> Any:
 
 
 def _revolved(part: TurnedPart) -> Any:
-    """Revolve half a section about the z axis; several pieces of one part become a compound."""
+    """Make a solid by revolving half a section about the z axis; several pieces of one part become a compound."""
     from OCP.BRep import BRep_Builder
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol

@@ -181,7 +181,8 @@ def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
 
 
 def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the vertices of a mesh and their indices in its triangles; equal positions with equal normals are merged.
+    """Return the vertices of a mesh and their indices in its triangles; equal positions with equal normals
+    are merged.
     """
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

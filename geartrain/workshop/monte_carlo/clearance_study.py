@@ -142,7 +142,8 @@ def _judged(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Count the events in some trials of one case: for each pair and then the train, for each event, (count, trials).
+    """Count the events in some trials of one case: for each pair and then the train, for each event,
+    (count, trials).
     """
     clearance, scale, first, trials = task
     changed = plan.scaled(scale)

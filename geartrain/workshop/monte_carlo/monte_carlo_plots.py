@@ -227,7 +227,7 @@ class ErrorBands:
 def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str = "the input") -> Figure:
     """Draw the median, the middle 50 and 95 %, and the extremes of each pointer's error over turns of the driving link.
 
-    The thin dashed line is one trial. Raises `QuestionError` if there is no pointer to draw.
+    The thin dashed line is one trial. Raises `QuestionError` without a pointer to draw.
     """
     shown, left = _largest_spreads(pointers, lambda bands: float(np.ptp(bands.percentiles)))
     spans = {float(np.ptp(bands.turns)) for bands in shown.values()}

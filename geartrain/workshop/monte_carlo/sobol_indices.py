@@ -211,7 +211,8 @@ def _first_sample(item: int, kind: int) -> bool:
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Task function of some base samples: errors of the output [rad], shape (trials, inputs + 2), columns A, AB(i), B.
+    """Task function of some base samples: errors of the output [rad], shape (trials, inputs + 2), columns
+    A, AB(i), B.
     """
 
     plan: TrialPlan

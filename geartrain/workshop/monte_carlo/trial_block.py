@@ -37,7 +37,8 @@ STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of those that can be cut.
+    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of those that
+    can be cut.
     """
 
     plan: TrialPlan
@@ -52,8 +53,7 @@ class TrialWheels:
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """Return one pair of drawn wheels; `widest` = 1 or -1 puts its bearings at their largest or smallest distance.
-        """
+        """Return one pair of drawn wheels; `widest` 1 or -1 puts its bearings at their largest or smallest distance."""
         pair = self.plan.pairs[at]
         if not pair.stroke:
             return pair.cut(self.wheels, self._shift(pair, at, widest))

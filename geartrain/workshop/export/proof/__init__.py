@@ -2,7 +2,7 @@
 
 Input: the train at its sizes, and the drawings written from it. Output: a `TrainProof` with the overlap, backlash,
 clearance and tip widths of every mesh, the freedom of every link, and all findings. The outlines are read back from the
-written drawings, and no tooth form is asked how its teeth meet.
+written drawings, independently of the equations of the tooth forms.
 
 train_proof    proof of a train, of its solids and of wheels bent by a wave generator
 mesh_proof     proof of one mesh

@@ -131,7 +131,8 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses of both wheels and their carrier about the first axis; None if the axes are not parallel.
+        """Return the senses of both wheels and their carrier about the first axis; None if the axes are not
+        parallel.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)

@@ -1,4 +1,5 @@
-"""Proof of every mesh of a train on the written outlines: overlap, backlash, clearance and tips, each against its rule.
+"""Proof of every mesh of a train on the written outlines: overlap, backlash, clearance and tips, each
+against its rule.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ class TrainProof(Result):
 
     @property
     def is_ready(self) -> bool:
-        """True if there are no errors."""
+        """True if no finding is an error."""
         return not build_errors(self.findings)
 
     @property
@@ -272,7 +272,8 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield common areas [mm2] of a bent flexible wheel and its internal wheel, for several wave positions in a pitch.
+    """Yield common areas [mm2] of a bent flexible wheel and its internal wheel, for several wave positions
+    in a pitch.
     """
     assert wave.wave is not None
     shapely = plane_geometry()

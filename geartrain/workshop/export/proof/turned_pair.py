@@ -58,7 +58,7 @@ class FreeTurn:
     overlap: Floats
     """Minimum common area over all lags [mm2]; 0 if it is free."""
     place: tuple[float, float] | None
-    """Position of the largest overlap, from the axis of wheel 1 [mm]; None if there is no overlap."""
+    """Position of the largest overlap, from the axis of wheel 1 [mm]; None if they do not overlap."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,8 @@ class TurnedPair:
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Teeth of wheel 1 and spaces of wheel 2 that meet on the line of centres; equal combinations are listed once.
+        """Teeth of wheel 1 and spaces of wheel 2 that meet on the line of centres; equal combinations are
+        listed once.
         """
         z1, z2 = self.counts
         way = 1 if self.ring else -1
@@ -149,7 +150,8 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the nearest lag within half a pitch at which wheel 2 is free, else the lag with the minimum overlap.
+        """Return the nearest lag within half a pitch at which wheel 2 is free, else the lag with the
+        minimum overlap.
         """
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
@@ -238,7 +240,7 @@ class TurnedPair:
         return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
 
     def _kinds(self, which: int) -> tuple[int, ...]:
-        """Return, for each tooth, the number of the first tooth that is equal including its surroundings."""
+        """Return for each tooth the number of the first tooth that is equal including its surroundings."""
         return self._alike[which]
 
     @cached_property
@@ -287,7 +289,7 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return, for each tooth, the first equal one; a wheel invariant under a turn by a pitch has one kind."""
+    """Return for each tooth the first equal one; a wheel invariant under a turn by a pitch has one kind."""
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
     shapely.prepare(lines)

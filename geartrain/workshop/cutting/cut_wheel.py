@@ -247,7 +247,7 @@ class CutToothPairs(ToothPair):
         self.sin2, self.cos2 = self.mirror * np.sin(beta2), np.cos(beta2)
         self.leans = False
         self.entry = _half_sine(R1, R2, D, delta)
-        # if the tips do not reach each other there is no contact
+        # tips that do not reach each other never touch
         self.reach: Floats = np.where(np.asarray(delta) > 0, 2 * np.arcsin(self.entry), -np.inf)
         self.exit_angle: Floats = -2 * np.arcsin(_half_sine(R2, R1, D, delta))
 

@@ -340,7 +340,7 @@ def _legend(figure: Figure, axes: Axes) -> None:
 
 
 def _no_errors(why: str) -> QuestionError:
-    return QuestionError(Problem("there are no errors to draw", why, "give trials that turn, and at least one pointer"))
+    return QuestionError(Problem("there is nothing to draw", why, "give trials that turn, and at least one pointer"))
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities
@@ -357,7 +357,7 @@ def jam_map_figure(
     """Draw the probability of a jam as a shaded map, with contour lines at 1, 10 and 50 %.
 
     clearances  ascending clearances, (n,); `sizes`: ascending sizes of the error, (m,)
-    chances     probabilities of a jam, 0 to 1, (n, m); NaN if there is no pair
+    chances     probabilities of a jam, 0 to 1, (n, m); NaN for missing data
     bound       upper bound on the probability, (n, m); its 1 % contour is drawn
     axis_names  labels of clearances and sizes
 
@@ -448,10 +448,10 @@ def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: i
     """Draw a tornado chart: for each cause a bar of its first-order and total share, with intervals as whiskers.
 
     Only the `most` largest causes are drawn, and the axis label gives the number of the others. Raises `QuestionError`
-    if there are no causes.
+    without a cause.
     """
     if not shares or most < 1:
-        what, why = "there is no sensitivity to draw", "a tornado chart needs at least one cause"
+        what, why = "the list of causes is empty", "a tornado chart needs at least one cause"
         raise QuestionError(Problem(what, why, "give the share of at least one cause, and most >= 1"))
     ranked = sorted(shares.items(), key=lambda each: -each[1].rank)
     shown, rest = ranked[:most], ranked[most:]
@@ -513,7 +513,7 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
     if not estimates or any(each.trials.size == 0 or each.trials.min() <= 0 for each in estimates.values()):
         raise QuestionError(
             Problem(
-                "there is no convergence to draw",
+                "the convergence cannot be drawn",
                 "each estimate needs at least one number of trials above 0",
                 "give estimates after 1 trial or more",
             )

@@ -178,7 +178,7 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """File the pairs that jam; pairs of the other trials are returned unchanged."""
+        """Apply the file to the pairs that jam; pairs of the other trials are returned unchanged."""
         count = pair.trials[0] if pair.trials else 1
         jams = np.flatnonzero(self.verdicts(pair).jams)
         strokes, teeth = np.zeros((2, count), np.int64)
@@ -266,7 +266,7 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """File a cut pair by strokes of the declared depth until it does not jam."""
+        """Apply strokes of the file of the declared depth to a cut pair until it does not jam."""
         return file_to_fit(pair, self.stroke * self.depth, _MAXIMUM_FILING * self.contact.wheels[0].pitch)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
@@ -281,7 +281,7 @@ class DisplacedTrialPair(TrialPair):
 
 
 def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
-    """Broadcast both wheels of a pair to arrays with an axis of trials."""
+    """Expand both wheels of a pair to arrays with an axis of trials."""
     wheels = [
         replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
     ]

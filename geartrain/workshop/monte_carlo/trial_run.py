@@ -212,9 +212,7 @@ def _off(first: Floats, exact: Floats) -> tuple[float, float, int]:
 def _sums(
     plan: TrialPlan, found: TrialPointers, runs: Sequence[NDArray[np.bool_]]
 ) -> list[dict[str, tuple[float, ...]]]:
-    """Return, by output and pair, the number of trials and the sums of the pair's part, of the total, and of their
-    product.
-    """
+    """Return the sums for variance shares by output and pair: trials, pair's part, total, and their product."""
     superposition = Superposition(found.cut)
     even = {pair.name: pair.even for pair in plan.pairs}
     sums: list[dict[str, tuple[float, ...]]] = []

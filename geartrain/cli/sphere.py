@@ -45,7 +45,7 @@ def run(
     exact: Annotated[bool, typer.Option("--exact", help="Move the axes until all pitches are equal.")] = False,
     graph: Annotated[Path | None, typer.Option("--graph", help="Gears of a graph: two names a line.")] = None,
     aim: Annotated[str, typer.Option("--aim", help="With --graph: equal 'pitch' or closed 'phases'.")] = "pitch",
-    minimum: Annotated[int, typer.Option("--least", help="With --graph: teeth of the smallest gear.")] = 12,
+    minimum: Annotated[int, typer.Option("--minimum", help="With --graph: minimum tooth count of a gear.")] = 12,
     radius: Annotated[str, typer.Option("--radius", help="Of the sphere, or of a wheel: 5=1.25.")] = "1",
     suggest: Annotated[int, typer.Option("--suggest", help="List the best tooth sets up to so many teeth.")] = 0,
     best: Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many suggestions.")] = 20,

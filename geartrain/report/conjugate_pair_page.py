@@ -32,8 +32,8 @@ def conjugate_verdict(design: PairDesign) -> str:
 def conjugate_sections(design: PairDesign) -> Iterator[Section]:
     """What there is to tell; of teeth that cannot run, wheels and path only."""
     yield from (_wheels(design), _path(design))
-    if design.costs is not None:
-        yield from (_costs(design.costs), _friction(design))
+    if design.losses_and_stresses is not None:
+        yield from (_costs(design.losses_and_stresses), _friction(design))
 
 
 def _wheels(design: PairDesign) -> Section:

@@ -330,7 +330,7 @@ class PairFigures(Result):
     """Figures of one pair, in one way of being driven; a form may add its own."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
-        *("teeth", "verdict", Key("backlash", "verdict.play", finite)),
+        *("teeth", "verdict", Key("backlash", "verdict.backlash", finite)),
         *("speed_ratio", "transmission_error", "efficiency"),
     )
 

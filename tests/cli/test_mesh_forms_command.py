@@ -27,7 +27,7 @@ NAMES = {
 }
 PAIR = ("--teeth", 24, 36)
 KEYS = {"form", "teeth", "verdict", "pitch_radii", "flanks", "thickness", "arcs", "contact_ratio", "pressure_angles"}
-KEYS |= {"costs", "efficiency", "outlines"}
+KEYS |= {"losses_and_stresses", "efficiency", "outlines"}
 
 
 @cache
@@ -128,7 +128,7 @@ def test_a_page_of_a_pair_has_textbook_numbers() -> None:
     # the tip of gear 2 begins the contact, the tip of gear 1 ends it; pi cos psi is the base pitch
     assert data["arcs"] == pytest.approx([length / (pi * cos(radians(20))) for length in reversed(lengths)], rel=1e-12)
     slide = (1 / 12 + 1 / 18) * max(lengths)
-    assert data["costs"]["sliding"] == pytest.approx(slide, rel=1e-6)
+    assert data["losses_and_stresses"]["sliding"] == pytest.approx(slide, rel=1e-6)
     assert data["flanks"][0][1] == pytest.approx(13, rel=1e-12)
     text = call("mesh", "involute", *PAIR).output
     assert "Verdict: the teeth run" in text
@@ -337,7 +337,7 @@ def test_a_page_on_teeth_off_their_design_distance_does_not_say_that_they_keep_t
     apart = UniformStress.declared({"centre_distance": "30.02"}).mesh(wheels, lambda: None)
     assert "keep the ratio exactly" in " ".join(describe_pair(at_home).driving_link)
     assert "keep the ratio exactly at every instant." not in " ".join(describe_pair(apart).driving_link)
-    assert collect_pair(at_home).to_dict()["costs"]["one_pair"]["loss"] == pytest.approx(0.109176344569, rel=1e-9)
+    assert collect_pair(at_home).to_dict()["losses_and_stresses"]["one_pair"]["loss"] == pytest.approx(0.109176344569, rel=1e-9)
     assert collect_pair(apart).to_dict()["transmission_error"]["peak_to_peak"] > 1e-6
 
 

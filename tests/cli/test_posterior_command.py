@@ -110,7 +110,7 @@ def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, mo
 
     def cut(tally: sweeping.PosteriorTally, other: dict[str, object]) -> None:
         real(tally, other)
-        if tally.looked > 50_000:
+        if tally.examined > 50_000:
             raise KeyboardInterrupt
 
     monkeypatch.setattr(sweeping.PosteriorTally, "join", cut)

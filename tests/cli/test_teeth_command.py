@@ -142,7 +142,7 @@ def test_a_solution_is_written_as_a_train_that_does_what_is_requested(hands: Pat
 
 
 def test_nothing_found_tells_what_to_relax_and_exits_with_one(hands: Path) -> None:
-    done = call("teeth", "train", hands, "--least", 40, "--workers", 1)
+    done = call("teeth", "train", hands, "--minimum", 40, "--workers", 1)
     assert done.exit_code == 1
     assert "To relax" in done.stdout
     assert "candidates" in done.stdout
@@ -280,7 +280,7 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
         (("train", "hands.yaml", "--range", "12:20"), "--range"),
         (("train", "hands.yaml", "-o", "hands.yaml", "--force"), "train itself"),
         (("train", "hands.yaml", "--tolerance", "-1"), "--tolerance"),
-        (("ratio", "235/19", "--least", "20"), "--least"),
+        (("ratio", "235/19", "--minimum", "20"), "--minimum"),
         (("ratio", "235/19", "--planets", "3"), "--planets"),
         (("ratio", "235/19", "--tolerance", "1e400"), "--tolerance"),
         (("ratio", "235/19", "--tolrance", "1e-6"), "--tolrance"),

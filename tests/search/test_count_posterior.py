@@ -296,7 +296,7 @@ def test_the_ends_of_a_tolerance_are_within_it_and_nothing_beyond_is() -> None:
 
 def test_a_sample_covers_the_truth_as_often_as_its_intervals_promise(case: tuple[dict[str, Any], list[Any]]) -> None:
     exact = run(case[0], method="exact")
-    covered = looked = 0
+    covered = examined = 0
     for seed in range(1, 21):
         found = run(case[0], method="sample", samples=3000, seed=seed)
         pairs = [(found.evidence, exact.evidence)]
@@ -306,8 +306,8 @@ def test_a_sample_covers_the_truth_as_often_as_its_intervals_promise(case: tuple
             assert estimate.low is not None
             assert estimate.high is not None
             covered += estimate.low <= float(truth) <= estimate.high
-            looked += 1
-    assert 0.92 < covered / looked <= 1
+            examined += 1
+    assert 0.92 < covered / examined <= 1
 
 
 def test_a_sample_depends_on_its_seed_alone() -> None:
@@ -504,7 +504,7 @@ def test_an_interrupted_run_says_what_it_knows(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr("geartrain.search.posterior.inference.sample_task", first_only)
     found = run(CHAIN, method="sample", samples=60_000)
     assert found.cut
-    assert 0 < found.looked < 60_000
+    assert 0 < found.examined < 60_000
     assert found.evidence.low is not None
     assert found.evidence.low < float(run(CHAIN).evidence) < (found.evidence.high or 0)
 
@@ -521,12 +521,12 @@ def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
     for method in (None, "exact"):
         found = run(CHAIN, method=method)
         assert found.cut
-        assert (found.method, found.looked) == ("sample", 1 << 16)
+        assert (found.method, found.examined) == ("sample", 1 << 16)
         assert "knows nothing before its end" in found.remarks[-1]
         assert found.evidence.low is not None
         assert found.evidence.low < float(whole.evidence) < (found.evidence.high or 0)
         assert not found.ranked
-    assert run(CHAIN, samples=1000).looked == 1000, "no more is drawn than was allowed"
+    assert run(CHAIN, samples=1000).examined == 1000, "no more is drawn than was allowed"
 
 
 def test_a_batch_says_what_the_solver_says() -> None:

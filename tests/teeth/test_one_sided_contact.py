@@ -226,7 +226,7 @@ def test_pressure_under_a_shared_load_is_that_of_half_the_force_where_two_touch(
     rho = pair.pitch_radius(0) * sin(ALPHA) + x
     bend = np.sqrt(long / (rho * (long - rho)) / cos(ALPHA))
     two = (x + pitch <= last) | (x - pitch >= first)
-    data = json.loads(call("mesh", "involute", "--teeth", 24, 36, "--json").output)["costs"]
+    data = json.loads(call("mesh", "involute", "--teeth", 24, 36, "--json").output)["losses_and_stresses"]
     assert data["one_pair"]["stress"] == pytest.approx(bend.max(), rel=1e-6)
     assert data["shared"]["stress"] == pytest.approx(max(bend[~two].max(), (bend[two] / sqrt(2)).max()), rel=1e-5)
     assert data["shared"]["stress"] < data["one_pair"]["stress"]
@@ -266,7 +266,7 @@ def test_the_command_takes_contact_on_one_side() -> None:
     # the flank works between its own tip and where the mate's tip meets it
     low = hypot(ISSUE.base(0), ISSUE.pitch_radius(0) * sin(ISSUE.angle) + first)
     assert data["flanks"][0] == pytest.approx([low, ISSUE.tip(0)], rel=1e-12)
-    assert data["costs"]["shared"]["loss"] == pytest.approx(ISSUE.loss(True), rel=1e-6)
+    assert data["losses_and_stresses"]["shared"]["loss"] == pytest.approx(ISSUE.loss(True), rel=1e-6)
 
 
 @pytest.mark.parametrize("pair", [ISSUE, AFTER, BEFORE], ids=["ring", "after", "before"])

@@ -492,7 +492,7 @@ def spirals() -> float:
 
 def shared_work() -> Finding:
     """Work of one engagement of 24/36 involutes, the force undivided, and divided among the pairs in contact."""
-    answer = Command("mesh involute --teeth 24 36", "costs").value()
+    answer = Command("mesh involute --teeth 24 36", "losses_and_stresses").value()
     ratio = Command("mesh involute --teeth 24 36", "contact_ratio").value()
     whole, divided = answer["one_pair"]["loss"] * ratio, answer["shared"]["loss"]
     part = divided / whole

@@ -104,7 +104,7 @@ class PairImpacts(Result):
 
     KEYS = (
         *("inertia", "rate", "handed", "dissipated", "work"),
-        *(Key("load_to_stay_in_contact", "least_load"), Key("void_above", "void")),
+        *(Key("load_to_stay_in_contact", "minimum_load"), Key("void_above", "void")),
     )
 
     inertia: float

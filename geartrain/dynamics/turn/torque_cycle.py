@@ -173,8 +173,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
         "verdict",
         group(
             "input",
-            *("link", "mean", Key("maximum", "maximum_torque"), Key("minimum", "least_torque")),
-            *(Key("maximum_at", "greatest_place"), Key("minimum_at", "least_place")),
+            *("link", "mean", Key("maximum", "maximum_torque"), Key("minimum", "minimum_torque")),
+            *(Key("maximum_at", "maximum_place"), Key("minimum_at", "minimum_place")),
         ),
         Key("starting", "starting_torque"),
         Key("starting_at", "starting_place"),

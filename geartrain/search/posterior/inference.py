@@ -174,7 +174,7 @@ def infer_counts(
         chosen,
         soft,
         question.combinations,
-        found.looked,
+        found.examined,
         found.evidence,
         found.turning,
         found.fits,
@@ -235,7 +235,7 @@ def _find(
             # the exact join has no partial answer: a moment's sample says more than nothing, and it is not journalled,
             # since the exact join would begin anew
             found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
-            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.looked),))
+            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.examined),))
         except BudgetSpentError:
             if method is not None:
                 fix = "raise the limit, narrow the doubts, or let it sample"

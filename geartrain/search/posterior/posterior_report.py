@@ -69,8 +69,8 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
 
 def _summary(found: ToothCountPosterior) -> Iterator[str]:
     how = {
-        "exact": f"all were taken together, in {_many(found.looked)} steps; only what has an interval is estimated",
-        "sample": f"{_many(found.looked)} were drawn, seed {found.seed}; intervals are of 95 %",
+        "exact": f"all were taken together, in {_many(found.examined)} steps; only what has an interval is estimated",
+        "sample": f"{_many(found.examined)} were drawn, seed {found.seed}; intervals are of 95 %",
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."
     if found.cut:

@@ -198,7 +198,7 @@ class ToothCountPosterior(Tabular, Result):
     """
 
     KEYS = (
-        *(Key("train", "name"), "method", "soft", "combinations", "looked", "evidence", "turning", "fits", "ranked"),
+        *(Key("train", "name"), "method", "soft", "combinations", "examined", "evidence", "turning", "fits", "ranked"),
         *("seed", "ended", "assumed", "remarks", Key("witnesses", "known"), Key("wheels", "posteriors")),
         *(Key("correlations", "correlated"), "shares", "best"),
     )
@@ -211,7 +211,7 @@ class ToothCountPosterior(Tabular, Result):
     """Whether agreement is a matter of degree."""
     combinations: int
     """Of counts there are."""
-    looked: int
+    examined: int
     """Steps of the exact join, or combinations drawn."""
     evidence: CountProbability
     """Share of the prior weight that fits; the mean of exp(-misfit / 2) where agreement is by degree."""

@@ -101,7 +101,7 @@ def _chance(
 class PosteriorSummary:
     """Evidence, posteriors, correlations and candidates for the best, by either method."""
 
-    looked: int
+    examined: int
     evidence: CountProbability
     turning: CountProbability
     fits: int | None
@@ -126,10 +126,10 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
     posteriors = {
         wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
     }
-    evidence = _share(tally.weight, tally.looked, tally, question.soft)
+    evidence = _share(tally.weight, tally.examined, tally, question.soft)
     correlations = _of_sizes(question, tally)
     return PosteriorSummary(
-        tally.looked,
+        tally.examined,
         evidence,
         _counted(tally),
         None,
@@ -141,22 +141,22 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
     )
 
 
-def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> CountProbability:
+def _share(weight: float, examined: int, tally: PosteriorTally, soft: bool) -> CountProbability:
     """A share with its interval: Wilson's for hits, the normal one for degrees of agreement."""
-    if not looked:
+    if not examined:
         return CountProbability(0.0, 0.0, 1.0)
-    mean = float(weight) / looked
+    mean = float(weight) / examined
     if not soft or not weight:
-        return CountProbability(mean, *wilson(float(weight), looked))
-    half = deviations() * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)  # a variance: 0 but for rounding
+        return CountProbability(mean, *wilson(float(weight), examined))
+    half = deviations() * sqrt(max(tally.square / examined - mean**2, 0.0) / examined)  # a variance: 0 but for rounding
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
 
 
 def _counted(tally: PosteriorTally) -> CountProbability:
     if not tally.batch.question.conditions:
         return CountProbability(Fraction(1))
-    share = tally.turning / tally.looked if tally.looked else 0.0
-    return CountProbability(share, *wilson(tally.turning, tally.looked))
+    share = tally.turning / tally.examined if tally.examined else 0.0
+    return CountProbability(share, *wilson(tally.turning, tally.examined))
 
 
 def wheel_posterior(

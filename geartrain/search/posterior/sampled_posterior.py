@@ -126,7 +126,7 @@ class LikelihoodBatch:
 class PosteriorTally:
     """Sums over combinations.
 
-    looked    combinations
+    examined    combinations
     turning   number of those with which the train turns
     weight    of those that fit: their number, or their degrees of agreement where that is asked for
     square    sum of squared degrees of agreement, for intervals
@@ -138,7 +138,7 @@ class PosteriorTally:
 
     def __init__(self, batch: LikelihoodBatch, most: int) -> None:
         self.batch, self.most = batch, most
-        self.looked = self.turning = 0
+        self.examined = self.turning = 0
         self.weight: Any = 0
         self.square = 0.0
         self.by: list[list[Any]] = [[0] * len(batch.domains[wheel]) for wheel in batch.wheels]
@@ -187,7 +187,7 @@ class PosteriorTally:
 
     def join(self, other: Mapping[str, Any]) -> None:
         """Add what another tally came to."""
-        self.looked += other["looked"]
+        self.examined += other["examined"]
         self.turning += other["turning"]
         self.weight += other["weight"]
         self.square += other["square"]
@@ -200,7 +200,7 @@ class PosteriorTally:
     def to_dict(self) -> dict[str, Any]:
         """Plain data, for `join`."""
         return {
-            "looked": self.looked,
+            "examined": self.examined,
             "turning": self.turning,
             "weight": plain_number(self.weight),
             "square": self.square,
@@ -247,7 +247,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
         here = {wheel: at[start : start + BLOCK] for wheel, at in places.items()}
         rows = batch.columns({wheel: np.array(batch.domains[wheel])[at] for wheel, at in here.items()})
         met, misfit = batch.judged(rows)
-        tally.looked += rows.size
+        tally.examined += rows.size
         tally.turning += int(batch.turns(rows).sum())
         fit = np.flatnonzero(met)
         weights = np.exp(-misfit[fit] / 2) if batch.question.soft else np.ones(len(fit), dtype=np.int64)

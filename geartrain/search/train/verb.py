@@ -40,7 +40,7 @@ def run(
     ] = None,
     addendum: Annotated[str | None, typer.Option("--addendum", help="Of wheels, in modules.")] = None,
     ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Of rings, in modules.")] = None,
-    minimum: Annotated[int | None, typer.Option("--least", help="Least teeth of a free wheel.")] = None,
+    minimum: Annotated[int | None, typer.Option("--minimum", help="Minimum tooth count of a free wheel.")] = None,
     most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Most teeth of a free wheel.")] = None,
     shift: Annotated[
         int, typer.Option("--shift", min=0, help="Half modules by which centre distances may differ.")

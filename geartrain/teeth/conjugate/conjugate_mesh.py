@@ -287,7 +287,7 @@ class PairDesign(Result):
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
-        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "costs", "efficiency", "outlines"),
+        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "losses_and_stresses", "efficiency", "outlines"),
     )
 
     mesh: ConjugateMesh
@@ -349,7 +349,7 @@ class PairDesign(Result):
         return first, middle, last
 
     @cached_property
-    def costs(self) -> DesignLosses | None:
+    def losses_and_stresses(self) -> DesignLosses | None:
         """What the path costs; None for teeth that cannot run."""
         return DesignLosses(measure(self.path), *sliding(self.path)) if self.runs else None
 

@@ -235,7 +235,7 @@ class TwoFlankContact:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        return {"front": self.front.to_dict(), "back": self.back.to_dict(), "play": self.backlash.tolist()}
+        return {"front": self.front.to_dict(), "back": self.back.to_dict(), "backlash": self.backlash.tolist()}
 
 
 def solve(

@@ -396,7 +396,7 @@ def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
         assert caught.value.problems[0].fix.startswith("leave --backlash out, or ")
 
 
-@pytest.mark.parametrize(("said", "made", "plays"), [
+@pytest.mark.parametrize(("said", "made", "backlashes"), [
     ("", {}, (0.1, 0.1)),
     ("", {"backlash": 0.03}, (0.03, 0.03)),
     ("{form: cycloidal, backlash: 0.2 mm}", {}, (0.2, 0.1)),

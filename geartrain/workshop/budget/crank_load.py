@@ -51,7 +51,7 @@ def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: st
     time, one unit replaces the year. For a train of constant ratio any run gives the same result, so the run is one
     unit of time. The run is shorter if more teeth would pass than can be followed.
     """
-    once = abs(train.declaration.case(state).inputs[driving_link]) or 1
+    once = abs(train.declaration.case(state).inputs[driving_link]) or 1  # an input of speed 0 has no period
     period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
     if period is None:
         return float(once)

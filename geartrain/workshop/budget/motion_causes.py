@@ -314,6 +314,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     error = np.zeros(_POSITIONS)
     if used:
         error = motion.at(phase / (2 * pi * float(used[0].cycles))).error[0]
+    # a link that turns backwards shows the anomaly with the opposite sign
     sense = -1.0 if problem.ratio(link) < 0 else 1.0
     rest = minimum_difference(sense * error, TRUE_MOTIONS[body].eccentricity)
     how = f"pin of {used[0].id}" if used else "uniform motion without a pin"

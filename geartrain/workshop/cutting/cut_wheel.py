@@ -136,6 +136,7 @@ class CutWheel:
         """Return the wheel of `eccentric` without checking that it can be cut."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
+        # the flanks keep their directions, but the radius through the tip turns
         lean = self.sign * turned
         return replace(
             self,
@@ -163,6 +164,7 @@ class CutWheel:
 
     def mirrored(self, first: int = 0) -> CutWheel:
         """Return the mirrored wheel, turning the other way; its tooth i is tooth `first` - i of this one."""
+        # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
             self.radius,
@@ -284,6 +286,7 @@ class CutToothPairs(ToothPair):
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
         """Return some of the tooth pairs, or all in another order: `pick` is applied to every constant."""
+        # without __init__, which would recompute every constant
         found = CutToothPairs.__new__(CutToothPairs)
         found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
         for name in _CONSTANTS:
@@ -297,6 +300,7 @@ class CutToothPairs(ToothPair):
     @property
     def leaning(self) -> NDArray[np.bool_]:
         """True if a flank is inclined beyond the perpendicular when the tips meet."""
+        # rounding errors may exceed 1
         flank = np.arcsin(np.clip(np.maximum(abs(self.sin1), abs(self.sin2)), -1.0, 1.0))
         turned = np.maximum(self.reach, 0.0) - self.side * self.exit_angle
         found: NDArray[np.bool_] = np.asarray(flank + turned >= np.pi / 2)
@@ -355,6 +359,7 @@ class CutGearPair:
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
         R1, R2 = sizes.signed_radii
+        # extreme tips of either wheel, even if they never meet: an upper bound
         low, high = R1 + float(one.tip.min()), R2 + float(two.tip.max())
         delta = sizes.delta + float(one.tip.max()) + float(two.tip.max()) - sizes.side * shift
         return float(CutToothPairs(low, high, sizes.beta1, sizes.beta2, sizes.side * (sizes.D + shift), delta).reach)

@@ -129,6 +129,7 @@ def _setting(text: str) -> ErrorOverride:
         fix = f"write KIND=SIZE or NAME.KIND=SIZE; KIND is one of {', '.join(ERROR_KINDS)}"
         why = "an error is set by its kind and its size, such as 'tip=3 %'"
         raise QuestionError(Problem(f"'{text}' does not set an error", why, fix))
+    # errors quoted without a distribution are usually standard deviations
     way: ErrorDistributionKind = "normal"
     for each in ("value", "normal", "uniform"):
         if said.strip().startswith(f"{each} "):

@@ -254,6 +254,7 @@ class DisplacedPair:
         """
         at = self.contact
         last = len(at.normal) - 1
+        # constant beyond the ends, where `_kinks` adds the lag of tips
         place = np.clip((x - at.start) * (last / (at.end - at.start)), 0.0, last)
         low = np.minimum(place.astype(np.int64), last - 1)
         part = place - low
@@ -384,6 +385,7 @@ class DisplacedPair:
         """
         at = self.contact
         x, j = (at.start - at.entering.most, 1) if entering else (at.end + at.leaving.most, -1)
+        # just inside the limit, so that rounding does not put the pair out of reach
         x += 1e-9 * at.pitches[0] * (1 if entering else -1)
         other = x + j * at.pitches[0]
         nominal = float(self._even(np.array(other))), float(self._even(np.array(x)))

@@ -94,12 +94,14 @@ def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
             break
         # the minimum number of strokes for this position; if it is not enough, the position is found again
         wanted = np.maximum(np.ceil(-tight.backlash / (tight.gain * stroke)), 1).astype(np.int64)
+        # limited, so that a pair that cannot pass is not filed far beyond the limit at once
         wanted = np.minimum(wanted, int(np.ceil(deepest / stroke)))
         strokes[active] += wanted
         for wheel in (0, 1):
             at = tight.wheel == wheel
             low[wheel][active[at], tight.side[at], tight.tooth[at]] += wanted[at] * stroke
         lowest = np.maximum(*(each[active].max(axis=(1, 2)) for each in low))
+        # pairs with a flank beyond the limit are given up
         active = active[lowest <= deepest]
         if not len(active):
             break

@@ -117,6 +117,7 @@ def batch_verdicts(
                 "give arrays of shape (trials, z) for at least one of the wheels",
             )
         )
+    # with a common contact function the cost does not depend on the length of the cycle
     if first.only_pitch_deviations and second.only_pitch_deviations and np.ndim(shift) == 0:
         return verdicts_of_pitch_errors(whole, chunk)
     return MeshingVerdicts.joined([cycle_verdicts(part) for part in chunks(whole, chunk // whole.count)])
@@ -183,6 +184,7 @@ class MeshingCycle:
         self.pair, self.sizes, self.trials = pair, pair.sizes, pair.trials[0]
         k = np.arange(pair.count)
         self.front = pair.tooth_pairs(k)
+        # the back flanks are the front flanks of the mirrored pair
         self.back = pair.mirrored.tooth_pairs(-k)
         self.driver, self.driven = pair.places(k)
 
@@ -216,7 +218,7 @@ class MeshingCycle:
         backlash = np.full(self.trials, inf)
         where = np.zeros((2, self.trials), np.int64)
         for bound, each in self._candidates():
-            if bound > backlash.max():
+            if bound > backlash.max():  # in ascending order, so no later candidate can be smaller
                 break
             value = self._all(self._rough(each))
             rough[each.n] = np.minimum(rough[each.n], value) if each.n in rough else value
@@ -251,7 +253,9 @@ class MeshingCycle:
         order.
         """
         found = backlash_candidates(self.sizes, farthest(self.pair))
-        nearest = {each.n: each.backlash for each in reversed(found)}
+        nearest = {
+            each.n: each.backlash for each in reversed(found)
+        }  # reversed, so that the smallest of each n remains
         radial = self._other_error_bound()
         bounds = {
             n: backlash - self._pitch_deviation_bound(n) - radial - _SLACK * self.sizes.p2
@@ -272,6 +276,7 @@ class MeshingCycle:
         one, two, sizes = self.pair.first, self.pair.second, self.sizes
         tips = float(np.abs(one.tip).max() + np.abs(two.tip).max() + np.abs(self.pair.shift).max()) / sizes.R2
         flanks = max(float(np.abs(each).max()) for wheel in (one, two) for each in (wheel.leading, wheel.trailing))
+        # limited to 1.4 rad, because the tangent is infinite at a right angle
         steep = min(max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2, 1.4)
         length = (sizes.delta / sizes.R2 + tips) / np.cos(steep)
         return float(3 * np.tan(steep) * tips + 3 * length * flanks)
@@ -336,7 +341,7 @@ class MeshingCycle:
         y = np.where(self._all(self.front.reach > -inf), inf, -inf)
         for n in range(1, self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.front.reach))
-            if not (y > tip).any():
+            if not (y > tip).any():  # y only decreases, so later pairs cannot cause a clash
                 break
         found: Bools = ((y > tip) & np.isfinite(y)).any(axis=1)
         return found
@@ -379,7 +384,7 @@ class MeshingCycle:
         at = np.arange(self.pair.count) * self.sizes.p1 + self.driver
         enters = np.where(touches, at - reach, inf)
         leaves = np.where(touches, at + reach, -inf)
-        before = leaves - cycle
+        before = leaves - cycle  # the sequence of contacts is periodic
         until = np.maximum.accumulate(np.concatenate((before, leaves), axis=1), axis=1)[:, self.pair.count - 1 : -1]
         # a pair that enters before its predecessor does not open a gap
         following = np.minimum.accumulate(enters[:, ::-1], axis=1)[:, ::-1]
@@ -403,7 +408,7 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
     """
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
-    spread = 2 * float(np.abs(driver).max())
+    spread = 2 * float(np.abs(driver).max())  # two driving teeth may deviate in opposite directions
     near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
     tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)
     both, steep = 2 * float(tooth_pair.reach), steepest(tooth_pair)
@@ -412,6 +417,7 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
         if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > backlash.max():
             continue  # pitch deviations cannot bring these below the current minimum
         own = _interpolate(_table(sizes, n, _next_power_of_two(spread)), _next_power_of_two(spread), apart)
+        # teeth farther apart than the common reach never hold the driven wheel together
         own = np.where(np.abs(n * sizes.p1 + apart) < both, own, inf)
         backlash = np.minimum(backlash, _extreme_sum(own, (1 - n) * sizes.p2 + stop, np.minimum))
     return np.asarray(backlash)

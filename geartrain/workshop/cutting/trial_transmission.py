@@ -109,6 +109,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         apart = float(np.ptp(place)) / pair.sizes.p1 + float(np.ptp(pair.second.place)) / pair.sizes.p2
         low = floor((-widest - float(place.max())) / pair.sizes.p1) if widest > -inf else 0
         high = ceil((widest - float(place.min())) / pair.sizes.p1) + 1 if widest > -inf else -1
+        # numbers of tooth pairs, relative to the nearest one, that can touch or can be the last to have left
         self._window = range(low - _LAG_WINDOW - ceil(apart), high + 1)
 
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:

@@ -103,10 +103,11 @@ def file_names(names: Iterable[str]) -> list[str]:
     used: set[str] = set()
     found = []
     for name in names:
+        # at most 80 characters, so that paths stay below the limits of file systems
         base = re.sub(r"[^\w.+-]+", "-", name).strip("-.")[:80] or "part"
         stem = base = f"part-{base}" if _RESERVED.match(base) else base
         count = 1
-        while stem.lower() in used:
+        while stem.lower() in used:  # some file systems ignore case
             count += 1
             stem = f"{base}-{count}"
         used.add(stem.lower())
@@ -237,7 +238,7 @@ def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
 
 
 def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) -> Contour:
-    by = -by if is_hole else by
+    by = -by if is_hole else by  # half of the cut is lost on each side, so outlines grow and holes shrink
     if contour.is_circle:
         centre = contour.points.mean(axis=0)
         radius = float(abs(contour.points[0] - centre).max()) + by
@@ -250,7 +251,7 @@ def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) ->
         raise MissingExtraError("shapely", "proof", "an outline compensated for its kerf") from None
     found = Polygon(contour.flattened(drawing.tolerance)).buffer(by, quad_segs=_AROUND)
     rings = list(_rings(found))
-    if len(rings) != 1:
+    if len(rings) != 1:  # the offset hole has vanished or has been split
         raise _too_narrow(drawing, 2 * abs(by))
     return Contour.of([(x, y, 0.0) for x, y in rings[0]])
 

@@ -128,7 +128,7 @@ def _shape(part: SolidPart) -> Any:
     outer, *holes = (_wire(contour, low) for contour in part.contours)
     face = BRepBuilderAPI_MakeFace(plane, outer, True)
     for hole in holes:
-        hole.Reverse()
+        hole.Reverse()  # a hole is oriented against the outer wire
         face.Add(hole)
     return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, part.height)).Shape()
 

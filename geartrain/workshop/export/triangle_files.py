@@ -35,8 +35,9 @@ def to_stl(solid: Solid, name: str) -> bytes:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     rows = np.zeros(len(corners), dtype=_TRIANGLE)
-    rows["normal"] = normals / np.where(length > 0, length, 1)
+    rows["normal"] = normals / np.where(length > 0, length, 1)  # the normal of a degenerate triangle remains 0
     rows["corners"] = corners
+    # the format has a header of 80 bytes
     header = f"{name}, mm".encode("ascii", "replace")[:79].ljust(80)
     return header + np.uint32(len(rows)).tobytes() + rows.tobytes()
 
@@ -121,7 +122,7 @@ class _GlbFile:
         }
         content = {key: value for key, value in content.items() if value != []}
         text = json.dumps(content, separators=(",", ":")).encode("ascii")
-        text += b" " * (-len(text) % 4)
+        text += b" " * (-len(text) % 4)  # chunks have multiples of four bytes; JSON is padded with spaces
         chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
@@ -187,6 +188,7 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
+    # glTF requires unit normals, also for degenerate triangles
     normals = np.where(length > 0, normals / np.where(length > 0, length, 1), np.array([0.0, 0.0, 1.0]))
     short = np.repeat(np.rint(_UNIT * normals).astype(np.int64), 3, axis=0)
     # one integer for each corner: 8 bits for each component of the normal, and the index of the position
@@ -194,6 +196,7 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
     _, first, indices = np.unique(code, return_index=True, return_inverse=True)
     vertices = np.zeros(len(first), dtype=_VERTEX)
     vertices["position"], vertices["normal"] = steps[at[first]], short[first]
+    # index 65535 is reserved for primitive restart
     return vertices, indices.reshape(-1).astype("<u2" if len(first) <= 65535 else "<u4")
 
 

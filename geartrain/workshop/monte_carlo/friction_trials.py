@@ -209,6 +209,7 @@ def draw_friction(declared: Train, seed: int, trial: int) -> Train:
     drawn: dict[str, CoulombFriction] = {}
     for name, item, friction in _declarers(declared):
         if _is_random(friction):
+            # a whole block is drawn, so that a trial does not depend on the trials computed with it
             unit = float(streams.rng(item, FRICTION).standard_normal(BLOCK)[trial % BLOCK])
             drawn[name] = _with_coefficient(friction, unit)
     gears = [gear.model_copy(update=_friction_update(gear.name, drawn)) for gear in declared.gears]
@@ -239,9 +240,10 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction:
     """Return the friction changed by `unit` standard deviations, at least 0."""
     spread = _spread(friction)
+    # a coefficient of friction cannot be negative
     sliding = max(spread.sliding + unit * spread.deviation, 0.0)
     update: dict[str, Any] = {"sliding": Figure.parse(repr(sliding)), "deviation": None}
-    if friction.static is not None and spread.sliding:
+    if friction.static is not None and spread.sliding:  # static friction is scaled by the same factor
         update["static"] = Figure.parse(repr(sliding * float(friction.static.value) / spread.sliding))
     return friction.model_copy(update=update)
 

@@ -180,7 +180,7 @@ def clearances_figure(cleared: Sequence[ClearanceCase], title: str = "", event: 
     """
     clearances = sorted({each.clearance for each in cleared if each.clearance is not None})
     scales = sorted({each.scale for each in cleared})
-    table = np.full((len(clearances), len(scales)), np.nan)
+    table = np.full((len(clearances), len(scales)), np.nan)  # missing combinations remain blank
     for each in cleared:
         if each.clearance is not None:
             table[clearances.index(each.clearance), scales.index(each.scale)] = each.events[event].value
@@ -307,6 +307,7 @@ def _edges(values: Floats) -> Floats:
         return np.linspace(low - half, high + half, _BINS[0] + 1)
     middle = float(np.subtract(*np.percentile(values, (75, 25))))
     width = 2 * middle / values.size ** (1 / 3)
+    # the interquartile range is 0 if at least half of the values are equal
     bins = _BINS[1] if width <= 0 else int(np.clip((high - low) / width, *_BINS))
     return np.linspace(low, high, bins + 1)
 
@@ -539,6 +540,7 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
     if (widths > 0).any():
         below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
         below.set_yscale("log")
+    # every n-th number of trials from the last one down, so that the full number is labelled
     counts = sorted({float(count) for each in estimates.values() for count in each.trials})
     below.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
     below.set_xticks([], minor=True)

@@ -96,6 +96,7 @@ def draw_wheel(
     good = np.broadcast_to(cut.cuttable.all(axis=-1), (trials,))
     if good.all():
         return cut, good
+    # perfect teeth replace those that cannot be cut; these trials are flagged and not counted
     kept = [np.where(good[:, None], each, 0.0) for each in (cut.place, cut.tip, cut.leading, cut.trailing)]
     return CutWheel(cut.radius, wheel.half_angle, *kept), good
 

@@ -130,6 +130,7 @@ def find_sobol_indices(
     for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
         rows += part
     values = np.array(rows, dtype=float)
+    # outputs are infinite in trials in which no teeth touch
     values = values[np.isfinite(values).all(axis=1)]
     indices = [SobolIndex(name, *both) for name, both in zip(names, saltelli_indices(values, seed), strict=True)]
     ordered = tuple(sorted(indices, key=lambda each: -each.total.value))
@@ -195,6 +196,7 @@ class _OfKind:
 
     def __call__(self, item: int, kind: int) -> bool:
         del item
+        # the direction of an eccentricity belongs to the same input variable as its size
         also = {TOWARDS} if NUMBER[self.kind] == ECCENTRICITY else set()
         return kind in {NUMBER[self.kind], *also}
 

@@ -252,6 +252,7 @@ class DisplacedTrialPair(TrialPair):
         """Return the pair of drawn wheels, mirrored where they turn against their numbering."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
+        # filing and verdicts need an axis of trials, even if all trials are the same
         if not np.broadcast_shapes(first.trials, second.trials, np.shape(shift)):
             first = replace(first, place=first.place[None])
         return DisplacedPair(self.contact, first, second, shift)
@@ -485,6 +486,7 @@ def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
     cycles = [source.cycles / counts.get(source.id, 1) for source in composition.used if source.cycles]
     if not cycles:
         return 1.0
+    # least common multiple of the periods, which are the inverses of the cycles per turn
     whole = Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
     return float(min(whole, Fraction(_MAXIMUM_SPAN)))
 

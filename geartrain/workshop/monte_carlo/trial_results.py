@@ -91,6 +91,7 @@ class TrialResults:
     @cached_property
     def train(self) -> PairEventRates:
         """Event rates of the train: an event counts if any pair shows it."""
+        # the probability of any jam is at most the sum of the probabilities (Boole's inequality)
         bound = min(1.0, sum(self.bounds.values())) if len(self.bounds) == len(self.plan.pairs) else nan
         return _tally("the train", np.bitwise_or.reduce(self.marks, axis=1), nan, bound)
 
@@ -187,7 +188,7 @@ def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
 
 
 def _share(marks: Marks, mark: int) -> ProbabilityEstimate:
-    cut = marks[(marks & UNCUT) == 0]
+    cut = marks[(marks & UNCUT) == 0]  # trials with wheels that cannot be cut do not count
     return ProbabilityEstimate(int(np.count_nonzero(cut & mark)), len(cut))
 
 
@@ -200,6 +201,7 @@ def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
     """Return the covariance of each pair's part with the total, divided by the variance of the total."""
     found = {}
     for name, (count, part, whole, product) in sums.items():
+        # sum of products about the means; the common factor cancels in the ratio
         found[name] = product - part * whole / count if count else 0.0
     total = sum(found.values())
     return {name: each / total for name, each in found.items()} if total else {}

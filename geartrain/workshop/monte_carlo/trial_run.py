@@ -153,9 +153,10 @@ def run_trials(
                 _check_cut(plan, rows)
             if take is not None:
                 take(rows)
+            # only the table needs the backlash, so its memory is freed
             found.append(replace(rows, backlash=np.zeros((0, 0))))
     except KeyboardInterrupt:
-        if not found:
+        if not found:  # without a complete task there is nothing to return
             raise
     return gathered(plan, seed, trials, found)
 
@@ -329,10 +330,11 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     >>> course.errors.shape, course.bands().shape
     ((8, 5), (7, 5))
     """
-    trials = min(trials, BLOCK)
+    trials = min(trials, BLOCK)  # one stream of random numbers gives one block
     drawn = draw_trial_wheels(plan, RandomStreams(seed, _COURSE), trials)
     speed = abs(plan.speeds[output])
     turns = np.linspace(0.0, float(1 / speed) if speed else 1.0, positions)
+    # in chunks, because the arrays of all trials at all positions would not fit into the cache
     rows, chunk = np.repeat(np.arange(trials), positions), plan.composition.chunk
     everywhere = np.tile(turns, trials)
     parts = []

@@ -84,6 +84,7 @@ class SizeSearch:
             if not design.runs:
                 return _NOTHING
             missed = sum(max(limit.excess(design), 0.0) for limit in (*self.limits, *more))
+            # the violation leads the search towards feasible designs
             return _BEYOND + missed if missed > 0 else min(design.merit(aim), _NOTHING)
 
         return figure
@@ -110,7 +111,7 @@ class SizeSearch:
             bound = _limit(second, high + (low - high) * step / (_FRONT + 1))
             known = SampledFunction(self.value(first, [bound]), self.bounds)
             inside = [at for at, each in self.designs.items() if self.keeps(each, [bound])]
-            if inside:
+            if inside:  # the best known design within the bound is the start
                 polish(known, min(inside, key=lambda at: self.designs[at].merit(first)), rounds=1)
         return _spread(undominated([each for each in self.designs.values() if self.keeps(each)], first, second), second)
 

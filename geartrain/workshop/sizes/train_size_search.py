@@ -293,7 +293,7 @@ class TrainSizeSearch:
                 sizes |= better
             if before - best <= _GAIN * before:
                 break
-            reach /= 2
+            reach /= 2  # the changes of the sizes decrease from sweep to sweep
         return best, sizes
 
     def _step(
@@ -311,7 +311,7 @@ class TrainSizeSearch:
                 self.figure({**sizes, **designs}) if all(keeps(each, self.limits) for each in designs.values()) else inf
             )
             found = min(found, (figure, designs), key=lambda each: each[0])
-            return min(figure, 1e6)
+            return min(figure, 1e6)  # Brent's method needs finite values
 
         low, high = max(lowest, here - width), min(highest, here + width)
         if high > low:
@@ -510,7 +510,7 @@ def best_shared_angle(
             return 1e6
         minimum = figure(designs)
         found = min(found, (minimum, designs), key=lambda each: each[0])
-        return min(minimum, 1e6)
+        return min(minimum, 1e6)  # Brent's method needs finite values
 
     low, high = bounds
     step = (high - low) / (_SCAN - 1)

@@ -236,7 +236,7 @@ class TurnedPair:
         facing = 0.0 if which == 0 or self.ring else pi
         turn = facing - tooth * pitch + (0.0 if which == 0 else pitch / 2)
         whole = _moved(self.materials[which], np.array([turn]), 0.0)[0]
-        half = self._extents[which] + 1.1 * pitch
+        half = self._extents[which] + 1.1 * pitch  # the wheel turns by up to a pitch, plus a margin
         return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
 
     def _kinds(self, which: int) -> tuple[int, ...]:
@@ -295,6 +295,7 @@ def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...
     shapely.prepare(lines)
     turned = shapely.get_coordinates(lines) @ (1, 1j) * np.exp(2j * pi / count)
     near = shapely.dwithin(shapely.points(turned.real, turned.imag), lines, same)
+    # a wheel that does not coincide with itself after a pitch is treated as having no two equal teeth
     return (0,) * count if near.all() else tuple(range(count))
 
 
@@ -303,6 +304,7 @@ def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
     shapely = plane_geometry()
     height = abs(reach[0] - reach[1])
     steps = np.linspace(-half, half, 9)
+    # divided by the cosine, so that the chords of the sector are outside the circle
     low, high = max(min(reach) - height, 0.0), (max(reach) + height) / cos(half / 8)
     outer = [(high * cos(facing + s), high * sin(facing + s)) for s in steps]
     inner = [(low * cos(facing + s), low * sin(facing + s)) for s in steps[::-1]]
@@ -390,7 +392,7 @@ def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tole
     half = sqrt((u - x) ** 2 + (v - y) ** 2) / 2
     if not half:
         return []
-    radius = max(radius, half)
+    radius = max(radius, half)  # rounded coordinates may be farther apart than the diameter
     aside = sqrt(radius**2 - half**2) / (2 * half) * (1 if left != large else -1)
     cx, cy = (x + u) / 2 - aside * (v - y), (y + v) / 2 + aside * (u - x)
     first, last = atan2(y - cy, x - cx), atan2(v - cy, u - cx)

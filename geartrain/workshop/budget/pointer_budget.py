@@ -89,7 +89,7 @@ class BudgetCause(Result):
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Error of the mean speed of a pointer against one of its targets; positive values are fast.
+    """Error of the mean speed of a pointer against one of its targets; positive if the pointer is fast.
 
     See Also
     --------
@@ -215,7 +215,7 @@ class TrainBudget(Tabular, Pictured, Result):
     samples: int
     """Number of positions of the input."""
     driving_link: str
-    """Driving link."""
+    """Name of the driving link."""
     pointers: tuple[PointerBudget, ...]
     """Budget of each requested output."""
     crank: CrankLoad

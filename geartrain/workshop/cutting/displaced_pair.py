@@ -95,7 +95,7 @@ class DisplacedWheel:
 
     @property
     def cuttable(self) -> Bools:
-        """Mask (..., z): True if the next tooth is behind a tooth."""
+        """Mask (..., z): True if a tooth and the next one keep their order."""
         found: Bools = np.roll(self.place, -1, -1) - self.place > -2 * pi / self.z
         return found
 

@@ -506,7 +506,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask (trials,): True if the next tooth pair alone may be too late somewhere."""
+        """Mask (trials,): True if the next tooth pair may be too late somewhere, so that all pairs must be compared."""
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
         clash = _extreme_sum(*self._entering(1), np.maximum) > self.tip - near

@@ -318,7 +318,7 @@ class TrialPlan:
     span: float
     """Range of the random positions of the input [turn]."""
     driving_link: str
-    """Driving link."""
+    """Name of the driving link."""
 
     @property
     def position(self) -> int:

@@ -270,7 +270,7 @@ class FilingStatistics(Result):
     most: int
     """Maximum number of strokes in a trial."""
     jams: ProbabilityEstimate
-    """Probability of a jam after filing. Filing stops at a limit of the flank."""
+    """Probability of a jam after filing. A pair still jams if a flank reached its limit."""
 
 
 @dataclass(frozen=True)

@@ -409,9 +409,9 @@ class BestTrainSizes(Tabular, Pictured, Result):
     impacts, or the minimum margin [module].
     """
     apart: float
-    """The same figure with each pair optimised separately."""
+    """Objective of the train, as in `before`, with each pair optimised separately."""
     together: float
-    """The same figure with all pairs optimised together."""
+    """Objective of the train, as in `before`, with all pairs optimised together."""
     pairs: tuple[PairSizes, ...]
     """Sizes of the pairs that act on the output."""
     untouched: Mapping[str, str]

@@ -367,7 +367,7 @@ class _Steps:
             own = [other.name for other in every if other.wheels == each.wheels]
             if each.name == own[-1]:
                 washers = [f"{name} washer {at}" for name in own for at in (1, 2)]
-                text = f"Put {', '.join(each.wheels)} between washers on {', '.join(own)}, free to turn"
+                text = f"Put {', '.join(each.wheels)} on {', '.join(own)} between washers, free to turn"
                 if each.wave is not None:
                     text = f"Bend {', '.join(each.wheels)}, which is one piece with its cup, over {each.name}"
                 yield self._step(text, [*each.wheels, *washers])

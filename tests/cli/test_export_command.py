@@ -59,7 +59,7 @@ def test_a_folder_that_is_stopped_half_way_is_not_there(tmp_path: Path, monkeypa
     monkeypatch.setattr(sys.modules["geartrain.workshop.export.file_set"], "readme", stop)
     done = call("export", "planetary-24-18-60", "--to", tmp_path / "set", "--as", LIGHT)
     assert done.exit_code == 130
-    assert "nothing is written" in done.stderr
+    assert "no files were written" in done.stderr
     assert list(tmp_path.iterdir()) == []
 
 

@@ -244,7 +244,7 @@ def test_a_pointer_that_reads_no_time_has_no_days() -> None:
     middle = budget["middle"]
     assert middle.degrees_per_day is None
     assert middle["ratio"].declared == "not declared"
-    assert "no time" in middle["ratio"].note
+    assert "not a time" in middle["ratio"].note
     assert middle.drifts[0].ppm == 0.0
 
 

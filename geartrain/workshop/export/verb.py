@@ -109,7 +109,8 @@ def run(
 
     if (to is None) == (out is None):
         what = "the output is missing" if to is None else "--to and -o are both given"
-        raise GearTrainError(Problem(what, "", "give --to FOLDER for all files, or -o FILE for one", "export"))
+        why = "an export writes either a folder of files or a single file"
+        raise GearTrainError(Problem(what, why, "give --to FOLDER for all files, or -o FILE for one", "export"))
     of_time = {"--rate": rate, "--restitution": restitution, "--step": step, "--without": without or None}
     of_solids: dict[str, object] = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
     of_solids |= {"--backlash": backlash, "--process": process, "--arms": arms, "--sheet": sheet, "--turns": turns}

@@ -160,7 +160,9 @@ class TrainSizeSearch:
         found = tuple(name for name in self._meshes if name in self._drivers)
         if not found:
             what = f"no pair with triangular teeth acts on '{self.output}'"
-            raise QuestionError(Problem(what, "", "give another --output, or declare `tooth_form: {form: triangular}`"))
+            why = "only pairs between the input and the output influence it, and only triangular teeth have free sizes"
+            fix = "give another --output, or declare `tooth_form: {form: triangular}`"
+            raise QuestionError(Problem(what, why, fix))
         return found
 
     def _unchanged(self) -> Iterator[tuple[str, str]]:

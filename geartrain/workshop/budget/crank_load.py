@@ -115,6 +115,7 @@ def find_weight_drive(
     if escapement is None:
         return WeightDrive(link, drive.pull)
     found = find_natural_run(_driven_by(train, state, link, drive.pull), state, driving_link, escapement.link)
+    # the escape wheel resists, so its torque is the negative of the load
     mean = None if found.mean is None else -found.mean
     minimum = None if found.maximum is None else -found.maximum.torque
     return WeightDrive(link, drive.pull, None, escapement.link, mean, minimum, found.efficiency)

@@ -154,6 +154,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
     """Return the pairs and couplings whose error reaches an output, directly or through the angle of a pin."""
     spread, signs = motion.spread, motion.train.signs
     couplings = {circuit.id for circuit in motion.train.circuits if circuit.swings}
+    # depth-first search: the error of a pin depends on the angle of its driver, which other pairs move
     waiting, found = [motion.outputs[output]], dict.fromkeys(spread.pairs, False)
     index = {link: at for at, link in enumerate(spread.links)}
     while waiting:
@@ -203,7 +204,7 @@ def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCaus
     backlash = f"; backlash of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
     lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + backlash)
-    if known.real and most < _ROUNDING:
+    if known.real and most < _ROUNDING:  # teeth without backlash lose no motion, which is rarely meant
         lost = BudgetCause.unknown("lost motion", "its pairs have teeth, but no backlash is declared")
     return _cause("teeth", declared, tally.peak_to_peak, tally.rms, of + worst + more), lost
 

@@ -175,6 +175,7 @@ class PointerBudget(Result):
     def overtaken_after_years(self) -> float | None:
         """Julian years after which the drift of the ratio equals the largest other cause; None if it never does."""
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
+        # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
         return max(others) / abs(yearly) if others and yearly else None
 

@@ -330,6 +330,7 @@ class CuttingTrials:
         if known.bare and not np.ptp(errors[whole]):
             return BudgetCause.unknown("cutting", f"no dimensions are declared for {', '.join(known.bare)}")
         runs = whole & turning_trials(self.trials.marks, self.trials.plan.reach[at])
+        # too few turning trials give no useful percentiles, so all trials are used
         kept = runs if np.count_nonzero(runs) >= FEWEST else whole
         note = f"{int(np.count_nonzero(runs))} of {self.trials.done} trials turn"
         note += f", {reach} of {known.gears} pairs cut" if reach < known.gears else ""
@@ -337,6 +338,7 @@ class CuttingTrials:
         values = np.sort((errors - self.even[at])[kept])
         low, high = percentile_of(values, 2.5), percentile_of(values, 97.5)
         size = degrees(high.value - low.value)
+        # smallest and largest range that the intervals of both percentiles allow
         within = degrees(max(high.low - low.high, 0.0)), degrees(high.high - low.low)
         interval = within if np.isfinite(within).all() else None
         if interval is None:
@@ -366,7 +368,7 @@ def cutting_plan(
     try:
         return find_trial_plan(train, settings, outputs, state, without), ""
     except GearTrainError as error:
-        if cutting:
+        if cutting:  # errors given explicitly must be applied; otherwise the cause is only marked as unknown
             raise
         return None, error.problems[0].what
 

@@ -173,6 +173,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     for each in settings:
         if each.kind in OF_WHEELS and each.of in ("", name):
             errors[each.kind] = reader.set(each)
+    # errors of size 0 are removed, so that a perfect wheel is recognised as such
     errors = {kind: off for kind, off in errors.items() if off.size}
     reader.check(errors)
     at = cutting.eccentricity_angle if cutting is not None else None
@@ -220,6 +221,7 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
             # the pitch circle is halfway down the tooth
             half = even.depth / 2
             deep = even.depth * module * even.z / 2 / (1 + half if even.ring else 1 - half)
+    # the aperture is the whole angle of a tooth, so its unit is twice the half angle
     lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
     return {"pitch_deviation": even.pitch, "aperture_deviation": 2 * even.half_angle, **lengths}
 
@@ -255,7 +257,7 @@ class _Reader:
 
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
-            if abs(off.size) >= MOST[kind]:
+            if abs(off.size) >= MOST[kind]:  # also for random errors: one standard deviation must leave a tooth
                 of = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}.get(
                     kind, "the depth of its teeth"
                 )

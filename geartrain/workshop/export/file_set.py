@@ -44,7 +44,7 @@ SUFFIXES = {
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
 """Suffixes of single files that contain one wheel."""
 
-_NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}
+_NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}  # kind -> (library, extra that installs it)
 _TITLES = {
     "graphml": "graph of links and pairs",
     "dot": "graph of links and pairs for Graphviz",
@@ -54,7 +54,7 @@ _TITLES = {
     "step": "all parts with exact arcs, in mm",
 }
 
-_DIGITS = 15
+_DIGITS = 15  # significant digits that a double always keeps
 Rows = Sequence[Sequence[object]]
 
 
@@ -326,6 +326,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
         from geartrain.workshop.export.step_file import left_out
 
         found += left_out(work)
+    # the same problem can come from several sources
     once: dict[str, Problem] = {}
     for problem in found:
         once.setdefault(problem.text, problem)

@@ -131,7 +131,7 @@ def _judged(
     parts = trial_tasks(trials, len(cases))
     results = means.run(partial(work_case, plan, seed), [[*case, *part] for case in cases for part in parts])
     for clearance, scale in cases:
-        counts = np.sum([next(results) for _ in parts], axis=0)
+        counts = np.sum([next(results) for _ in parts], axis=0)  # results come in the order of the tasks
         found = [
             {name: ProbabilityEstimate(*each) for name, each in zip(EVENTS, row.tolist(), strict=True)}
             for row in counts

@@ -111,6 +111,7 @@ def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) ->
 
 def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
     pair = drawn.plan.pairs[at]
+    # jams are found at the smallest distance of the bearings, other events at both limits
     near, far = pair.verdicts(drawn.pair(at, -1)), None
     if pair.fitting.get("bearing"):
         far = pair.verdicts(drawn.pair(at, 1))

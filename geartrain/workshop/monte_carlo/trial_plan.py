@@ -180,6 +180,7 @@ class TriangularTrialPair(TrialPair):
     def filed(self, pair: Any) -> FilingWork[Any]:
         """Apply the file to the pairs that jam; pairs of the other trials are returned unchanged."""
         count = pair.trials[0] if pair.trials else 1
+        # only jamming pairs are filed, because finding the tightest position is expensive
         jams = np.flatnonzero(self.verdicts(pair).jams)
         strokes, teeth = np.zeros((2, count), np.int64)
         low = tuple(np.zeros((count, 2, z)) for z in self.teeth)
@@ -206,7 +207,7 @@ class TriangularTrialPair(TrialPair):
         return replace(self, sizes=self._cleared(clearance))
 
     def _cleared(self, clearance: float) -> TriangularSizes:
-        if clearance >= 1:
+        if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return self.sizes.at(clearance - 1)
         from geartrain.teeth.triangular.clearance_window import find_window
 
@@ -424,6 +425,7 @@ def find_trial_plan(
     """
     motion = train.motion(state, outputs, without)
     meshes = _cut_meshes(train, motion)
+    # a wheel in several pairs is drawn once, with the teeth of its first pair
     even: dict[str, WheelErrors] = {}
     for mesh in meshes:
         for wheel in _even_wheels(train, mesh):

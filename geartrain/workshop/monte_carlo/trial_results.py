@@ -162,6 +162,7 @@ class TrialResults:
             Name of the event: jam, clash, stops, dwell or disengaged.
         """
         mark, whole = EVENTS[event], np.bitwise_or.reduce(self.marks, axis=1)
+        # successive halving, because intervals narrow with the square root of the number of trials
         counts = sorted({max(1, self.done >> half) for half in range(5)}) if self.done else []
         return [(count, _share(whole[:count], mark)) for count in counts]
 
@@ -342,7 +343,7 @@ class PointerErrorStatistics(Result):
     @property
     def kept(self) -> Floats:
         """Errors used for the statistics [rad]: `errors`, or `all` if fewer than 30 trials can turn."""
-        return self.all if self.of_all else self.errors
+        return self.all if self.of_all else self.errors  # few trials give no useful statistics
 
     @property
     def of_all(self) -> bool:

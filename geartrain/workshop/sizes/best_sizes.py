@@ -150,6 +150,7 @@ def find_tooth_sizes(
     search = SizeSearch(start, ranges, limits, on_design)
     rules = [start.at({"radii": radii}) for radii in (equal_depth_radii(*start.teeth, start.half_angles), 1.0)]
     equal, true = (each if each.runs else None for each in rules)
+    # the rule-based designs are starts, so that the result is never worse than they are
     best = search.minimum(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
     if chance is not None and len(aims) == 2:
         what = "a Pareto front cannot have a limit on the probability of stopping"

@@ -182,6 +182,7 @@ class ToothSizes(Result):
     def jam(self) -> float:
         """Margin before a jam or a loss of contact: permissible change of the centre distance [module]."""
         assert self.limits is not None
+        # distance to the nearer end of the window: a jam on one side, loss of contact on the other
         sizes, nearest = self.sizes, min(self.window, 1 - self.window)
         module = 2 * sizes.D / sizes.pitch_sum
         return nearest * (self.limits.run - self.limits.jam) * sizes.deepest_distance / module
@@ -217,7 +218,7 @@ class ToothSizes(Result):
         if not self.runs:
             return inf
         found = float(getattr(self, aim))
-        return inf if isnan(found) else found
+        return inf if isnan(found) else found  # NaN would break the comparisons of the optimiser
 
 
 _FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash", "window_width", "phases")

@@ -231,6 +231,7 @@ class TrainSizeSearch:
         first = self.figure({}) if all(runs.values()) and self._is_joint else self.figure(before)
         apart = self._separate_optima()
         alone = self.figure(apart)
+        # pairs that are best separately need not be best together
         best, together = (first, before) if first < alone and self._is_joint else (alone, apart)
         if best == inf:
             what = f"'{self.train.name}' cannot drive '{self.output}' with any sizes of its teeth"
@@ -476,6 +477,7 @@ def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple
     joined: DisjointSets[str] = DisjointSets()
     for first, second in wheels.values():
         joined.join(first, second)
+    # both wheels of a pair are in one set, so its first wheel identifies the group
     groups: dict[str, list[str]] = {}
     for name, (first, _) in wheels.items():
         groups.setdefault(joined.find(first), []).append(name)
@@ -516,6 +518,7 @@ def best_shared_angle(
 
     low, high = bounds
     step = (high - low) / (_SCAN - 1)
+    # the scan finds the right basin; Brent's method then refines within it
     best = min((low + step * each for each in range(_SCAN)), key=value)
     around = max(low, best - step), min(high, best + step)
     minimize_scalar(value, bounds=around, method="bounded", options={"maxiter": _ANGLE_TRIES, "xatol": _NEAR})

@@ -127,7 +127,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     findings += [*uncut, *_frame(work), *cut.findings]
     findings += [found for mesh in meshes for found in mesh.findings]
     findings += [*prove_waves(work, cut), *freedom.findings, *prove_solids(work, watch)]
-    ranked = sorted(findings, key=lambda found: not found.is_error)
+    ranked = sorted(findings, key=lambda found: not found.is_error)  # stable, with errors first
     return TrainProof(tuple(meshes), freedom.links, tuple(ranked))
 
 

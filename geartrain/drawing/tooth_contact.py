@@ -381,7 +381,7 @@ def _label(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, 
 def _moment(here: ToothPairPose) -> str:
     where = f"$\\alpha_1 = {degrees(here.alpha1):.4g}°$, $\\alpha_2 = {degrees(here.alpha2):.4g}°$"
     if not here.touching:
-        return f"standstill: {where}; no tooth touches, the driven wheel stands"
+        return f"dwell: {where}; no tooth touches, the driven wheel is at rest"
     return f"{here.phase}: {where}, speed ratio {here.tau:.4g}"
 
 

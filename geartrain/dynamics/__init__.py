@@ -50,12 +50,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BearingTorque",
-    "CornerPositions",
     "CycleEnergy",
     "DrivenWay",
     "ErrorEstimates",
     "ErrorSamples",
     "HoldingTorque",
+    "KinkPositions",
     "Motion",
     "MotionRun",
     "NeglectedEffect",
@@ -81,7 +81,7 @@ __all__ = [
 ]
 
 _PLACES = {
-    "CornerPositions": "motion.corner_positions",
+    "KinkPositions": "motion.kink_positions",
     "ErrorSamples": "motion.error_composition",
     **dict.fromkeys(("Motion", "TransmissionErrorCurve"), "motion.motion_model"),
     "MotionRun": "motion.motion_run",

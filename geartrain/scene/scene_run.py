@@ -161,7 +161,7 @@ class SceneRun(Result):
     """Angles, in the order of bodies."""
     contacts: Sequence[SceneContact]
     """Teeth, pins and the escapement."""
-    deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputLead")]]
+    deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
     """How far outputs are ahead of `motion` and behind."""
     notes: Sequence[str]
     """What is left out, and what is drawn as one."""

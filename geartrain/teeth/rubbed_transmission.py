@@ -51,7 +51,7 @@ class RubbedTransmission(DerivedTransmission):
     Examples
     --------
     >>> from geartrain.teeth import Involute, PairFriction, StribeckFriction
-    >>> friction = StribeckFriction(transmission="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")
+    >>> friction = StribeckFriction(law="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")
     >>> rubbed = RubbedTransmission(Involute(form="involute").transmission(24, 36), PairFriction(friction, 0.05))
     >>> round(rubbed.friction, 4), round(rubbed.efficiency_mean(), 4)
     (0.1512, 0.9811)

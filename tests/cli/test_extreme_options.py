@@ -42,7 +42,7 @@ outputs: {b: }
 """
 
 TRIANGULAR = ("mesh", "triangular", "--teeth", "48", "96")
-CLEARED = (*TRIANGULAR, "--clearance", "1.01")
+CLEARED = (*TRIANGULAR, "--clearance-factor", "1.01")
 SIZED = (*CLEARED, "--module", "2mm")
 CONJUGATE = {
     "involute": ("pressure-angle:angle", "shift", "addendum", "dedendum", "centre-distance"),
@@ -60,7 +60,7 @@ OUTLINED += ("module:length",)
 CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
     (
         TRIANGULAR,
-        ("half-angle:angle", "clearance", "excess", "window", "backlash", "centre-distance", "radii", "driver"),
+        ("half-angle:angle", "clearance-factor", "excess", "window", "backlash", "centre-distance", "radii", "driver"),
     ),
     (CLEARED, ("half-angle:angle", "module:length", "friction", "radii")),
     ((*SIZED, "--rate", "1turn/s", "--load", "1N*m"), ("inertia:inertia",)),

@@ -38,7 +38,7 @@ def test_the_jumps_are_those_printed(z1: int, z2: int, a: float, jumps: dict[str
 
 
 def test_every_key_of_the_json_is_the_promised_one() -> None:
-    data = json.loads(call(*PAIR, "--clearance", 1.01, "--json").output)
+    data = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--json").output)
     assert set(data) == KEYS
     assert set(data["speed_ratio"]) == {"mean", "exact", "min", "max"}
     assert set(data["transmission_error"]) == {"peak_to_peak", "rms", "mean"}
@@ -57,10 +57,10 @@ def test_every_key_of_the_json_is_the_promised_one() -> None:
 @pytest.mark.parametrize(
     ("arguments", "kind", "said"),
     [
-        (["--clearance", 1.001], "jam", "below the window"),
-        (["--clearance", 1.034], "dwell", "above the window"),
-        (["--clearance", 1.05], "apart", "above the window"),
-        (["--clearance", 1.01, "--half-angle", "89deg"], "no valley", "use more teeth or a smaller half_angle"),
+        (["--clearance-factor", 1.001], "jam", "below the window"),
+        (["--clearance-factor", 1.034], "dwell", "above the window"),
+        (["--clearance-factor", 1.05], "apart", "above the window"),
+        (["--clearance-factor", 1.01, "--half-angle", "89deg"], "no valley", "use more teeth or a smaller half_angle"),
     ],
 )
 def test_a_pair_outside_its_window_is_a_verdict_that_names_it(arguments: list[object], kind: str, said: str) -> None:
@@ -83,28 +83,28 @@ def test_friction_that_locks_is_a_verdict_with_the_minimum_friction_that_does() 
 
 
 REFUSED = [
-    (["--teeth", 2, 96, "--clearance", 1.01], "at least 3 teeth"),
-    (["--teeth", 48, 96, "--clearance", 1], "above 1"),
-    (["--teeth", 48, 96, "--clearance", "nan"], "'nan' is not a number"),
-    (["--teeth", 48, 96, "--clearance", "inf"], "'inf' is not a number"),
+    (["--teeth", 2, 96, "--clearance-factor", 1.01], "at least 3 teeth"),
+    (["--teeth", 48, 96, "--clearance-factor", 1], "above 1"),
+    (["--teeth", 48, 96, "--clearance-factor", "nan"], "'nan' is not a number"),
+    (["--teeth", 48, 96, "--clearance-factor", "inf"], "'inf' is not a number"),
     (["--teeth", 48, 96, "--excess", 0], "above 0"),
     (["--teeth", 48, 96, "--window", 1.5], "between 0"),
     (["--teeth", 48, 96], "exactly one of"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--excess", 0.01], "exactly one of"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "95deg"], "between 0 and 90 deg"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "30"], "has no unit"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "3mm"], "is a length"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--friction", -0.1], "0 or more"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--rate", "3 furlong"], "unknown unit"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--excess", 0.01], "exactly one of"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "95deg"], "between 0 and 90 deg"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "30"], "has no unit"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "3mm"], "is a length"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--friction", -0.1], "0 or more"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--rate", "3 furlong"], "unknown unit"),
     (["--teeth", 48, 96, "--centre-distance", "40mm"], "nothing to be compared with"),
     (["--teeth", 48, 96, "--centre-distance", "40", "--radii", "10mm,20mm"], "mix plain numbers"),
     (["--teeth", 48, 96, "--backlash", "9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
     (["--teeth", 8, 64, "--window", 0.5], "no clearance lets 8 and 64"),
     (["--teeth", 48, 96, "--vary", "clearence=1:2:3"], "cannot be varied"),
     (["--teeth", 48, 96, "--vary", "clearance-factor=1:2"], "FIRST:LAST:COUNT"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--plot", "x.bmp"], "'.bmp'"),
-    (["--teeth", 48, 96, "--clearance", 1.01, "--profile", "w.svg"], "there is no module"),
-    (["--teeth", 48, 96, "--module", "1mm", "--clearance", 1.01, "--profile", "w.stl"], "no form of outline"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--plot", "x.bmp"], "'.bmp'"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--profile", "w.svg"], "there is no module"),
+    (["--teeth", 48, 96, "--module", "1mm", "--clearance-factor", 1.01, "--profile", "w.stl"], "no form of outline"),
     (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "leave --vary out"),
 ]
 
@@ -119,7 +119,7 @@ def test_what_cannot_be_a_pair_is_refused_kindly(arguments: list[object], said: 
 
 def test_clearances_given_in_five_ways_are_one() -> None:
     sized = ("--module", "0.5mm")
-    first = json.loads(call(*PAIR, "--clearance", "1.015", *sized, "--json").output)
+    first = json.loads(call(*PAIR, "--clearance-factor", "1.015", *sized, "--json").output)
     # half the module times the teeth is the least centre distance: 36 mm
     assert first["sizes"]["centre_distance"] == pytest.approx(0.036 * 1.015, rel=1e-14)
     window = first["window"]
@@ -136,15 +136,15 @@ def test_clearances_given_in_five_ways_are_one() -> None:
 
 
 def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
-    there = json.loads(call(*PAIR, "--clearance", 1.01, "--json").output)
-    back = json.loads(call(*PAIR, "--clearance", 1.01, "--driver", 2, "--json").output)
+    there = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--json").output)
+    back = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--driver", 2, "--json").output)
     swapped = json.loads(
         call("mesh", "triangular", "--teeth", 96, 48, "--friction", 0.2, "--clearance-factor", 1.01, "--json").output
     )
     assert back["speed_ratio"]["mean"] == 2
     for key in ("min", "max"):
         assert back["speed_ratio"][key] == pytest.approx(swapped["speed_ratio"][key], rel=1e-12)
-    reverse = json.loads(call(*PAIR, "--clearance", 1.01, "--backwards", "--json").output)
+    reverse = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--backwards", "--json").output)
     for key in ("min", "max"):
         assert reverse["speed_ratio"][key] == there["speed_ratio"][key]
 
@@ -152,7 +152,16 @@ def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
 def test_impacts_share_the_drivers_work() -> None:
     data = json.loads(
         call(
-            *PAIR, "--clearance", 1.01, "--inertia", "20 g cm2", "--rate", "1 turn/s", "--load", "2 N mm", "--json"
+            *PAIR,
+            "--clearance-factor",
+            1.01,
+            "--inertia",
+            "20 g cm2",
+            "--rate",
+            "1 turn/s",
+            "--load",
+            "2 N mm",
+            "--json",
         ).output
     )
     impacts, (jump,) = data["impacts"], data["jumps"]
@@ -189,9 +198,9 @@ def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None
     runs = [row for row in rows if row["verdict"] == "runs"]
     assert all(0 < float(row["efficiency_mean"]) <= 1 for row in runs)
     said = result.stderr
-    assert "clearance 1.000801478: jam (approach+recess) -> runs (approach+recess)" in said
-    assert "runs (astride) -> standstill" in said
-    assert "clearance 1.01172" in said
+    assert "clearance_factor 1.000801478: jam (approach+recess) -> runs (approach+recess)" in said
+    assert "runs (astride) -> dwell" in said
+    assert "clearance_factor 1.01172" in said
     assert "greatest mean efficiency, 0.9944" in said
 
 
@@ -207,7 +216,10 @@ def test_a_sweep_of_two_has_every_combination() -> None:
 def test_pictures_are_written_whole(tmp_path: Path, suffix: str) -> None:
     transmission, teeth = tmp_path / f"law{suffix}", tmp_path / f"teeth{suffix}"
     assert (
-        call(*PAIR, "--clearance", 1.01, "--plot", transmission, "--teeth-plot", teeth, "--at", "-5deg").exit_code == 0
+        call(
+            *PAIR, "--clearance-factor", 1.01, "--plot", transmission, "--teeth-plot", teeth, "--at", "-5deg"
+        ).exit_code
+        == 0
     )
     starts = {".svg": b"<?xml", ".png": b"\x89PNG", ".pdf": b"%PDF"}
     for path in (transmission, teeth):
@@ -216,7 +228,7 @@ def test_pictures_are_written_whole(tmp_path: Path, suffix: str) -> None:
 
 
 def test_a_page_of_a_pair_needs_no_plots() -> None:
-    requested: list[object] = [*PAIR, "--clearance", "1.01"]
+    requested: list[object] = [*PAIR, "--clearance-factor", "1.01"]
     done = without("matplotlib", "scipy", arguments=requested)
     assert (done.returncode, done.stderr) == (0, "")
     refused = without("matplotlib", "scipy", arguments=[*requested, "--plot", "x.svg"])
@@ -282,20 +294,20 @@ REFUSED_TRANSMISSIONS = [
 
 
 @pytest.mark.parametrize(("arguments", "said"), REFUSED_TRANSMISSIONS, ids=lambda value: str(value)[:40])
-def test_a_transmission_of_friction_says_what_it_lacks(arguments: list[object], said: str) -> None:
+def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str) -> None:
     done = ended("mesh", "triangular", "--teeth", 48, 96, "--window", 0.5, *arguments)
     assert done.returncode == 2
     assert said in " ".join(done.stderr.split())
 
 
-def test_a_pair_under_a_transmission_of_friction_tells_its_speed_and_what_acts_at_every_angle(tmp_path: Path) -> None:
+def test_a_pair_under_a_law_of_friction_tells_its_speed_and_what_acts_at_every_angle(tmp_path: Path) -> None:
     requested = (
         "mesh",
         "triangular",
         "--teeth",
         48,
         96,
-        "--clearance",
+        "--clearance-factor",
         1.01,
         "--friction",
         TRANSMISSION,

@@ -106,7 +106,7 @@ def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: P
     picture = tmp_path / "t.svg"
     assert call("torques", pin, "--turns", "1", *SAMPLES, "--plot", picture).exit_code == 0
     drawn = picture.read_text(encoding="utf-8")
-    assert 'id="greatest"' in drawn
+    assert 'id="maximum"' in drawn
     assert "mean 12.098" in drawn
     assert 'id="locked"' not in drawn
     pin.write_text(LOCKS, encoding="utf-8")

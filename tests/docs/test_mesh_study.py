@@ -46,6 +46,6 @@ def test_records_survive_json_and_print_a_table_for_each_quantity(records: MeshR
     assert all(f"| {quantity} |" in again.to_markdown() for quantity in ("path", "window", "error", "speed"))
 
 
-def test_each_transmission_is_built_anew() -> None:
+def test_each_law_is_built_anew() -> None:
     pair = _Pair(48, 96, 30, 0.01, 10)
     assert pair.build("direct").contact is not pair.build("direct").contact

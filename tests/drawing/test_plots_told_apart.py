@@ -127,7 +127,7 @@ def test_a_sweep_names_its_parameters_by_itself() -> None:
     ways = np.full(x.shape, "recess")
     figure = sweep_figure({"half_angle": x, "z1": y}, {"efficiency_mean": x}, ways, units={"half_angle": "deg"})
     assert (figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()) == ("half angle (deg)", "teeth of wheel 1")
-    figure = sweep_figure({"clearance": GRID}, {"efficiency_mean": GRID}, ways[0])
+    figure = sweep_figure({"clearance_factor": GRID}, {"efficiency_mean": GRID}, ways[0])
     assert figure.axes[-1].get_xlabel() == "clearance factor"
 
 

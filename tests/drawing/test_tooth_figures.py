@@ -211,7 +211,7 @@ def test_a_dwell_is_level_and_at_rest() -> None:
     pair_transmission = transmission(*STANDS)
     (still,) = [each for each in pair_transmission.intervals if each.held is not None]
     assert still.held is not None
-    angle, speed, efficiency, arm = drawn(drawn_transmission(STANDS), "real standstill")
+    angle, speed, efficiency, arm = drawn(drawn_transmission(STANDS), "real dwell")
     assert angle[:, 1] == pytest.approx(degrees(still.held), abs=1e-12)
     assert (speed[:, 1] == 0).all()
     assert np.isnan(efficiency[:, 1]).all()

@@ -115,6 +115,6 @@ def _rubbed(part: dict[str, object], friction: float) -> dict[str, object]:
     return {**part, "friction": friction} if "friction" in part else part
 
 
-def test_friction_that_goes_by_a_transmission_of_speed_has_no_study() -> None:
+def test_friction_that_goes_by_a_law_of_speed_has_no_study() -> None:
     assert study_friction(load(SPEED.replace("FRICTION", "0.2")).mechanics, 1, samples=20) is not None
     assert study_friction(load(SPEED.replace("FRICTION", STRIBECK)).mechanics, 1, samples=20) is None

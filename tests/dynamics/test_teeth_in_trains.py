@@ -132,7 +132,7 @@ def test_ideal_teeth_have_the_transmission_of_their_counts_and_import_nothing() 
     code = """
 import sys
 from geartrain.teeth import Ideal
-laws = [Ideal(form="ideal").law(20, 60, driver=driver) for driver in (1, 2)]
+laws = [Ideal(form="ideal").transmission(20, 60, driver=driver) for driver in (1, 2)]
 assert [str(law.ratio) for law in laws] == ['1/3', '3']
 assert [law.error_range() for law in laws] == [(0.0, 0.0)] * 2
 assert "numpy" not in sys.modules
@@ -162,7 +162,7 @@ def test_motion_makes_the_teeth_that_its_outputs_depend_on(
 
     monkeypatch.setattr(Triangular, "mesh", counted)
     for way in (1.0, -1.0):
-        next(load(name).motion(outputs=[output]).passages(way, 3))
+        next(load(name).motion(outputs=[output])._stretches(way, 3))
         assert len(made) == pairs
         made.clear()
 

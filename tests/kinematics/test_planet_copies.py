@@ -138,7 +138,7 @@ def test_a_set_driven_at_a_rate_in_time_bears_what_statics_say() -> None:
     torques = {each.name: each.torque for each in run.contacts}
     assert isclose(run.torque, 0.3 * 24 / 84, rel_tol=1e-3)
     assert isclose(torques["p~r"], 0.3 * 60 / 84, rel_tol=1e-3)
-    assert run.leads[0].behind < 1e-6
+    assert run.deviations[0].behind < 1e-6
     told = {each.link: each.value for each in collect_time_report(train, run).inertias}
     assert isclose(told["planet"], 3 * 20e-9)
 

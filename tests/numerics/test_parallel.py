@@ -528,7 +528,7 @@ import json, sys
 sys.path.insert(0, {tests!r})
 from clusters import gated
 from geartrain.numerics import Journal, open_executor, run
-with Journal({folder!r} + "/journal", {{"asked": 1}}) as journal, open_executor({workers}) as executor:
+with Journal({folder!r} + "/journal", {{"requested": 1}}) as journal, open_executor({workers}) as executor:
     print(json.dumps(list(run(gated, [({folder!r}, n, 6) for n in range(20)], executor, journal))))
 """
 

@@ -116,24 +116,29 @@ def texts(path: Path) -> Iterator[tuple[int, str]]:
 
 
 VERBS = frozenset(
-    """
-    Accept Accumulate Add Adjust Advance Align Allocate Answer Append Apply Approximate Arrange Assemble Assert Assign
-    Attach Average Balance Begin Bisect Bound Bracket Build Call Cancel Carry Check Choose Classify Clear Clip Close Collect
-    Combine Compare Compile Complete Compose Compress Compute Connect Construct Continue Convert Copy Correct Count
-    Create Cut Decide Declare Decode Decompose Decrease Define Delete Derive Describe Detect Determine Differentiate
-    Discard Dispatch Display Distribute Divide Draw Drop Eliminate Embed Encode End Enforce Engrave Enter Enumerate Equate
-    Estimate Evaluate Exclude Exit Expand Explain Export Express Extend Extract Extrapolate Factor Fill Filter Find Finish
-    Fit Fix Flatten Fold Follow Form Format Gather Generate Give Group Guess Handle Hash Highlight Hold Identify Import
-    Include Increase Index Infer Initialize Insert Install Integrate Interpolate Interrupt Intersect Invert Isolate Iterate
-    Join Judge Keep Label Lay Leave Lift Limit Linearize List Listen Load Locate Lock Log Look Lower Make Map Mark Match
-    Maximize Maximise Measure Merge Mesh Minimize Minimise Mirror Modify Move Multiply Name Narrow Normalize Normalise
-    Number Offset Omit Open Optimize Optimise Order Pack Pad Parse Partition Perform Permute Pick Place Plan Plot Pop
-    Predict Prepare Print Process Produce Project Propagate Propose Prove Put Raise Rank Read Rearrange Rebuild Receive
-    Recompute Record Reduce Refine Reflect Refuse Register Reject Release Remove Rename Render Repeat Replace Report
-    Request Require Resample Reset Resolve Restart Restore Restrict Retry Return Reverse Rewrite Roll Rotate Round Run Sample
-    Save Scale Scan Score Search Select Send Separate Serve Set Shift Shorten Show Shrink Sign Simplify Simulate Skip Solve
-    Sort Split Start Step Stop Store Stream Submit Substitute Subtract Suggest Sum Summarize Summarise Superpose Support
-    Suppress Swap Sweep Switch Tabulate Take Test Tile Trace Track Transform Translate Transpose Traverse Trim Try Turn
-    Unfold Unite Unpack Update Use Validate Verify View Visit Wait Walk Warn Weigh Widen Wrap Write Yield
-    """.split()
+    re.findall(
+        r"\w+",
+        """
+    Accept Accumulate Add Adjust Advance Align Allocate Answer Append Apply Approximate Arrange Assemble Assert
+    Assign Attach Average Balance Begin Bisect Bound Bracket Build Call Cancel Carry Check Choose Classify Clear
+    Clip Close Collect Combine Compare Compile Complete Compose Compress Compute Connect Construct Continue Convert
+    Copy Correct Count Create Cut Decide Declare Decode Decompose Decrease Define Delete Derive Describe Detect
+    Determine Differentiate Discard Dispatch Display Distribute Divide Draw Drop Eliminate Embed Encode End Enforce
+    Engrave Enter Enumerate Equate Estimate Evaluate Exclude Exit Expand Explain Export Express Extend Extract
+    Extrapolate Factor Fill Filter Find Finish Fit Fix Flatten Fold Follow Form Format Gather Generate Give Group
+    Guess Handle Hash Highlight Hold Identify Import Include Increase Index Infer Initialize Insert Install
+    Integrate Interpolate Interrupt Intersect Invert Isolate Iterate Join Judge Keep Label Lay Leave Lift Limit
+    Linearize List Listen Load Locate Lock Log Look Lower Make Map Mark Match Maximise Maximize Measure Merge Mesh
+    Minimise Minimize Mirror Modify Move Multiply Name Narrow Normalise Normalize Number Offset Omit Open Optimise
+    Optimize Order Pack Pad Parse Partition Perform Permute Pick Place Plan Plot Pop Predict Prepare Print Process
+    Produce Project Propagate Propose Prove Put Raise Rank Read Rearrange Rebuild Receive Recompute Record Reduce
+    Refine Reflect Refuse Register Reject Release Remove Rename Render Repeat Replace Report Request Require
+    Resample Reset Resolve Restart Restore Restrict Retry Return Reverse Rewrite Roll Rotate Round Run Sample Save
+    Scale Scan Score Search Select Send Separate Serve Set Shift Shorten Show Shrink Sign Simplify Simulate Skip
+    Solve Sort Split Start Step Stop Store Stream Submit Substitute Subtract Suggest Sum Summarise Summarize
+    Superpose Support Suppress Swap Sweep Switch Tabulate Take Test Tile Trace Track Transform Translate Transpose
+    Traverse Trim Try Turn Unfold Unite Unpack Update Use Validate Verify View Visit Wait Walk Warn Weigh Widen Wrap
+    Write Yield
+    """,
+    )
 )

@@ -176,8 +176,8 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
     "mesh triangular": [
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.9"),
-        (*TRIANGULAR, "--clearance", "1.5"),
-        (*TRIANGULAR, "--clearance", "1.0001"),
+        (*TRIANGULAR, "--clearance-factor", "1.5"),
+        (*TRIANGULAR, "--clearance-factor", "1.0001"),
         (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2"),
         (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
     ],

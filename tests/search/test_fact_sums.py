@@ -113,4 +113,4 @@ def test_facts_are_told_of_all_trains_unless_they_are_too_many(
     assert (findings.listed, len(findings.family)) == (1, 1)
     report = ReconstructionAnswer("back", problem, found.counts, True, (), (), findings=findings)
     said = "are told of all." if told == 4 else "shares are of theirs."
-    assert sum(line.endswith(said) for line in describe_reconstruction(report).driving_link) == 1
+    assert sum(line.endswith(said) for line in describe_reconstruction(report).summary) == 1

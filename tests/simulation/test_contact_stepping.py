@@ -28,7 +28,7 @@ from geartrain.simulation.steps.contact_solution import (
     BEARINGS,
     GAP,
     IMPACT_COUNT,
-    IMPACTS,
+    IMPACT_LOSS,
     STEP,
     TIME_APART,
     VISCOUS,
@@ -135,7 +135,7 @@ def test_two_free_bodies_share_their_momentum_by_three_impacts() -> None:
     # mu u^2 (1 - e^(2 n))/2 is lost in n blows at 0.1, 0.1 + 0.1/e, ...
     found = run(model([2, 1], [1, 0], [pair(EVEN, ahead(0.1), 0.6, start=0.1)]), 1e-3, 1.0)
     assert found.speeds[-1] == pytest.approx([0.5946666667, 0.8106666667], rel=1e-9)
-    assert found.energy[IMPACTS] == pytest.approx(0.3177813333, rel=1e-9)
+    assert found.energy[IMPACT_LOSS] == pytest.approx(0.3177813333, rel=1e-9)
     assert found.impacts[:, 0] == pytest.approx([0.1, 0.266667, 0.544444], abs=5e-3)
     assert 2 * found.speeds[-1, 0] + found.speeds[-1, 1] == pytest.approx(2, rel=1e-14)
 
@@ -163,7 +163,7 @@ def test_drag_and_impacts_stop_a_body_between_its_flanks() -> None:
     found = dragged(1e-3)
     assert found.counts[0, IMPACT_COUNT] == 3
     assert found.energy[BEARINGS] == pytest.approx(0.34758022, abs=2e-3)
-    assert found.energy[IMPACTS] == pytest.approx(0.77741978, abs=2e-3)
+    assert found.energy[IMPACT_LOSS] == pytest.approx(0.77741978, abs=2e-3)
     assert abs(found.speeds[-1, 1]) < 1e-9
 
 
@@ -179,7 +179,7 @@ def test_small_steps_give_the_closed_forms_at_their_digits() -> None:
     stopped = dragged(1e-6, samples=2000, fast=True)
     assert 0.7 * stopped.impacts[:, 2] == pytest.approx([1.0022475, 0.6278575, 0.3084809], abs=2e-6)
     assert stopped.energy[BEARINGS] == pytest.approx(0.34758022, abs=2e-6)
-    assert stopped.energy[IMPACTS] == pytest.approx(0.77741978, abs=2e-6)
+    assert stopped.energy[IMPACT_LOSS] == pytest.approx(0.77741978, abs=2e-6)
     assert 1e-3 * np.argmax(abs(stopped.speeds[:, 1]) < 1e-8) == pytest.approx(1.338355, abs=1e-3)
 
 
@@ -205,7 +205,7 @@ def test_a_stopped_wheel_passes_one_pitch_a_beat() -> None:
     )
     assert found.angles[:, 0] == pytest.approx(0.1 * np.arange(1, 11), abs=1e-9)
     # ten falls through a pitch: the work of the torque is lost in blows
-    assert found.energy[IMPACTS] + found.energy[STEP] == pytest.approx(10 * 0.1 * 10, rel=1e-9)
+    assert found.energy[IMPACT_LOSS] + found.energy[STEP] == pytest.approx(10 * 0.1 * 10, rel=1e-9)
 
 
 @kernel
@@ -249,7 +249,7 @@ def test_a_body_that_falls_on_its_flank_is_apart_until_its_bounces_end(e: float,
     of = model([1, 2], [0, 0], [pair(EVEN, ahead(0.5), e, start=height)], given={0: 0.0}, torque=[0, -6.0])
     found = run(of, fall / 2000, 1.3 * whole)
     assert found.counts[0, TIME_APART] * fall / 2000 == pytest.approx(whole, rel=0.02)
-    assert found.energy[IMPACTS] == pytest.approx(6.0 * height, rel=0.01)
+    assert found.energy[IMPACT_LOSS] == pytest.approx(6.0 * height, rel=0.01)
 
 
 @pytest.mark.parametrize("step", [3e-2, 1e-2, 1.7e-3])

@@ -119,7 +119,7 @@ def test_no_place_of_wheels_bends_an_arbor_more_than_its_bound(loads: list[tuple
     assert bent(placed, span) <= maximum_moment(force, tooth_pair, span) * (1 + 1e-9) + 1e-6
 
 
-@pytest.mark.parametrize("couple", [0.0, 100.0, 300.0, 399.0, 500.0])
+@pytest.mark.parametrize("tooth_pair", [0.0, 100.0, 300.0, 399.0, 500.0])
 def test_one_wheel_bends_as_much_as_the_bound_at_its_worst_place(tooth_pair: float) -> None:
     found = max(bent([(at, 10.0, tooth_pair)], 40.0) for at in np.linspace(1e-6, 40 - 1e-6, 4001))
     assert found == pytest.approx(maximum_moment(10.0, tooth_pair, 40.0), rel=1e-3)

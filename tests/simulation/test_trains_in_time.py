@@ -50,7 +50,7 @@ def shares(run: TimeRun) -> list[float]:
 
 def test_turned_slowly_a_train_moves_as_motion_says_and_is_as_heavy_as_its_drag() -> None:
     run = moon_train().dynamics(rate="0.02 turn/s", turns=0.4, skip=0, steps=4000, fast=False)
-    moon = next(lead for lead in run.leads if lead.output == "moon")
+    moon = next(each for each in run.deviations if each.output == "moon")
     # a thousandth of the Moon's ripple of 0.1 degrees in one turn; the reference says 0.0005 degrees in ten
     assert degrees(max(moon.ahead, moon.behind)) < 1e-4
     assert shares(run) == [0, 0, 0, 0]
@@ -65,7 +65,7 @@ def test_energy_closes_with_flights_impacts_and_friction() -> None:
             rate="1 turn/s", turns=0.2, skip=0.05, steps=3000, restitution=restitution, fast=False
         )
         assert run.energy.closure < 1e-12
-        assert run.energy.impacts > 0
+        assert run.energy.impact_loss > 0
         assert (run.energy.friction > 0) is bool(friction)
         assert run.unsolved == 0
 
@@ -188,7 +188,7 @@ def test_the_moons_train_parts_as_in_the_table(
 ) -> None:
     run = moon_train(scale).dynamics(rate=f"{rate} turn/s", turns=10, steps=40000, fast=True)
     assert shares(run) == pytest.approx(apart, abs=0.3)
-    moon = next(lead for lead in run.leads if lead.output == "moon")
+    moon = next(each for each in run.deviations if each.output == "moon")
     assert degrees(moon.ahead) == pytest.approx(ahead, abs=0.04)
     assert run.torque * 1e3 == pytest.approx(torque, abs=0.01)
     assert run.energy.closure < 1e-12
@@ -229,7 +229,7 @@ def test_a_figure_that_depends_on_the_step_is_named_with_its_error_and_the_steps
 def test_with_a_restitution_teeth_part_more_and_the_moon_runs_farther_ahead() -> None:
     run = moon_train().dynamics(rate="1 turn/s", turns=20, steps=40000, restitution=0.3, fast=True)
     assert np.mean(shares(run)) == pytest.approx(34, abs=0.6)
-    moon = next(lead for lead in run.leads if lead.output == "moon")
+    moon = next(each for each in run.deviations if each.output == "moon")
     assert degrees(moon.ahead) == pytest.approx(6.5, abs=1.6)  # a single flight: chaotic
 
 
@@ -250,7 +250,7 @@ def test_impacts_take_what_carnot_says() -> None:
     torques = []
     for rate in (0.1, 0.3):
         run = moon_train().dynamics(rate=f"{rate} turn/s", turns=10, steps=40000, fast=True)
-        torques.append(1e3 * run.energy.impacts / (tau * 10))
+        torques.append(1e3 * run.energy.impact_loss / (tau * 10))
     assert torques[0] == pytest.approx(0.5762 * 0.1**2, rel=0.02)
     assert torques[1] == pytest.approx(0.5762 * 0.3**2, rel=0.02)
 
@@ -339,7 +339,7 @@ def test_a_clock_goes_by_its_beats_and_loses_the_work_of_its_weight() -> None:
     run = GearTrain.declare(CLOCK).dynamics(turns=1 / 90, skip=0, steps=180_000, samples=40, fast=False)
     escape = np.abs(run.angles["escape"])
     assert escape[-1] == pytest.approx(pi / 30 * round(run.time[-1] / 0.5), abs=1e-6)
-    assert run["escape"].impacts == pytest.approx(2, rel=0.1)  # type: ignore[union-attr]
+    assert run["escape"].impact_rate == pytest.approx(2, rel=0.1)  # type: ignore[union-attr]
     assert np.diff(run.impacts.time) == pytest.approx(0.5, abs=0.01)
     fallen = abs(run.angles["barrel"][-1]) * 0.02
     assert run.energy.loads == pytest.approx(0.5 * GRAVITY * fallen, rel=1e-9)
@@ -348,9 +348,9 @@ def test_a_clock_goes_by_its_beats_and_loses_the_work_of_its_weight() -> None:
 
 def test_a_wheel_caught_within_a_step_gives_its_weights_work_to_the_escapement() -> None:
     run = load("longcase-clock").dynamics(turns=1 / 180, skip=0, steps=360_000, fast=False)
-    assert run.energy.impacts == pytest.approx(run.energy.loads, rel=1e-6)
+    assert run.energy.impact_loss == pytest.approx(run.energy.loads, rel=1e-6)
     assert abs(run.energy.steps) < 1e-9 * run.energy.loads
-    assert run["escape"].impacts == pytest.approx(1, rel=0.06)  # type: ignore[union-attr]
+    assert run["escape"].impact_rate == pytest.approx(1, rel=0.06)  # type: ignore[union-attr]
 
 
 def test_an_hour_of_a_clock_is_stepped_where_it_moves_and_strikes_at_the_speed_of_its_fall() -> None:

@@ -153,11 +153,12 @@ def test_points_of_the_profiles_are_those_of_the_table(row: list[str]) -> None:
     st.sampled_from(["stress", "heat", "friction", "involute"]),
 )
 @settings(max_examples=40, deadline=None)
-def test_every_path_obeys_the_fundamental_transmission_and_euler_savary(
+def test_every_path_obeys_the_fundamental_law_and_euler_savary(
     z1: int, z2: int, tilted: float, bevel: bool, shape: str
 ) -> None:
-    # with few teeth a path of uniform heat comes to a right angle before it has travelled 0.4 pitches
-    part = 0.3 if shape == "heat" and min(z1, z2) < 12 else 0.4
+    # with few teeth a path of uniform heat comes to a right angle before it has travelled 0.4 pitches, and one of
+    # minimum friction at a small angle to the end of its margin
+    part = 0.3 if (shape == "heat" and min(z1, z2) < 12) or (shape == "friction" and tilted < 18) else 0.4
     wheels, arcs, psi = (z1, z2, pi / 2 if bevel else None), (part, part), f"{tilted!r} deg"
     given = {"arcs": [repr(part)] * 2}
     found = {

@@ -31,8 +31,8 @@ FT_MIN = 0.3048 / 60
 # ---------------------------------------------------------------------------------------------------------------- laws
 
 
-def test_buckinghams_transmission_has_the_three_values_that_smith_prints() -> None:
-    transmission = BuckinghamFriction(transmission="buckingham")
+def test_buckinghams_law_has_the_three_values_that_smith_prints() -> None:
+    transmission = BuckinghamFriction(law="buckingham")
     found = transmission.coefficient(np.array([0.0, 150.0, 2100.0]) * FT_MIN)
     assert [f"{value:.4f}" for value in found] == ["0.0517", "0.0112", "0.0385"]
     V = np.linspace(0, 2100, 2000) * FT_MIN
@@ -40,7 +40,7 @@ def test_buckinghams_transmission_has_the_three_values_that_smith_prints() -> No
     assert 50 < minimum < 150, "not monotone: it falls from rest and rises with the speed"
 
 
-def test_dokoss_transmission_falls_evenly_over_seven_decades_and_is_level_beyond() -> None:
+def test_dokoss_law_falls_evenly_over_seven_decades_and_is_level_beyond() -> None:
     transmission = DokosFriction.model_validate({"law": "dokos", "slowest": "2 mm/s"})
     assert transmission.coefficient(np.array([0.0, 0.002, 2e4, 1e9])) == pytest.approx(
         [0.53, 0.53, 0.18, 0.18], rel=1e-14
@@ -49,7 +49,7 @@ def test_dokoss_transmission_falls_evenly_over_seven_decades_and_is_level_beyond
     assert np.diff(decades) == pytest.approx([-0.05] * 7, rel=1e-12)
 
 
-def test_stribecks_transmission_is_static_at_rest_and_viscous_in_the_end() -> None:
+def test_stribecks_law_is_static_at_rest_and_viscous_in_the_end() -> None:
     given = {
         "law": "stribeck",
         "static": "0.2",
@@ -92,7 +92,7 @@ def transmission_of(form: str, friction: float = 0.0) -> TransmissionFunction:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_a_transmission_that_is_level_loses_what_the_number_does(form: str) -> None:
+def test_a_law_that_is_level_loses_what_the_number_does(form: str) -> None:
     transmission = transmission_of(form, 0.1)
     for each in (transmission, transmission.reversed_motion()):
         rubbed = RubbedTransmission(each, PairFriction(LEVEL, 0.3))
@@ -154,7 +154,7 @@ def test_triangular_teeth_slide_by_the_difference_of_two_velocities() -> None:
 
 
 @pytest.mark.parametrize("form", ["triangular", "involute", "cycloidal"])
-def test_the_mean_under_a_transmission_is_that_of_a_fine_grid(form: str) -> None:
+def test_the_mean_under_a_law_is_that_of_a_fine_grid(form: str) -> None:
     transmission, V = transmission_of(form), 0.2
     rubbed = RubbedTransmission(transmission, PairFriction(FALLING, V))
     S = (np.arange(40000) + 0.5) / 40000 * transmission.period
@@ -224,8 +224,8 @@ def test_each_pair_of_a_train_loses_by_its_own_pitch_line_speed() -> None:
     assert efficiency(TRAIN.replace("FRICTION", STRIBECK)) == pytest.approx(product, rel=1e-12)
 
 
-def test_a_transmission_of_the_pitch_line_is_a_number_for_each_pair() -> None:
-    coefficients = BuckinghamFriction(transmission="buckingham").coefficient(
+def test_a_law_of_the_pitch_line_is_a_number_for_each_pair() -> None:
+    coefficients = BuckinghamFriction(law="buckingham").coefficient(
         np.array([2 * pi * 2 * 0.012, 2 * pi * 4 / 3 * 0.010])
     )
     text = TRAIN.replace("FRICTION", "0")
@@ -251,7 +251,7 @@ links:
   a: {{wheels: {{p: {{teeth: 48, module: 2 mm}}}}}}
   b: {{wheels: {{q: {{teeth: 96, module: 2 mm}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
-gears: [{{pair: [p, q], tooth_form: {form}, friction: {{transmission: dokos}}}}]
+gears: [{{pair: [p, q], tooth_form: {form}, friction: {{law: dokos}}}}]
 inputs: {{a: 1}}
 rate: 3 turn/s
 """
@@ -267,7 +267,7 @@ rate: 3 turn/s
         (("teeth: 36, module: 1 mm", "teeth: 36"), "nothing says how large its wheels are"),
     ],
 )
-def test_what_a_transmission_lacks_is_said_with_the_line_of_the_pair(change: tuple[str, str], said: str) -> None:
+def test_what_a_law_lacks_is_said_with_the_line_of_the_pair(change: tuple[str, str], said: str) -> None:
     text = TRAIN.replace("FRICTION", STRIBECK).replace(*change)
     train = load(text)
     with pytest.raises(GearTrainError, match=said) as raised:
@@ -277,7 +277,7 @@ def test_what_a_transmission_lacks_is_said_with_the_line_of_the_pair(change: tup
     assert unloaded.meshes[0].efficiency_texts == ("-", "-"), "a pair itself is told without its losses"
 
 
-def test_losses_under_a_transmission_are_named_where_no_speed_is_determined() -> None:
+def test_losses_under_a_law_are_named_where_no_speed_is_determined() -> None:
     text = """
 links:
   frame: {}
@@ -314,7 +314,7 @@ loads: {arm: -84 N m}
         ("{law: table, speeds: [1 m/s, 2 m/s], coefficients: [1, -1]}", "0 or more"),
     ],
 )
-def test_a_transmission_that_is_none_is_refused_with_its_line(friction: str, said: str) -> None:
+def test_a_law_that_is_none_is_refused_with_its_line(friction: str, said: str) -> None:
     with pytest.raises(GearTrainError) as raised:
         load(TRAIN.replace("FRICTION", friction))
     (problem,) = raised.value.problems
@@ -369,7 +369,7 @@ class Alternatives:
 
 
 @pytest.mark.parametrize("name", UNDER)
-def test_teeth_made_for_a_transmission_lose_minimum_under_it(name: str) -> None:
+def test_teeth_made_for_a_law_lose_least_under_it(name: str) -> None:
     form = LeastFriction.declared(UNDER[name])
     side = form.transmission(24, 36).path.recess
     first, X = side.pieces[0].end, side.arc
@@ -394,7 +394,7 @@ def test_teeth_made_for_a_transmission_lose_minimum_under_it(name: str) -> None:
     assert tried > 20
 
 
-def test_a_level_transmission_asks_for_the_usual_shape_and_one_of_the_pitch_line_is_level() -> None:
+def test_a_level_law_asks_for_the_usual_shape_and_one_of_the_pitch_line_is_level() -> None:
     usual = LeastFriction.declared({}).transmission(24, 36).path.recess.pieces[0].end
     level = {"law": "table", "speeds": ["0 m/s", "1 m/s"], "coefficients": [0.1, 0.1]}
     for transmission in (level, "buckingham"):
@@ -402,7 +402,7 @@ def test_a_level_transmission_asks_for_the_usual_shape_and_one_of_the_pitch_line
         assert form.transmission(24, 36).path.recess.pieces[0].end == pytest.approx(usual, rel=1e-12)
 
 
-def test_a_transmission_under_which_faster_contacts_lose_less_is_refused() -> None:
+def test_a_law_under_which_faster_contacts_lose_less_is_refused() -> None:
     given = {"friction_law": "stribeck,static=0.2,kinetic=0.02,speed=10 mm/s", "pitch_line_speed": "50 mm/s"}
     with pytest.raises(GearTrainError, match="other pieces"):
         LeastFriction.declared(given).transmission(24, 36)

@@ -272,7 +272,7 @@ def test_an_offset_that_is_not_the_eccentricity_cannot_be_built() -> None:
 
 def test_the_command_tells_of_one_pair() -> None:
     out = ended("mesh", "pin_ring", "--teeth", 11, 12, "--friction", 0.05, "--json")
-    assert '"greatest_load": 0.33' in out.stdout
+    assert '"maximum_load": 0.33' in out.stdout
 
 
 def test_the_command_takes_clearance_deflection_and_backlash() -> None:

@@ -24,7 +24,7 @@ def declared(rest: str = "", link: str = "", wheel: str = "", pair: str = "") ->
 def test_a_bare_friction_slides_and_rests_alike_and_is_not_in_doubt() -> None:
     train = declared("friction: 0.2")
     found = train.friction_of(train.gears[0])
-    assert (found.sliding, found.static, found.deviation, found.transmission) == (0.2, 0.2, 0, None)
+    assert (found.sliding, found.static, found.deviation, found.law) == (0.2, 0.2, 0, None)
     assert declared().friction_of(train.gears[0]) is None
 
 
@@ -34,7 +34,7 @@ def test_a_friction_of_its_own_stands_before_that_of_the_train() -> None:
     assert (found.sliding, found.static, found.deviation) == (0.1, 0.15, 0.02)
 
 
-def test_a_transmission_rests_at_its_value_at_no_speed() -> None:
+def test_a_law_rests_at_its_value_at_no_speed() -> None:
     at_rest = {
         "{law: stribeck, static: 0.3, kinetic: 0.1, speed: 5 mm/s}": 0.3,
         "{law: buckingham}": 0.0517,
@@ -45,7 +45,7 @@ def test_a_transmission_rests_at_its_value_at_no_speed() -> None:
         train = declared(f"friction: {transmission}")
         found = train.friction_of(train.gears[0])
         assert found.sliding is None
-        assert found.transmission is not None
+        assert found.law is not None
         assert found.static == pytest.approx(static, rel=1e-14)
 
 

@@ -483,7 +483,7 @@ def test_a_wheel_beside_declared_teeth_without_a_form_of_its_own_is_named() -> N
 
 
 @pytest.mark.parametrize("name", ["freeth-2021-teeth", "pennestri-2002-teeth", "moon-triangular", "sorge-pairs"])
-def test_axes_stand_as_far_apart_as_the_transmission_of_triangular_teeth_asks(name: str) -> None:
+def test_axes_stand_as_far_apart_as_the_law_of_triangular_teeth_asks(name: str) -> None:
     """Centre distance over tip radius as in the law, for every mate of every wheel: so each wheel has one size."""
     work = workpiece(name)
     places, checked = work.layout.wheels, 0

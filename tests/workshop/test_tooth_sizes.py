@@ -238,13 +238,13 @@ def times_the_minimum(z1: int, z2: int) -> float:
     return pair.loss / find_tooth_sizes(pair, free={"radii": near}).best.loss
 
 
-def test_the_transmission_is_within_a_few_percent_of_the_minimum_loss() -> None:
+def test_the_law_is_within_a_few_percent_of_the_least_loss() -> None:
     assert times_the_minimum(37, 89) < 1.02
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("teeth", [(13, 47), (47, 13), (22, 101), (101, 22), (71, 73), (11, 17), (113, 64), (64, 38)])
-def test_the_transmission_holds_for_other_counts_than_those_it_was_fitted_to(teeth: tuple[int, int]) -> None:
+def test_the_law_holds_for_other_counts_than_those_it_was_fitted_to(teeth: tuple[int, int]) -> None:
     assert times_the_minimum(*teeth) < 1.02
 
 

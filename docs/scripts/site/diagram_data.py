@@ -23,7 +23,7 @@ from geartrain.scene import make_scene
 Data = dict[str, Any]
 
 DOCS = Path(__file__).resolve().parents[2]
-_DRAWN = ("bodies", "wheels", "profiles", "pairs", "movement", "back", "lead", "step")
+_DRAWN = ("bodies", "wheels", "profiles", "pairs", "movement", "back", "driving_link", "step")
 
 # ------------------------------------------------------------------------------------------------------------- speeds
 
@@ -141,13 +141,13 @@ def pin() -> Data:
     scene = make_scene(geartrain.load("freeth-2008")).to_dict()
     (coupling,) = scene["couplings"]
     source = next(each for each in scene["movement"]["sources"] if each["pair"] == coupling["id"])
-    transmission = scene["movement"]["transmissions"][source["law"]]
+    transmission = scene["movement"]["transmissions"][source["transmission"]]
     wheels = [wheel for wheel in scene["wheels"] if wheel["body"] in (coupling["pin"], coupling["slot"])]
     return {
         "wheels": [_shaped(scene, wheel) for wheel in wheels],
         "pin_radius": coupling["pin_radius"],
         "offset": coupling["offset"],
-        "law": {key: transmission[key] for key in ("period", "breaks", "coefficients")},
+        "transmission": {key: transmission[key] for key in ("period", "breaks", "coefficients")},
     }
 
 

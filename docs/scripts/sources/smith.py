@@ -711,7 +711,7 @@ def arithmetic(which: str) -> float:
     return {"33": (1000 + 1 / 1000) / (3 * (10 + 1 / 10)), "X": X, "cube": X**3, "two": two}[which]
 
 
-def transmission_of_gearing() -> Finding:
+def law_of_gearing() -> Finding:
     """Points of both teeth at one place, at every displacement, for three shapes in the plane and on the sphere."""
     apart = max(v.apart / (1 if v.bevel else v.R2) for kind in BOTH for v, _ in sides(kind))
     return Finding(apart < 1e-12, "both teeth are at one place at every displacement, three shapes, to 1e-12")

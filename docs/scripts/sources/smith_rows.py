@@ -350,7 +350,7 @@ def heat_and_optima() -> Iterator[Row]:
     yield words(
         "Theorem 10",
         "least friction between given ends",
-        "extremal_is_least()",
+        "extremal_is_minimum()",
         why="in closed form: (10) of [Tooth shapes](shapes.md)",
     )
     names = (("friction", "least friction"), ("stress", "uniform stress"), ("temperature", "uniform temperature"))
@@ -370,7 +370,7 @@ def heat_and_optima() -> Iterator[Row]:
         yield words(
             f"Section 21, {shape}",
             f"uniform {shape} plausibly has the least greatest {shape}",
-            f"least_height('{shape}')",
+            f"minimum_height('{shape}')",
             "**Section 21**",
             f"not without a bound on the pressure angle, here {tilt} deg",
         )

@@ -441,7 +441,7 @@ def collisions() -> Iterator[Row]:
         "the same at alpha_1m, Figs. 4b and 5b",
         "max(abs(note.eq_27(name) - note.jump(name, 'matching')) for name in ('4b', '5b'))",
     )
-    yield words("III D, size", "relative jumps up to the order of 10 %", "greatest_jumps()")
+    yield words("III D, size", "relative jumps up to the order of 10 %", "maximum_jumps()")
 
 
 # ------------------------------------------------------------------------------------------------------ IV. power loss
@@ -581,7 +581,7 @@ def power_loss() -> Iterator[Row]:
     yield equation("Eq. (33)", "efficiency in recess", "eq_33()", Mended(), "**Eq. (33)**")
     yield from from_command()
     yield equation("Eq. (34)", "loss of one meshing, at constant driver torque", "eq_34()")
-    yield equation("IV, impact", "J2 w1^2 (tau+^2 - tau-^2)/2 is lost", "lost_in_blows()", Mended(), "**IV**, 48/96")
+    yield equation("IV, impact", "J2 w1^2 (tau+^2 - tau-^2)/2 is lost", "lost_in_impacts()", Mended(), "**IV**, 48/96")
 
 
 # --------------------------------------------------------------------------------------------------------- V. results
@@ -698,7 +698,7 @@ def results() -> Iterator[Row]:
             f"Fig. {name}, curves",
             "alpha_2, tau and eta over alpha_1",
             "the copy has no pictures, and no values are printed; `geartrain mesh triangular "
-            f"--teeth {z1} {z2} --clearance {a} --friction 0.2 --plot law.svg` draws them",
+            f"--teeth {z1} {z2} --clearance-factor {a} --friction 0.2 --plot law.svg` draws them",
         )
         yield Row(f"Fig. {name}, tau_mean", "mean speed ratio", MEANS[name[0]], mesh(z1, z2, a, "speed_ratio.mean"))
         for figure, kind, printed in JUMPS:
@@ -754,7 +754,7 @@ def results() -> Iterator[Row]:
     yield words(
         "V, standstill",
         "where the ideal region is smaller than 360/z1 the driven wheel stands",
-        "standstill()",
+        "dwell()",
         why="of equal wheels; unequal ones stand earlier",
     )
 

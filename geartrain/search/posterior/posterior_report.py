@@ -61,7 +61,7 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
     >>> from geartrain.train.declaration_files import read_declaration
     >>> from geartrain.search import infer_counts
     >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
-    >>> describe_posterior(found).lead[1]
+    >>> describe_posterior(found).summary[1]
     '1 fit: a share of 0.2 of the weight they have before.'
     """
     return Document(f"Counts in doubt of {found.name}", list(_summary(found)), list(_sections(found)))

@@ -110,7 +110,7 @@ class StageConstraints(Result):
             )
         minimum, most = self.totals
         if minimum > most:
-            what = f"least_total is {minimum}, most_total is {most}"
+            what = f"minimum_total is {minimum}, most_total is {most}"
             raise QuestionError(Problem(what, "no sum is between them", "exchange them, or leave one out"))
 
 

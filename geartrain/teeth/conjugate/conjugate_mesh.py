@@ -287,7 +287,14 @@ class PairDesign(Result):
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
-        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "losses_and_stresses", "efficiency", "outlines"),
+        *(
+            "arcs",
+            Key("contact_ratio", "path.contact_ratio"),
+            "pressure_angles",
+            "losses_and_stresses",
+            "efficiency",
+            "outlines",
+        ),
     )
 
     mesh: ConjugateMesh

@@ -81,7 +81,7 @@ class PathLosses(Result):
 
         Parameters
         ----------
-        other : PathCosts
+        other : PathLosses
             Under the same assumption.
         """
         return {name: getattr(self, name) / getattr(other, name) for name in LOADED}

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from geartrain.drawing.style import (
     BLACK,
     SMALL,
-    TEXT,
     WHITE,
     Axes,
     Figure,
@@ -110,9 +109,8 @@ def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
         axes.annotate(words, (max(size, most), at), xytext=(6, 0), textcoords="offset points", va="center",
                       fontsize=SMALL, color=BLACK, annotation_clip=False, gid="size")  # fmt: skip
     axes.set_xlim(left=0.0)
-    name_axes(axes, "size (deg)")
     title = f"{_train_name(found)}: causes of the error of {short(pointer.name, 24)}, sum {_size(pointer.total, 3)}°"
-    axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
+    name_axes(axes, "size (deg)", title=title, parse_math=False)
     return figure
 
 

@@ -23,9 +23,9 @@ from geartrain.numerics.confidence_intervals import (
     percentiles_of,
 )
 from geartrain.numerics.quantity import Figure
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Result, Shown
 from geartrain.numerics.work import Execution
-from geartrain.report.document import Section, Table
+from geartrain.report.document import Document, Section, Table
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
@@ -65,7 +65,7 @@ class FrictionSpread(NamedTuple):
 
 
 @dataclass(frozen=True)
-class FrictionPlan:
+class FrictionPlan(Shown):
     """Train whose friction has a spread, and the run to follow in each trial.
 
     See Also
@@ -83,6 +83,9 @@ class FrictionPlan:
     """Number of positions of the run."""
     of: str | None = None
     """Link whose torque is computed; None for the crank."""
+
+    def _summary(self) -> str:
+        return f"{self.declared.name}: {self.turns:g} turns, {self.samples} positions"
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
@@ -290,6 +293,8 @@ class FrictionTrials(Result):
     try_frictions : Run the trials.
     """
 
+    PAGE = "workshop.monte_carlo.friction_trials:trials_document"
+
     KEYS = ("link", "wanted", "done", "seed", "spreads", *FIGURES, "locks")
 
     link: str
@@ -312,6 +317,10 @@ class FrictionTrials(Result):
     """Efficiency of each trial: output energy divided by input energy."""
     locks: ProbabilityEstimate
     """Probability that the train locks somewhere in the run."""
+
+    def _summary(self) -> str:
+        cut = "" if self.done == self.wanted else f" of {self.wanted}"
+        return f"{self.done}{cut} trials, seed {self.seed}: mean torque at {self.link} {number_text(self.mean.mean, 5)}"
 
     @property
     def complete(self) -> bool:
@@ -397,6 +406,11 @@ def _link(plan: FrictionPlan) -> str:
 
 
 # -------------------------------------------------------------------------------------------------------------- as text
+
+
+def trials_document(found: FrictionTrials) -> Document:
+    """Return the trials as a document."""
+    return Document("Torques", (), tuple(trial_sections(found)))
 
 
 def trial_sections(found: FrictionTrials) -> Iterator[Section]:

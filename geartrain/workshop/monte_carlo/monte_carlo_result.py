@@ -43,6 +43,8 @@ class MonteCarloResult(Tabular, Pictured, Result):
     run_trials : Run the trials that this result contains.
     """
 
+    PAGE = "workshop.monte_carlo.monte_carlo_report:describe_monte_carlo"
+
     FIGURE = "monte_carlo_figure"
     DRAWN_IN = "workshop"
 
@@ -74,21 +76,16 @@ class MonteCarloResult(Tabular, Pictured, Result):
     indices: Sequence[SobolIndices] = ()
     """Sobol indices, from `find_sobol_indices`."""
 
+    def _summary(self) -> str:
+        return self.trials._summary()
+
+    def _meaning(self, column: str) -> str:
+        return self.trials._meaning(column)
+
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each trial: turns of the input, errors of outputs [deg], and event flags of each pair.
-
-        The flags are a bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.
-        """
-        found = self.trials
-        errors = zip(found.plan.outputs, found.errors.T, strict=True)
-        events = zip(found.plan.pairs, found.marks.T, strict=True)
-        return {
-            "trial": [*range(found.done)],
-            "turns": found.turns.tolist(),
-            **{f"{name} error (deg)": [degrees(each) for each in column] for name, column in errors},
-            **{f"{pair.name} events": column.tolist() for pair, column in events},
-        }
+        """Table with a row for each trial, as in `TrialResults.columns`."""
+        return self.trials.columns
 
     @property
     def assumptions(self) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import Shown
 from geartrain.workshop.cutting.cut_wheel import CutGearPair
 from geartrain.workshop.cutting.declared_errors import (
     OF_PAIRS,
@@ -294,7 +295,7 @@ def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
 
 
 @dataclass(frozen=True)
-class TrialPlan:
+class TrialPlan(Shown):
     """Input data of the trials of a train in one state, sufficient for a block of trials.
 
     See Also
@@ -320,6 +321,9 @@ class TrialPlan:
     """Range of the random positions of the input [turn]."""
     driving_link: str
     """Name of the driving link."""
+
+    def _summary(self) -> str:
+        return f"{self.name}: {len(self.wheels)} wheels, {len(self.pairs)} pairs, outputs {', '.join(self.outputs[:6])}"
 
     @property
     def position(self) -> int:
@@ -435,13 +439,13 @@ def find_trial_plan(
     wheels = tuple(wheel_errors(train.declaration, each, settings) for each in even.values())
     senses = _RotationSenses(motion)
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
-    composition = motion.with_sources([pair.name for pair in pairs])
+    composition = motion._with_sources([pair.name for pair in pairs])
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
         why = "perfect wheels are the same in every trial"
         fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set pitch_deviation='2 %'"
         raise QuestionError(Problem(what, why, fix))
-    speeds = tuple(tally.ratio for tally in motion.tallies())
+    speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
     return TrialPlan(
         train.name,
@@ -452,13 +456,13 @@ def find_trial_plan(
         speeds,
         reach,
         _span(composition, pairs),
-        motion.train.driving_link,
+        motion._problem.driving_link,
     )
 
 
 def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
     """Return the pairs whose teeth can have cutting errors; raise `QuestionError` if there are none."""
-    found = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
+    found = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not found:
         what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
         why = "cutting errors are computed for triangular teeth and for forms with a known path of contact"
@@ -506,14 +510,14 @@ class _RotationSenses:
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
-        self.circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in motion.train.circuits}
+        self.circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in motion._problem.circuits}
         self.first: dict[str, int] = {}
 
     def mirrored(self, pair: str, wheel: str) -> bool:
         """Return whether the wheel turns the other way in this pair than in its first pair."""
         circuit = self.circuits[pair]
         link = circuit.i if wheel == circuit.wheels[0] else circuit.j
-        sense = -1 if self.motion.train.relative(link, circuit.carrier) < 0 else 1
+        sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1
         return self.first.setdefault(wheel, sense) != sense
 
 

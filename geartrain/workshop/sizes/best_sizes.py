@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Pictured, Result, Tabular
@@ -43,6 +43,15 @@ class BestToothSizes(Tabular, Pictured, Result):
     find_tooth_sizes : Find the best sizes, with an example.
     """
 
+    ROW = "ToothSizes"
+    MEANINGS: ClassVar = {
+        "design": "Name of the design.",
+        "half_angle_1": "Half angle of the teeth of the first wheel [rad].",
+        "half_angle_2": "Half angle of the teeth of the second wheel [rad].",
+    }
+
+    PAGE = "workshop.sizes.tooth_sizes_report:describe_tooth_sizes"
+
     FIGURE = "tooth_sizes_figure"
     DRAWN_IN = "workshop"
 
@@ -73,6 +82,12 @@ class BestToothSizes(Tabular, Pictured, Result):
     """Probability that the best design stops, if it was limited."""
     tried: tuple[ToothSizes, ...]
     """Evaluated designs that turn and satisfy the limits."""
+
+    def _summary(self) -> str:
+        aim = self.aims[0]
+        z1, z2 = self.teeth
+        best = f"{aim} {getattr(self.best, aim):.4g}"
+        return f"{z1}/{z2} teeth: minimum {' and '.join(self.aims)}, {best}, {self.evaluations} designs"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

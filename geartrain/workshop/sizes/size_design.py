@@ -65,9 +65,9 @@ class ToothSizes(Result):
     teeth: tuple[int, int]
     """Numbers of teeth of the first and the second wheel."""
     radii: float
-    """Ratio of the tip radii R2/R1 divided by the ratio of teeth z2/z1; 1 is pitch-true."""
+    """Ratio of the tip radii R2/R1 divided by the ratio of teeth z2/z1; 1 is pitch-true [1]."""
     window: float
-    """Position of the clearance in the clearance window: 0 at the jam, 1 at the loss of contact."""
+    """Position of the clearance in the clearance window: 0 at the jam, 1 at the loss of contact [1]."""
     half_angles: tuple[float, float]
     """Half angles of both wheels [rad]."""
     friction: float
@@ -150,18 +150,18 @@ class ToothSizes(Result):
 
     @property
     def clearance_factor(self) -> float:
-        """Centre distance divided by the distance at which a tip touches the bottom of a space."""
+        """Centre distance divided by the distance at which a tip touches the bottom of a space [1]."""
         return self.sizes.clearance_factor
 
     @cached_property
     def loss(self) -> float:
-        """Loss at constant driving torque: 1 minus the mean efficiency, equation (34) of Sorge."""
+        """Loss at constant driving torque: 1 minus the mean efficiency, equation (34) of Sorge [1]."""
         assert self.transmission is not None
         return 1 - self.transmission.efficiency_mean()
 
     @cached_property
     def loss_at_constant_load(self) -> float:
-        """Loss at constant load torque: 1 minus the mean efficiency."""
+        """Loss at constant load torque: 1 minus the mean efficiency [1]."""
         assert self.transmission is not None
         return 1 - self.transmission.efficiency_at_constant_load()
 
@@ -174,7 +174,7 @@ class ToothSizes(Result):
 
     @cached_property
     def impact(self) -> float:
-        """Energy that impacts dissipate in a pitch, divided by the kinetic energy of the driven side."""
+        """Energy that impacts dissipate in a pitch, divided by the kinetic energy of the driven side [1]."""
         assert self.transmission is not None
         return impact_of(self.transmission)
 
@@ -189,7 +189,7 @@ class ToothSizes(Result):
 
     @property
     def window_width(self) -> float:
-        """Width of the clearance window: maximum minus minimum clearance factor at which the pair turns."""
+        """Width of the clearance window: maximum minus minimum clearance factor at which the pair turns [1]."""
         assert self.limits is not None
         return self.limits.run - self.limits.jam
 

@@ -409,7 +409,7 @@ def _link(plan: FrictionPlan) -> str:
 
 
 def trials_document(found: FrictionTrials) -> Document:
-    """Return the trials as a document."""
+    """Return the report on trials of friction."""
     return Document("Torques", (), tuple(trial_sections(found)))
 
 

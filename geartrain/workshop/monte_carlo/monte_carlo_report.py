@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def trials_document(found: TrialResults) -> Document:
-    """Return what `geartrain montecarlo` prints for trials."""
+    """Return the report that `geartrain montecarlo` prints for trials."""
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
 
     return describe_monte_carlo(MonteCarloResult(found))

@@ -80,9 +80,9 @@ class TrialResults(Tabular):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each trial: turns of the input, errors of outputs [deg], and what it did to each pair.
+        """Table with a row for each trial: turns of the input, errors of outputs [deg], and event flags of each pair.
 
-        A sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut.
+        The flags are a bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.
         """
         errors = zip(self.plan.outputs, self.errors.T, strict=True)
         events = zip(self.plan.pairs, self.marks.T, strict=True)

@@ -103,7 +103,7 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
     bounds   interval that contains the boxes as far as there is space
     """
     order = sorted(range(len(wanted)), key=lambda at: wanted[at])
-    clusters: list[tuple[list[int], float]] = []  # members, and the place of the first
+    clusters: list[tuple[list[int], float]] = []  # members, and the centre of the first
     for at in order:
         clusters.append(([at], _kept([at], wanted[at], needs, bounds)))
         while len(clusters) > 1 and _overlap(clusters[-2], clusters[-1], needs):
@@ -135,7 +135,7 @@ def _steps(members: Sequence[int], needs: Sequence[float]) -> list[float]:
 
 def _overlap(left: tuple[list[int], float], right: tuple[list[int], float], needs: Sequence[float]) -> bool:
     end = left[1] + _steps(left[0], needs)[-1]
-    # boxes that just touch do not overlap, whatever rounding says
+    # the tolerance keeps boxes that just touch from counting as overlapping
     return right[1] - end < (needs[left[0][-1]] + needs[right[0][0]]) / 2 - 1e-12
 
 
@@ -153,18 +153,18 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
     places = np.array([(cos(each), sin(each)) for each in angle]) * count**0.5
     wanted = _distances(items, pairs, lengths)
     weights = np.where(wanted > 0, 1 / np.where(wanted > 0, wanted, 1.0) ** 2, 0.0)
-    # a Laplacian is singular: moving all alike costs nothing, and the pseudoinverse leaves the mean where it is
+    # the Laplacian is singular, as a common translation costs nothing; the pseudoinverse keeps the mean
     inverse = np.linalg.pinv(np.diag(weights.sum(1)) - weights)
     for _ in range(_STEPS):
         apart: Any = places[:, None, :] - places[None, :, :]
         distance = np.sqrt((apart**2).sum(2))
-        # two at one place have no direction to be pushed in, and do not pull: the others part them
+        # two items at one point have no direction to be pushed in: they do not pull, and the others separate them
         pull = -weights * wanted / np.where(distance > 1e-9, distance, 1.0)
         pull[distance <= 1e-9] = 0.0
         np.fill_diagonal(pull, 0.0)
         np.fill_diagonal(pull, -pull.sum(1))
         places = inverse @ (pull @ places)
-    return np.asarray(np.round(places, 4))  # coarser than the rounding of the linear algebra of any machine
+    return np.asarray(np.round(places, 4))  # coarser than rounding errors, so that all machines agree
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
@@ -189,8 +189,8 @@ Box = tuple[float, float, float, float]
 """Centre x, centre y, width and height [in]."""
 
 _PATHS = TextToPath()
-_LINE = 1.25  # heights of a line, of its letters' size
-_CELL = 0.5  # inches: boxes are looked for in the squares of a grid that they touch
+_LINE = 1.25  # height of a line over its font size
+_CELL = 0.5  # inches: side of the squares of the grid that indexes boxes
 PITCH = _LINE * FINE / 72 + 0.02
 """Distance between the lines of a callout [in]."""
 
@@ -199,7 +199,7 @@ PITCH = _LINE * FINE / 72 + 0.02
 def text_width(text: str, size: float = FINE, weight: str = "normal") -> float:
     """Return the width [in] of a line of text in the font of the figures."""
     font = FontProperties(size=size, weight=weight)
-    shown = printable(text)  # as it is drawn
+    shown = printable(text)  # the text as drawn, with control characters written out
     return float(_PATHS.get_text_width_height_descent(shown, font, ismath=False)[0]) / 72 if text else 0.0
 
 
@@ -254,8 +254,8 @@ def overlap(one: Box, other: Box) -> float:
 Spot = tuple[float, float]
 
 _AWAY = 0.06  # inches between words and the line that leads from them
-_APART = 0.08  # inches between a list and what stands above or below it
-_FEW, _SHARE = 8, 0.6  # lines that may all stand on one side, and the share of more that may
+_APART = 0.08  # inches between a list and its neighbours above and below
+_FEW, _SHARE = 8, 0.6  # lines that may all be on one side; of more lines, the maximum share on one side
 _THIN: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "zorder": 7}
 
 
@@ -296,7 +296,7 @@ class CalloutMargin:
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Minimum and maximum y of all callouts [in]; (inf, -inf) if there are no callouts."""
+        """Minimum and maximum y of all callouts [in]; (inf, -inf) without callouts."""
         ends = [y + way * each.height / 2 for side in (self.left, self.right) for each, y in side for way in (-1, 1)]
         return min(ends, default=inf), max(ends, default=-inf)
 
@@ -342,7 +342,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
     lines = np.cumsum([0, *(len(each.words) for each in ordered)])
     most = ceil(_SHARE * lines[-1]) if lines[-1] > _FEW else lines[-1]
     middle = sum(edges) / 2
-    # all of one column lie left of all of the other: lines of the two never cross
+    # all anchors of one column lie left of those of the other, so that lines of different columns never cross
     fair = [at for at in range(len(ordered) + 1) if lines[at] <= most and lines[-1] - lines[at] <= most]
     even = min(range(len(ordered) + 1), key=lambda at: abs(2 * lines[at] - lines[-1]))
     wanted = sum(each.anchor[0] < middle for each in ordered)

@@ -33,11 +33,11 @@ from geartrain.scene.stroke_letters import HANDS
 
 _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
-_OUTER = _FACE / 2 - 0.2  # radius of a face
-_FINEST = 0.3  # points: a line
-_DECIMALS = 9  # of a turn, to which a float error is read
-_PLAIN = len(HANDS["needle"].stations)
-_SAMPLE, _DASHED = 0.45, 0.75  # inches of a hand in the key, and of hands that are told apart by dashes
+_OUTER = _FACE / 2 - 0.2  # inches: radius of a face
+_FINEST = 0.3  # points: minimum line width
+_DECIMALS = 9  # decimals of a turn to which an error is rounded, as its floats carry noise
+_PLAIN = len(HANDS["needle"].stations)  # outlines with more points than a needle are filled
+_SAMPLE, _DASHED = 0.45, 0.75  # inches: sample of a hand in the key, and of hands distinguished by dashes
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,13 +134,13 @@ def _driving_link(scene: Scene) -> str:
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to be drawn. Raise `QuestionError` if an output is unknown, or if there is no face or too many.
+    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, and for no face or too many.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
             fix = f"choose from {', '.join(known)}" if known else "declare `outputs`"
-            raise QuestionError(Problem(f"'{scene.name}' has no output '{name}'", "it is not declared", fix))
+            raise QuestionError(Problem(f"'{scene.name}' has no output '{name}'", "only declared outputs have dials", fix))
     wanted = [known[name] for name in outputs] or list(known.values())
     on: dict[int, list[int]] = {}
     for at in wanted:
@@ -152,11 +152,15 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
         raise QuestionError(
-            Problem(f"'{scene.name}' has nothing to read", "it declares no outputs", "declare `outputs`, and `dials`")
+            Problem(f"'{scene.name}' has no dial to draw", "it declares no `outputs`", "declare `outputs` and `dials`")
         )
     if len(faces) > _MOST:
         raise QuestionError(
-            Problem(f"{len(faces)} faces are too many", f"a page holds {_MOST}", "name some outputs with --output")
+            Problem(
+                f"{len(faces)} dial faces do not fit on a page",
+                f"a page has space for {_MOST}",
+                "select outputs with --output",
+            )
         )
     return faces
 
@@ -202,7 +206,7 @@ def _draw_key(
 
 
 def _sample(face: DialPicture) -> float:
-    """Return the length [in] of the sample of a hand in the key of a face."""
+    """Return the length [in] of a hand's sample in the key of a face."""
     return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
 
@@ -236,7 +240,7 @@ def _draw_pointer(
     axes.plot(*zip(tail, centre, strict=True), color=look["color"], linewidth=2.2, zorder=6)
     if scale.turns == 1 and len(reading.outline) > _PLAIN:
         _fill_hand(axes, reading, centre, tip, look["color"])
-    if scale.turns > 1 or len(face.pointers) > 1:  # of hands over each other, the ends are still seen
+    if scale.turns > 1 or len(face.pointers) > 1:  # a dot keeps the tip of a hand visible under another hand
         axes.plot(*tip, "o", color=look["color"], markersize=4, zorder=7)
 
 
@@ -260,7 +264,7 @@ def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
     error = reading.error * scale.way
     if abs(error) > 5e-7:
         text += f" {'+' if error > 0 else '-'} {abs(error) * 360:.3g}°"
-    if face.name and (shown := scale.told(reading.at * scale.way)):  # a plain face has ticks and no cells
+    if face.name and (shown := scale.told(reading.at * scale.way)):  # a plain face has ticks but no cells
         text += f", {shown}"
     way = pointer.text.removesuffix(" as read")
     return f"{pointer.output}: {text}" + (f", {way}" if way == "stands still" else f", going {way}" if way else "")

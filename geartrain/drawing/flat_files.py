@@ -22,7 +22,7 @@ from geartrain.teeth.outlines.wheel_outline import WheelOutline
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-_STRAIGHT = 1e-9  # bulges below this are drawn as lines
+_STRAIGHT = 1e-9  # bulge below which an arc is drawn as a line
 
 
 def to_svg(drawing: FlatDrawing) -> str:
@@ -87,7 +87,7 @@ def to_dxf(drawing: FlatDrawing) -> str:
     except ImportError:
         raise MissingExtraError("ezdxf", "dxf", "an outline as DXF") from None
     document = new("R2010", units=units.MM)
-    document.header["$TDCREATE"] = document.header["$TDUPDATE"] = 0  # the same drawing is the same file
+    document.header["$TDCREATE"] = document.header["$TDUPDATE"] = 0  # makes the file reproducible
     document.header.custom_vars.append("Title", drawing.title)
     space = document.modelspace()
     used: dict[str, int] = {
@@ -164,8 +164,8 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
         return to_dxf(wheel_drawing(wheel))
     if suffix == ".csv":
         return _csv(wheel)
-    what = f"no outline can be written as {suffix or 'a file without suffix'}"
-    raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+    what = f"an outline cannot be written as {suffix or 'a file without suffix'}"
+    raise GearTrainError(Problem(what, "", f"use one of {', '.join(OUTLINES)}", "--profile"))
 
 
 def _csv(wheel: WheelOutline) -> str:

@@ -42,16 +42,16 @@ if TYPE_CHECKING:
 
 
 _MOST = 150  # links
-_EDGE, _HUB = 1.05, 0.055  # inches: length of an edge, and what each further edge at its ends adds
-_CLEAR = 0.33  # inches between an edge and a vertex that is none of its ends
-_CROWDED = 6.0  # inches of bend that an inch too little of clearance is worth
-_ROOMY = 3.0  # inches: what a graph of one link would add to its edges
+_EDGE, _HUB = 1.05, 0.055  # inches: length of an edge, and addition for each further edge at its ends
+_CLEAR = 0.33  # inches: wanted distance of an edge from vertices that are not its ends
+_CROWDED = 6.0  # penalty per inch of missing distance, in inches of bend
+_ROOMY = 3.0  # inches: addition to the edge lengths of small graphs, divided by the number of links
 _BENDS = [0.0, *(side * size for size in (0.15, 0.3, 0.5, 0.8, 1.2, 1.7) for side in (1, -1))]
-_SHORT = 4  # letters of a name that fits into its vertex
-_TRACED = 81  # points of an edge that labels of others keep off
+_SHORT = 4  # letters of the longest name that fits into a vertex
+_TRACED = 81  # sampled points per edge, from which labels of other edges keep off
 _RIMS = 0.03  # inches between two labels
-_KEPT = 0.03  # inches between a label and an edge that it is not of
-_SHARES = tuple(share / 100 for share in range(14, 87, 3))  # of an edge, where its label may stand
+_KEPT = 0.03  # inches between a label and other edges
+_SHARES = tuple(share / 100 for share in range(14, 87, 3))  # relative positions of a label along its edge
 _LOOKS: dict[str, tuple[float, Dash, str]] = {
     "revolute": (0.9, "-", GREY),
     "gear": (3.2, "-", BLUE),
@@ -65,10 +65,10 @@ _BESIDE = (
     (-0.2, -0.06),
     (0.0, 0.24),
     (0.0, -0.24),
-)  # inches off it
-_NAME = 8.5  # points
-_IN = 9  # points of one in its vertex
-_SMALL, _LARGE = 0.11, 0.19  # inches: half a vertex that is named beside it, and at least of one that holds its name
+)  # inches: offsets of a label next to its edge
+_NAME = 8.5  # points: a name next to its vertex
+_IN = 9  # points: a name in its vertex
+_SMALL, _LARGE = 0.11, 0.19  # inches: half width of a vertex with its name outside, minimum with its name inside
 _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 
@@ -123,7 +123,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     for edge, curve in zip(edges, curves, strict=True):
         _draw_edge(axes, edge, curve)
     room, traces = LabelSpace(), _Traces.of(edges, curves)
-    outside = [link for link in links if beside or link == declared.frame]  # no word is read over hatching
+    outside = [link for link in links if beside or link == declared.frame]  # text over hatching is illegible
     half = {link: _SMALL if link in outside else inner for link in links}
     for link in links:
         room.take((*at[link], 2 * half[link], 2 * half[link]))
@@ -188,7 +188,7 @@ def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) ->
     """
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
-    normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # ends at one place: no bend
+    normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
     others = np.array([place for link, place in at.items() if link not in edge.ends]).reshape(-1, 2)
     trials = [(bend, np.array([start, (start + end) / 2 + 2 * bend * normal, end])) for bend in _BENDS[turn:]]
     costs = [abs(bend) + _CROWDED * max(_CLEAR - _clearance(curve, others), 0.0) for bend, curve in trials]
@@ -305,7 +305,7 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw the name of a link next to its vertex, where it hides the least ink, on the side where the fewest edges
+    """Draw the name of a link next to its vertex, where it hides little ink, on the side where the fewest edges
     leave.
     """
     boxes = []
@@ -332,7 +332,7 @@ def _free_sides(
     away /= np.maximum(np.sqrt((away**2).sum(1)), 1e-9)[:, None]
     angles = np.arange(16) * np.pi / 8
     sides = np.stack([np.cos(angles), np.sin(angles)], 1)
-    # beside reads better than above; rounded, so that equal sides are told apart by their order on every machine
+    # sideways reads better than above; rounding makes ties break by order on every machine
     nearest = np.round((sides @ away.T).max(1) + 0.08 * np.abs(sides[:, 1]), 9)
     return [(float(x), float(y)) for x, y in sides[np.argsort(nearest, kind="stable")]]
 

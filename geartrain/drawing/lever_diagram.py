@@ -47,12 +47,12 @@ class Point(NamedTuple):
 
 
 _MOST = 120  # panels
-_MINIMUM, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
-_NARROW, _EDGE = 5.0, 0.45  # inches: least width of a page, and what is free at its right
+_MINIMUM, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: minimum width and height of a panel, maximum width of a row
+_NARROW, _EDGE = 5.0, 0.45  # inches: minimum width of a page, and margin at its right
 _GAP, _HEAD = 0.7, 0.95  # inches between panels, and for the names above and below one
 _FINE = 8.5  # points
-_UPRIGHT = 1.4  # times as high as wide, beyond which states stand in columns
-_LONG = 11  # letters of a fraction that is still written out
+_UPRIGHT = 1.4  # height over width of a page beyond which states are arranged in columns
+_LONG = 11  # letters of the longest fraction that is not written as a decimal
 
 
 def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
@@ -66,7 +66,7 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
             Problem(
                 f"'{train.name}' has no epicyclic set",
                 "a speed diagram shows members that turn about the axis of a moving carrier, and no carrier moves",
-                "draw another kind: plan, stick, graph or dials",
+                "draw another kind of picture: plan, stick, graph or dials",
             )
         )
     states: list[str | None] = [state] if state is not None else [*train.states] or [None]
@@ -125,7 +125,7 @@ def _filled(wide: Sequence[float], page: float) -> list[list[int]]:
     bands: list[list[int]] = [[]]
     left = 0.0
     for at, each in enumerate(wide):
-        if bands[-1] and left + each + _GAP > page + 1e-9:  # rounding of sums
+        if bands[-1] and left + each + _GAP > page + 1e-9:  # tolerance for the rounding of sums
             bands.append([])
             left = 0.0
         bands[-1].append(at)
@@ -217,7 +217,7 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
     axes.tick_params(labelsize=_FINE - 0.5, colors=GREY)
     axes.set_xticks([])
     axes.locator_params(axis="y", nbins=4)
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")  # signs as in the fractions above
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")  # a hyphen for minus, as in the fractions above
     low, high = min(xs), max(xs)
     rim = 0.08 * (high - low) or 0.5
     axes.set_xlim(low - rim, high + rim)

@@ -39,14 +39,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_ROW = 200  # pixels of a panel, at 100 to the inch
-_MOST = 6000  # points drawn in a panel: of each stretch the first, its least and its greatest
-_OUTPUTS, _STACKED = 12, 4  # outputs drawn, those that err most, and how many of them in one column
-_WIDE = 5.0  # inches of a panel beside others
-_TICKS = 6  # at most, between numbers below a panel
-_SWINGS = 60  # turning points of the beginning of a curve, which is drawn in place of one that would be a block
-_EXACT = 1e-12  # rad, below which an error is rounding
-_ROUNDS = 15  # turns of a pointer beyond which its angle would be a grey block
+_ROW = 200  # pixels: height of a panel, at 100 dots per inch
+_MOST = 6000  # points drawn in a panel: the first of each interval, its minimum and its maximum
+_OUTPUTS, _STACKED = 12, 4  # maximum number of outputs drawn, and of outputs in one column
+_WIDE = 5.0  # inches: width of a panel next to others
+_TICKS = 6  # maximum number of intervals between ticks below a panel
+_SWINGS = 60  # turning points drawn of a curve that would otherwise fill its panel
+_EXACT = 1e-12  # rad: smaller deviations are rounding
+_ROUNDS = 15  # turns of a pointer beyond which its angle would fill the panel
 
 
 class _Trace(NamedTuple):
@@ -60,6 +60,8 @@ class _Trace(NamedTuple):
     mean: Floats
     error: Floats
     speed: Floats
+    kind: str
+    """Name of the deviation: transmission error with real teeth, anomaly without."""
     first: tuple[Floats, Floats, Floats]
     """Turns, deviation and speed at each of the first positions."""
 
@@ -141,27 +143,28 @@ def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> F
 def _left_out(erring: int, exact: int) -> Iterator[str]:
     """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
     if not erring:
-        yield "no output has an error"
+        yield "every output moves uniformly"
         yield from _beyond(exact, "")
         return
-    yield from _beyond(erring, " that err less")
+    yield from _beyond(erring, " with smaller deviations")
     if exact:
-        yield f"{exact} without error {'is' if exact == 1 else 'are'} not drawn"
+        moves = "1 output that moves uniformly is" if exact == 1 else f"{exact} outputs that move uniformly are"
+        yield f"{moves} not drawn"
 
 
 def _beyond(outputs: int, which: str) -> Iterator[str]:
     """Yield a remark on the outputs beyond the maximum number that is drawn."""
     less = outputs - _OUTPUTS
     if less == 1:
-        yield f"1 output{which and ' that errs less'} is left out: name it with --output"
+        yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --output"
     elif less > 1:
-        yield f"{less} outputs{which} are left out: name them with --output"
+        yield f"{less} outputs{which} are left out: select them with --output"
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:
     """Return the figure with all panels: in one column for few outputs, otherwise one row for each output."""
     across = 1 if len(parts) <= _STACKED else max(len(drawers) for _, drawers in parts)
-    if across > 1:  # error and speed, which all have, in columns of their own
+    if across > 1:  # deviation and speed, which all outputs have, in columns of their own
         parts = [(trace, [*drawers[-2:], *drawers[:-2]]) for trace, drawers in parts]
     rows = sum(len(drawers) for _, drawers in parts) if across == 1 else len(parts)
     size = WIDTH if across == 1 else _WIDE * across, max(2, rows) * _ROW / 100 + 0.3
@@ -210,11 +213,13 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
         on_done(len(passage.turns))
     found = []
+    kind = "transmission error" if motion._problem.rippling else "anomaly"
     for tally, start, part, first in zip(motion._statistics(), motion._start_angles, parts, firsts, strict=True):
         turns, error, rate = (np.concatenate(column) for column in zip(*part, strict=True))
         mean = start / (2 * np.pi) + tally.mean * turns
         angle = mean + error / (2 * np.pi)
-        found.append(_Trace(tally.name, turns, angle, mean, error, (tally.mean + rate) / (tally.mean or 1.0), first))
+        speed = (tally.mean + rate) / (tally.mean or 1.0)
+        found.append(_Trace(tally.name, turns, angle, mean, error, speed, kind, first))
     return found
 
 
@@ -243,7 +248,7 @@ def _angle(panel: Any, trace: _Trace) -> None:
         panel.plot(*_broken(trace.turns, values), color=colour, linewidth=width, label=label)
     back = np.where(trace.speed < 0, trace.angle, np.nan)
     if np.isfinite(back).any():
-        panel.plot(*_broken(trace.turns, back), color=RED, linewidth=2, label="going back")
+        panel.plot(*_broken(trace.turns, back), color=RED, linewidth=2, label="backward")
     _dial(panel, f"{trace.name}\nangle (deg)")
     legend_above(panel, 3)
 
@@ -251,7 +256,7 @@ def _angle(panel: Any, trace: _Trace) -> None:
 def _arcs(panel: Any, trace: _Trace) -> None:
     back = np.where(trace.speed < 0, trace.angle, np.nan)
     panel.plot(*_broken(trace.turns, back), color=RED, linewidth=1.5)
-    _dial(panel, f"{trace.name}\nwhere it goes back (deg)")
+    _dial(panel, f"{trace.name}\nbackward motion (deg)")
 
 
 def _dial(panel: Any, label: str) -> None:
@@ -270,7 +275,7 @@ def _broken(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
 def _error(panel: Any, trace: _Trace) -> None:
     middle = trace.error.mean()
     _curve(panel, trace, np.degrees(trace.error - middle), np.degrees(trace.first[1] - middle))
-    panel.set_ylabel(f"{trace.name}\nerror less\nits mean (deg)")
+    panel.set_ylabel(f"{trace.name}\n{trace.kind}\nless its mean (deg)")
 
 
 def _speed(panel: Any, trace: _Trace) -> None:
@@ -308,13 +313,13 @@ def _turning(values: Floats) -> NDArray[np.intp]:
 
 
 _ABOVE_LEGEND = 20  # points from the title to the upper panel
-_MOST_POSITIONS = 6000  # positions drawn of the torque: of each stretch the first, its least and its greatest
-_BINS = 900  # pixels: stretches of the run over which losses are averaged where there are more positions
-_MINIMUM = 1e-9  # of all that is lost: less is rounding
-_CUT = 1.5  # times the torque that is exceeded in a fiftieth of the run: near a lock it has no bound
+_MOST_POSITIONS = 6000  # positions drawn of the torque: the first of each interval, its minimum and its maximum
+_BINS = 900  # intervals, about one per pixel, over which losses are averaged if there are more positions
+_MINIMUM = 1e-9  # relative to all losses: smaller losses are rounding
+_CUT = 1.5  # axis limit over the 98 % quantile of the torque, which is unbounded near a lock
 _MOST_LOSSES = 6
 """Maximum number of parts drawn, those with the largest losses; the others are drawn as one."""
-_OTHERS = 9  # their series, whose filling in print no part that is shown has
+_OTHERS = 9  # series of the remaining parts, whose fill in print is used by no other part
 
 
 class _Loss(NamedTuple):
@@ -355,7 +360,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     """
     if found.turns is None or found.torque is None or not np.isfinite(found.torque).any():
         raise QuestionError(
-            Problem("there is no torque over a turn to draw", found.verdict.text, "declare loads that can be moved")
+            Problem("the torque over a turn is not known", found.verdict.text, "declare loads that the input can move")
         )
     losses = _losses(found)
     rows = 2 if losses else 1
@@ -416,8 +421,8 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
         linewidth=0,
     )
     panel.set_ylim(0.0, _bounds(turns, powers.sum(axis=0))[1] if found.locked else None)
-    of = f"as torque at {short(found.link)}" if ratio else "a radian of the input"
-    name_axes(panel, y=f"lost, {of}{unit}", size=SMALL, parse_math=False)
+    of = f"as torque at {short(found.link)}" if ratio else "per radian of the input"
+    name_axes(panel, y=f"losses, {of}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 4)
 
 

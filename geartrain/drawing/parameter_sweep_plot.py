@@ -39,7 +39,7 @@ EFFICIENCY = "efficiency_mean"
 _SHOWN = {
     EFFICIENCY: "mean efficiency",
     "error_pp_deg": "transmission error\npeak to peak (deg)",
-    "tau": "speed ratio,\nleast and greatest",
+    "tau": "speed ratio,\nminimum and maximum",
 }
 _FAULTS = {  # hatches of the verdicts on pairs that do not run
     "jam": "xx",
@@ -50,27 +50,27 @@ _FAULTS = {  # hatches of the verdicts on pairs that do not run
     "apart": "--",
     "none": "",
 }
-_STANDS = "dwell"  # a fault with which the pair still turns
-_KNOWN = {  # ways of running: series and how strong its veil is, so that in print no two are like grey
+_STANDS = "dwell"  # the fault with which the pair still turns
+_KNOWN = {  # phases of running pairs: series and opacity, chosen so that no two have the same grey in print
     "approach": (0, 0.08),
     "recess": (1, 0.27),
     "astride": (2, 0.34),
     "approach+recess": (4, 0.24),
 }
-_VEIL = 0.2  # of other ways
+_VEIL = 0.2  # opacity of other phases
 _CUT = 0.8  # points: the line between two bands
-_NAMES = {  # of parameters, and the unit of one that has none of its own
+_NAMES = {  # names of parameters, and default units
     "z1": ("teeth of wheel 1", ""),
     "z2": ("teeth of wheel 2", ""),
     "clearance_factor": ("clearance factor", ""),
-    "excess": ("clearance factor less 1", ""),
+    "excess": ("clearance factor minus 1", ""),
     "backlash": ("backlash", "modules"),
     "centre_distance": ("centre distance", "modules"),
-    "radii": ("R2/R1 over z2/z1", ""),
+    "radii": ("(R2/R1)/(z2/z1)", ""),
 }
-_FEW = 60  # samples that are marked each
-_MANY = 2500  # cells of a map from which it is drawn as pixels in a vector file
-_REGION = 0.01  # of a map: a lesser region is not named
+_FEW = 60  # maximum number of samples with markers
+_MANY = 2500  # cells of a map beyond which it is rasterized in a vector file
+_REGION = 0.01  # share of the map below which a region is not named
 
 
 def sweep_figure(
@@ -82,25 +82,25 @@ def sweep_figure(
 ) -> Figure:
     """Draw the results of a sweep over one or two parameters of a pair with triangular teeth; NaN is left out.
 
-    One parameter: panels of mean efficiency, transmission error and speed ratios over it, before bands for the
-    verdicts. Two: a map of the mean efficiency, blank where the pair does not turn, with the faults hatched. The scale
-    follows the pairs that run.
+    For one parameter, draw panels of mean efficiency, transmission error and speed ratios over it, with bands for the
+    verdicts behind them. For two, draw a map of the mean efficiency, blank where the pair does not turn, with the
+    faults hatched. The scale fits the pairs that run.
 
     Parameters
     ----------
     parameters : mapping of str to array
-        One or two: name, which stands at the axis in words, and values, of shape (n,) or, as grids with each parameter
-        constant along one axis, (n, m).
+        One or two parameters: name, which labels the axis, and values, of shape (n,), or as grids (n, m) in which each
+        parameter is constant along one axis.
     columns : mapping of str to array
-        Results of the same shape: of these `efficiency_mean`, `error_pp_deg` [deg] and `tau_min` with `tau_max` are
-        shown, or else all.
+        Results of the same shape. `efficiency_mean`, `error_pp_deg` [deg] and `tau_min` with `tau_max` are shown, or
+        all columns if none of these is given.
     verdicts : array of str
-        Of the same shape: "jam", "clash", "standstill", "overhang", "no valley", "apart" or "none" of a pair that does
-        not run; of one that runs any text, such as its phases.
+        Verdicts of the same shape: "jam", "clash", "dwell", "overhang", "no valley", "apart" or "none" for a pair that
+        does not run; any other text, such as its phases, for a pair that runs.
     title : str
-        What is swept, written over all.
+        Title above the figure.
     units : mapping of str to str, optional
-        Of parameters whose values are in a unit, that unit.
+        Units of parameters whose values have one.
 
     Returns
     -------
@@ -110,7 +110,7 @@ def sweep_figure(
     Raises
     ------
     QuestionError
-        For arrays of different shapes, and for nothing to draw.
+        For arrays of different shapes, and without data.
 
     Examples
     --------
@@ -127,8 +127,10 @@ def sweep_figure(
     if len(shapes) > 1 or not 1 <= len(places) == verdicts.ndim <= 2 or not values or not verdicts.size:
         raise QuestionError(
             Problem(
-                f"no sweep to draw: {len(places)} parameters, {len(values)} columns, arrays of shapes {sorted(shapes)}",
-                fix="give one parameter and arrays (n,), or two and grids (n, m), and at least one column",
+                f"cannot draw a sweep of {len(places)} parameters and {len(values)} columns with arrays of shapes "
+                f"{sorted(shapes)}",
+                "all arrays must have one shape",
+                "pass one parameter with arrays (n,), or two with grids (n, m), and at least one column",
             )
         )
     units = units or {}
@@ -262,7 +264,7 @@ def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floa
 
 
 def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
-    """Hatch the regions of faults; label the regions of running and draw their boundaries."""
+    """Draw the regions of faults with hatching, and name and bound the regions where the pair runs."""
     for kind, hatch in _FAULTS.items():
         if hatch and (verdicts == kind).any():
             here = (verdicts == kind).astype(float)

@@ -60,8 +60,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 _FAR, _NEAR = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))  # colours of the lowest and highest layer
-_ONLY = 0.7  # from the lowest layer's colour to the highest's, of a train in one layer
-_CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave its teeth by
+_ONLY = 0.7  # position between both colours of the only layer of a train
+_CHORD, _COARSE = 0.002, 0.02  # maximum deviation of a simplified outline, in inches and in modules
 
 
 def from_below(standing: ProjectedScene) -> list[SceneWheel]:
@@ -181,11 +181,11 @@ def _draw_holes(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupl
             page.axes.add_artist(round_)
 
 
-_ROUND = 16  # directions in which a place is looked for
-_SHARES = (0.72, 0.5, 0.86, 0.35)  # of a wheel's radius, where its name may stand
-_POINTS = (0.9, 0.75, 0.55, 0.3)  # of it, where a line may end
+_ROUND = 16  # directions in which positions are tried
+_SHARES = (0.72, 0.5, 0.86, 0.35)  # radii of candidate positions of a name, over the wheel's radius
+_POINTS = (0.9, 0.75, 0.55, 0.3)  # radii of candidate ends of a callout line, over the wheel's radius
 _STEP = 0.08  # inches between the points that keep names off arms and lines
-_HUB, _LINE = 0.12, 0.04  # inches that a hub or a point of an arm keeps free, and a point of a line to a name
+_HUB, _LINE = 0.12, 0.04  # inches kept free around a hub or a point of an arm, and around a point of a callout line
 
 
 @dataclass(frozen=True, slots=True)
@@ -308,15 +308,15 @@ def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[n
         return np.zeros(len(points), dtype=bool)
     middle = points.mean(axis=0)
     far = np.hypot(*(points - middle).T).max()
-    near = np.hypot(*(centres - middle).T) < reach + far + 1e-9  # others hide none of them
+    near = np.hypot(*(centres - middle).T) < reach + far + 1e-9  # farther discs cannot contain any of the points
     apart = points[:, None] - centres[near]
     return np.asarray((np.hypot(apart[..., 0], apart[..., 1]) < reach[near]).any(axis=1))
 
 
-_MINIMUM, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average
+_MINIMUM, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: minimum and maximum side of the plan, mean share of a wheel
 _RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
-_SIDE = 1.1  # inches: least width of the side view
-_TOLD = 8.5  # points: what is told above the plan
+_SIDE = 1.1  # inches: minimum width of the side view
+_TOLD = 8.5  # points: text above the plan
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
@@ -386,7 +386,7 @@ class _PlanSize:
         wheels = standing.scene.wheels
         points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in wheels), *_hubs(standing)])
         low, high = points.min(0), points.max(0)
-        size = np.maximum(high - low, 1e-6)  # of points alone: the scale divides by it
+        size = np.maximum(high - low, 1e-6)  # a train of points only has no extent, and the scale divides by it
         side = min(max(_MINIMUM, _WHEEL * len(wheels) ** 0.5 * 1.7), _MOST)
         scale = side / float(size[:2].max())
         layered = standing.flat and size[2] > 1e-9 and len({wheel.layer for wheel in wheels}) > 1

@@ -34,11 +34,11 @@ from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
 
-_FINEST = 0.7  # points: a band is never drawn narrower
+_FINEST = 0.7  # points: minimum width of a band
 _MOST = 300  # nodes
 _HEAD, _FOOT = 0.6, 0.45  # inches above and below
 _MOVE, _LINE, _CURVE, _CLOSE = map(int, (Path.MOVETO, Path.LINETO, Path.CURVE4, Path.CLOSEPOLY))
-_ROUND = 0.5523  # of a quarter circle by a cubic
+_ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a quarter circle, over its radius
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
@@ -76,11 +76,10 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     if isinstance(flow, Torques):
         flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:
-        raise GearTrainError(Problem("there is no flow of power to draw", title, "give loads to links that turn"))
+        raise GearTrainError(Problem(f"no power flows in '{title}'", "no link is loaded and turns", "declare `loads`"))
     if len(flow.nodes) > _MOST:
-        raise GearTrainError(
-            Problem(f"power passes {len(flow.nodes)} shafts and pairs, too many for a picture", "", "draw a part of it")
-        )
+        what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
+        raise GearTrainError(Problem(what, f"the maximum is {_MOST}", "draw a part of the train"))
     words = _Words(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
     title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)
@@ -257,7 +256,7 @@ def _loops(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:
         x = (placed.x[piece.source.column] + placed.x[piece.target.column]) / 2
         text = f"{percent_of_text(loop.power / flow.power_in, 'the power in')} circulates"
         how: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": TEXT, "color": BLACK, "zorder": 5}
-        box = {"boxstyle": "round,pad=0.2", "facecolor": WHITE, "linewidth": 0}  # in print the band is hatched
+        box = {"boxstyle": "round,pad=0.2", "facecolor": WHITE, "linewidth": 0}  # keeps the text readable in print, where the band is hatched
         axes.text(x, turn.lane + piece.width / 2, text, parse_math=False, bbox=box, gid="circulates", **how)
 
 

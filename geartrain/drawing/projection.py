@@ -43,10 +43,10 @@ if TYPE_CHECKING:
     Place = Callable[[Floats], Floats]
     from geartrain.numerics.arrays import Floats
 
-_OBLIQUE = (0.52, -0.62, 0.59)  # towards the reader, of trains that do not lie in one plane
-_MOST = 0.7  # of the wheels that must face the reader in a plan; the others are then seen from the side
+_OBLIQUE = (0.52, -0.62, 0.59)  # direction towards the reader in an oblique view
+_MOST = 0.7  # share of the wheels that must face the reader in a plan; the others are drawn from their side
 _ROUND = 73  # points of a circle
-_FINE = 5000  # teeth beyond which nobody sees them on paper: such a wheel is drawn as a circle
+_FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth are too small to be seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class ProjectedScene:
 
     def faces(self, wheel: SceneWheel) -> bool:
         """Return whether a wheel is seen along its axis."""
-        # the cosine is flat there: 1e-9 off 1 is 0.0026 deg, less than any declared tilt and more than rounding
+        # the cosine is flat at 0: a deficit of 1e-9 is 0.0026 deg, less than any declared tilt and more than rounding
         return abs(float(self.axis(wheel) @ self.screen[2])) > 1 - 1e-9
 
     def seen(self, points: object) -> Floats:
@@ -127,7 +127,7 @@ class ProjectedScene:
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
         first, along = np.array(wave.towards), np.array(wheel.direction)
         ring = np.cos(turn)[:, None] * first + np.sin(turn)[:, None] * np.cross(along, first)
-        # of the generator, about whose axis the wheel stands too
+        # in the frame of the generator, which is coaxial with the wheel
         return self.pose.point(wave.by, np.array(wheel.centre) + bore * ring)
 
     def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
@@ -155,7 +155,7 @@ class ProjectedScene:
         first.
         """
         half = wheel.thickness / 2
-        if wheel.cone <= 0 or wheel.cone > CROWN:  # which has no narrow end
+        if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
             return (half, 1.0), (-half, 1.0)
         narrow = taper(wheel.cone, wheel.radius, wheel.thickness)
         return (0.0, 1.0), (-wheel.facing * height_on_cone(wheel.cone, wheel.radius, 0.0, narrow), narrow)
@@ -233,9 +233,9 @@ def broken_wheels(scene: Scene) -> set[str]:
 # ----------------------------------------------------------------------------------------------- oblique and side views
 
 
-_SEAM = 0.3  # points: what joins two tiles of one surface
-_FACES_RIGHT = 0.99  # of the direction to the right, along the axis of a wheel that is seen with its teeth from there
-_SECTIONS = 48  # of a worm, between which its thread is drawn
+_SEAM = 0.3  # points: line width that closes the gap between two tiles of one surface
+_FACES_RIGHT = 0.99  # cosine between the right and a wheel's axis beyond which the side view shows its teeth
+_SECTIONS = 48  # intervals along a worm between whose sections its thread is drawn
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,7 +305,7 @@ def _draw_faces(
     edges = [
         (RED if wheel.id in red else BLACK)
         if face.edge
-        else tint  # a seam without a line lets what is behind it through
+        else tint  # without a line, parts behind would show through the seam
         for (wheel, face), tint in zip(faces, tints, strict=True)
     ]
     axes.add_collection(
@@ -341,7 +341,7 @@ def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
         strip = np.arange(start, min(start + max(len(first) // 72, 1), len(first)) + 1) % len(first)
         points = np.concatenate([first[strip], last[strip[::-1]]])
         away = points.mean(0) - middle
-        # of a strip in the middle of the wheel, whose normal is no direction, any shade will do
+        # a strip in the middle of the wheel has no normal, and its shade is arbitrary
         shade = 0.35 + 0.3 * float(away[2]) / max(float(np.linalg.norm(away)), 1e-9)
         if away[2] > 0 or wheel.kind == "ring" or wheel.cone > 0:
             yield _Face(points, float(points[:, 2].mean()), shade, 0.0)
@@ -418,7 +418,7 @@ def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> N
         stacks.setdefault((round(x, 4), round(middle, 4)), []).extend((left, right))
     for (_, middle), ends in stacks.items():
         page.axes.plot([min(ends) - 0.06, max(ends) + 0.06], [middle, middle], color=BLACK, linewidth=1.4, zorder=4)
-    text = "from the right" if abs(depth.scale / page.scale - 1) < 0.01 else "from the right, layers apart"
+    text = "from the right" if abs(depth.scale / page.scale - 1) < 0.01 else "from the right, layers spread"
     page.axes.text(depth.left - 0.25, page.foot, text, fontsize=FINE, color=GREY)
 
 

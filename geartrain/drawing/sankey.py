@@ -14,10 +14,10 @@ from math import inf
 
 from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
 
-NAME = 0.46  # room above a node
-DROP, BEND = 0.14, 0.05  # how far a loss falls, and the inner radius on its way down
-TURN = 0.14  # inner radius of a band that turns back
-_BETWEEN = 0.1  # nodes of a column
+NAME = 0.46  # space above a node for its name
+DROP, BEND = 0.14, 0.05  # height of a loss band, and the inner radius of its bend
+TURN = 0.14  # inner radius of a return band's bends
+_BETWEEN = 0.1  # space between passing bands of a column
 _WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
 
 
@@ -111,7 +111,7 @@ class SankeyLayout:
 
 
 _MINIMUM_GAP = 0.62  # between columns
-_CLEAR = 0.06  # between words and a band that turns back beside them
+_CLEAR = 0.06  # between text and a return band next to it
 
 
 def turns(
@@ -125,7 +125,7 @@ def turns(
         first, last = piece.target.column, piece.source.column
         lane = min([lane, *(spot.top - spot.above for column in table[first : last + 1] for spot in column)])
         lane -= piece.width + 0.06
-        # the words over the ends of a band stand within its turns, not over them
+        # the text above the ends of a band lies inside its bends
         source, target = (
             end - spot.width / 2 + _CLEAR
             for end, spot in ((piece.source.right, piece.source), (piece.target.left, piece.target))
@@ -166,8 +166,8 @@ def _widened(gaps: Sequence[float], whole: float) -> list[float]:
     return list(gaps)
 
 
-TALL = 2.4  # of the fullest column
-_BACK = 1.1  # of all bands that run back, at most
+TALL = 2.4  # height of all bands in the fullest column
+_BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
@@ -276,7 +276,7 @@ def make_bands(
 
 
 _SWEEPS = 24
-_CROSSING = 1e-3  # what a crossing of the thinnest bands counts
+_CROSSING = 1e-3  # cost of each crossing, so that crossings of the thinnest bands count too
 
 
 def order_columns(table: Sequence[list[SankeySpot]]) -> None:
@@ -329,7 +329,7 @@ def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
     for upper in range(len(column) - 1):
         for lower in range(upper + 1, len(column)):
             column[upper], column[lower] = column[lower], column[upper]
-            if (now := _tangle(table, near)) < tangle - 1e-9:  # a gain of rounding would be swapped back for ever
+            if (now := _tangle(table, near)) < tangle - 1e-9:  # gains at the level of rounding could alternate for ever
                 tangle, swapped = now, True
             else:
                 column[upper], column[lower] = column[lower], column[upper]
@@ -362,7 +362,7 @@ def _tangle(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
                 for other in ahead[number + 1 :]:
                     if (places[one.source] - places[other.source]) * (ends[one.target] - ends[other.target]) < 0:
                         total += one.width * other.width + _CROSSING
-        # a band that turns back passes all that is above it in its column
+        # a return band crosses all bands above it in its column
         for spot in table[at]:
             for turning, after in ((spot.after, True), (spot.before, False)):
                 width = sum(piece.width for piece in turning if piece.back)
@@ -387,7 +387,7 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
         forth = sweep % 2 == 0
         for column in table if forth else reversed(table):
             _ports(table)
-            # at first bands of one side, to come near, then both
+            # first sweeps level the bands of one side for a rough fit, later ones those of both sides
             wanted = [
                 _wanted(spot, sweep >= _HEIGHT_SWEEPS or forth, sweep >= _HEIGHT_SWEEPS or not forth) for spot in column
             ]

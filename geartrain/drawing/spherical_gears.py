@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _SIZE = 7.5  # inches
 _VIEW = (0.32, -0.43, 0.84)  # towards the reader
 _TOOTH = np.array([-0.30, -0.17, 0.17, 0.30])  # foot, tip, tip, foot, in pitches from the middle of a tooth
-_STRONG = 0.55  # of a kind's colour that a face has
+_STRONG = 0.55  # opacity of a face
 _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
 
 
@@ -86,7 +86,7 @@ def _screen(view: Floats) -> Floats:
     """Return the directions right, up and towards the reader as rows (3, 3)."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
-    if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is no direction
+    if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
         right = np.array([1.0, 0.0, 0.0])
     right /= np.linalg.norm(right)
     return np.array([right, np.cross(towards, right), towards])

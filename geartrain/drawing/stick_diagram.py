@@ -45,11 +45,11 @@ from geartrain.drawing.style import (
 )
 from geartrain.kinematics.circuits import Circuit
 
-STEP = 0.62  # inches from one to the next
+STEP = 0.62  # inches: minimum distance of two elements
 PLATE, STEM = 2.6, 1.6
 """Line widths of a plate and of its stem [pt]."""
-_HALF, _PLATE = 0.42, 0.11  # inches: half its height, half a plate
-_CLOSED, _OPEN = 0.012, 0.045  # inches: half the gap of its plates
+_HALF, _PLATE = 0.42, 0.11  # inches: half the height of an element, half a plate
+_CLOSED, _OPEN = 0.012, 0.045  # inches: half the gap between the plates of an element
 _ELEMENT_NAME = 8.0  # points
 
 
@@ -100,11 +100,11 @@ def _letters(train: GearTrain) -> int:
 
 
 _LINK_NAME = 8.5  # points of a link's name
-_BESIDE = 0.12  # inches from an upright to the middle of the words along it
-_STEP = 0.06  # inches from one place to the next that is tried
-_AWAY = 0.105  # inches from a shaft to the middle of the words over it
-_APART = 0.02  # inches more between two names along one line, and on either side of a link's
-_FAR = 24  # steps beyond its upright that a name may be moved
+_BESIDE = 0.12  # inches from a vertical line to the middle of the text along it
+_STEP = 0.06  # inches between candidate positions
+_AWAY = 0.105  # inches from a shaft to the middle of the text above it
+_APART = 0.02  # inches added between two names along one line, and on either side of a link's name
+_FAR = 24  # steps that a name may be moved beyond its vertical line
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +136,7 @@ class StickWords:
         """Add the name of a link: before its shaft, or above, behind or below the shaft."""
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
-        before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second, beside a bearing
+        before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second is next to a bearing
         spots = [*before, *((x, y + _AWAY) for x in along), (right + 0.04 + wide / 2, y + _AWAY)]
         spots += [*((x, y - _AWAY) for x in along), (left - 0.04 - wide / 2, y + _AWAY)]
         spots += [(right + 0.04 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, -_AWAY) for step in range(6)]
@@ -174,17 +174,17 @@ def _along(text: str, x: float, ends: tuple[float, float]) -> Iterator[Box]:
     _, _, wide, high = text_box([text], FINE, 0.0, 0.0)
     steps = int(max(room - wide / 2, 0.0) / _STEP)
     inside = [(side, step) for side in (1, -1) for step in range(steps + 1)]
-    beyond = [(side, step) for step in range(steps + 1, steps + _FAR) for side in (1, -1)]  # only where it must
+    beyond = [(side, step) for step in range(steps + 1, steps + _FAR) for side in (1, -1)]  # tried last
     for side, step in inside + beyond:
         for sign in (1, -1):
             yield x + side * _BESIDE, middle + sign * step * _STEP, high, wide + _APART
 
 
 LANE, GAP = 0.17, 1.7  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
-_TRIES = 6  # arrangements of columns and levels
-_SHORTEST = 0.32  # of the height between two axes, the smaller of two wheels
-_ROOM = 0.24  # inches between the ends of words along a wheel, its shaft and its mate
-REACH = 0.34  # inches of a planet beyond its axis, where its ring meets it
+_TRIES = 6  # maximum number of iterations between columns and levels
+_SHORTEST = 0.32  # minimum share of a wheel in the height between two axes
+_ROOM = 0.24  # inches between the ends of the text along a wheel, its shaft and its mate
+REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,7 +238,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
     tries: list[tuple[int, int, _Try]] = []
-    for at in range(_TRIES):  # columns follow from levels, and levels from columns
+    for at in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
         shafts = {link: StickShaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
         columns, cranks, lone, width = find_columns(train, planes, row, axis_of, shafts)
         _reach_cranks(shafts, cranks)
@@ -354,7 +354,7 @@ def _mesh(
     kinds = {train.declaration.wheels[wheel][1].kind for wheel in wheels}
     kind = next((kind for kind in ("worm", "contrate", "bevel") if kind in kinds), "spur")
     first, second = (train.declaration.wheels[wheel][1].count or 1 for wheel in wheels)
-    if top - bottom > GAP * 1.01:  # other axes lie between: the wheels touch beside the smaller one's
+    if top - bottom > GAP * 1.01:  # other axes lie between: the wheels touch next to the axis of the smaller one
         bottom, top = (bottom, bottom + GAP) if first < second else (top - GAP, top)
     meet = bottom + _share(wheels, (first, second), top - bottom) * (top - bottom)
     return StickMesh(circuit.id, kind, (low, high), wheels, "", x, bottom, top, meet)
@@ -370,7 +370,7 @@ def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> f
 _MOST = 160  # gear pairs
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
 _NAME = 8.5  # points
-_LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: what a line is, is seen without its colour
+_LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: line widths distinguish parts without colour
 _TOUCH = 0.032  # inches from where two wheels meet to the middle of either's mark
 _BEARING = 0.08  # inches: half of the mark of a carrier's bearing
 _LONE = 0.55  # inches of a wheel that meshes with nothing
@@ -512,7 +512,7 @@ class _Drawing:
         if link == self.train.declaration.frame:
             self._ground(x, foot)
         known = self.feet.get(wheel)
-        if known is not None and abs(known[0] - x) > 1e-9:  # more than rounding beside where it stood
+        if known is not None and abs(known[0] - x) > 1e-9:  # another column, not a rounding difference
             level = foot + (0.09 if end > foot else -0.09)
             self._line([known[0], x], [level, level], BLUE, _WHEEL, zorder=3)
         if known is None:

@@ -102,8 +102,8 @@ def _walk(order: Sequence[str], pairs: Sequence[tuple[str, str]]) -> list[str]:
     return list(seen)
 
 
-COLUMN, _PLANE = 0.3, 0.34  # inches from mesh to mesh within a plane, and between planes
-_CRANK = 0.3  # inches that a carrier's crank takes before a plane
+COLUMN, _PLANE = 0.3, 0.34  # inches between meshes of a group that shares wheels, and between groups
+_CRANK = 0.3  # inches for a carrier's crank before a group
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,8 +68,8 @@ _METADATA: dict[str, dict[str, str | None]] = {
     ".pdf": {"CreationDate": None},
 }
 _PATH = re.compile(rb'\bd="[^"]*"')
-_LONG = re.compile(rb"(\.\d{3})\d+")  # a thousandth of a point is finer than any screen
-_ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figures at once
+_LONG = re.compile(rb"(\.\d{3})\d+")  # a thousandth of a point is finer than any screen resolves
+_ONE_AT_A_TIME = Lock()  # the salt of SVG ids is a global setting of matplotlib
 
 
 class ShownFigure(_Figure):
@@ -114,7 +114,9 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     kind = suffix.lower()
     if kind not in SUFFIXES:
         raise GearTrainError(
-            Problem(f"no plot can be written as {suffix or 'a file without suffix'}", fix=f"use {', '.join(SUFFIXES)}")
+            Problem(
+                f"a plot cannot be written as {suffix or 'a file without suffix'}", fix=f"use one of {', '.join(SUFFIXES)}"
+            )
         )
     for text in _texts(figure):
         if (shown := printable(text.get_text())) != text.get_text():
@@ -122,12 +124,12 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     buffer = BytesIO()
     with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}), themed(figure, theme):
         if figure.get_layout_engine():
-            figure.draw_without_rendering()  # laid out anew, panels have other ticks, and their words another width
+            figure.draw_without_rendering()  # another layout has other ticks, whose labels change the layout again
         figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
     data = buffer.getvalue()
     if kind != ".svg":
         return data
-    data = printable(data.decode("utf-8")).encode("utf-8")  # ids too: XML has no control characters at all
+    data = printable(data.decode("utf-8")).encode("utf-8")  # ids too, as XML forbids control characters
     return _PATH.sub(lambda path: _LONG.sub(rb"\1", path[0]), data)
 
 
@@ -141,7 +143,7 @@ def _texts(artist: Artist) -> Iterator[Text]:
 
 
 WIDTH = 9.0  # inches: 900 pixels at 100 dots per inch
-TEXT, SMALL, FINE = 11.0, 10.0, 8.0  # points; nothing is written smaller
+TEXT, SMALL, FINE = 11.0, 10.0, 8.0  # points; FINE is the minimum
 
 _LIGHT = THEMES["light"]
 BLACK, GREY, PALE, WHITE, RED = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.paper, _LIGHT.fault
@@ -151,7 +153,7 @@ BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
 SCALE = SCALES["light"]
 """Colour scale of values on a map."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
-LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
+LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
 def series_look(at: int) -> dict[str, Any]:
@@ -312,7 +314,7 @@ def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
         raise QuestionError(
             Problem(
                 f"'{train.name}' has {count} {what}, too many for this picture",
-                f"a page holds {most} that can still be told apart",
-                "draw a part of it, or another kind of picture",
+                f"at most {most} {what} are legible on a page",
+                "draw a part of the train, or another kind of picture",
             )
         )

@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Rgba = tuple[float, float, float, float]
-_SHADES = 256  # of a scale of colours
-_ROUNDED = 0.5 / 255  # what a colour written with two digits a channel may be off by
-_AREA = 0.5  # opacity above which a face of a series is an area that is told apart, not a veil behind lines
+_SHADES = 256  # colours of a scale
+_ROUNDED = 0.5 / 255  # rounding error of a colour written with two hexadecimal digits per channel
+_AREA = 0.5  # opacity above which a series colour fills an area that needs its own hatch, not a background band
 SCALES = {name: LinearSegmentedColormap.from_list(name, theme.scale, _SHADES) for name, theme in THEMES.items()}
 """Colour scales of values on maps, by theme."""
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
-# linear sRGB to cone responses, and their roots to lightness and two opponents: Ottosson 2020, A perceptual color
-# space for image processing (Oklab)
+# Oklab: matrices from linear sRGB to cone responses, and from their cube roots to lightness and two opponent axes
+# (Ottosson 2020, A perceptual color space for image processing)
 _CONES = np.array([[0.4122214708, 0.5363325363, 0.0514459929],
                    [0.2119034982, 0.6806995451, 0.1073969566],
                    [0.0883024619, 0.2817188376, 0.6299787005]])  # fmt: skip
@@ -45,7 +45,7 @@ def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
     if name == "light":
         yield
         return
-    figure.draw_without_rendering()  # ticks and their words are made when they are first drawn
+    figure.draw_without_rendering()  # ticks and their labels are created on the first drawing
     painter = _Painter(name)
     try:
         for artist in _all(figure):
@@ -61,7 +61,7 @@ def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
 def _all(artist: Artist) -> Iterator[Artist]:
     yield artist
     box = artist.get_bbox_patch() if isinstance(artist, Text) else None
-    for part in (box, getattr(artist, "arrow_patch", None)):  # which are no children of their words
+    for part in (box, getattr(artist, "arrow_patch", None)):  # not children of their text
         if part is not None:
             yield part
     for child in artist.get_children():
@@ -74,20 +74,20 @@ class _Painter:
     def __init__(self, name: ThemeName) -> None:
         self.name = name
         self.undo: list[tuple[Callable[[Any], object], Any]] = []
-        self._halos: list[object] = []  # many words share one
-        self._scales: list[Colormap] = []  # a bar beside a map takes its scale over as soon as the map has it
+        self._halos: list[object] = []  # converted once, as texts share them
+        self._scales: list[Colormap] = []  # converted scales, as a colour bar shares the scale of its map
 
     def paint(self, artist: Artist) -> None:
-        """Recolour one artist; values on a colour scale get the theme's scale."""
+        """Convert the colours of one artist; values on a colour scale get the theme's scale."""
         if isinstance(artist, Collection) and artist.get_array() is not None:
             self._scale(artist)
-        elif not isinstance(artist, (Figure, Axes)):  # theirs are those of their patches
+        elif not isinstance(artist, (Figure, Axes)):  # their colours are those of their patches
             self._colours(artist)
         for effect in artist.get_path_effects() or ():
             self._halo(effect)
 
     def paint_grid(self, axes: Axes) -> None:
-        """Recolour the grid of ticks created later, as files of another resolution may have more ticks."""
+        """Convert the grid colour of ticks created later, as files of another resolution may have more ticks."""
         for axis in (axes.xaxis, axes.yaxis):
             old = axis.get_tick_params().get("grid_color")
             if old is not None:
@@ -113,7 +113,7 @@ class _Painter:
     def _colours(self, artist: Artist) -> None:
         area = _area_of(artist, self.name)
         kinds = [kind for kind in _COLOURS if hasattr(artist, f"get_{kind}") and hasattr(artist, f"set_{kind}")]
-        olds = [getattr(artist, f"get_{kind}")() for kind in kinds]  # before any is set: a marker follows its line
+        olds = [getattr(artist, f"get_{kind}")() for kind in kinds]  # read before any is set, as a marker follows its line
         for kind, old in zip(kinds, olds, strict=True):
             self._put(getattr(artist, f"set_{kind}"), old, _themed_all(old, self.name))
         if area is not None:
@@ -123,12 +123,12 @@ class _Painter:
         """Fill an area with the theme's colour and hatch, with outline and hatch in ink."""
         self._put(artist.set_facecolor, artist.get_facecolor(), colour)
         self._put(artist.set_edgecolor, artist.get_edgecolor(), THEMES[self.name].ink)
-        if hasattr(artist, "set_hatchcolor"):  # from matplotlib 3.11 on a hatch need not have the colour of the edge
+        if hasattr(artist, "set_hatchcolor"):  # from matplotlib 3.11 on, hatch and edge have separate colours
             self._put(artist.set_hatchcolor, artist.get_hatchcolor(), THEMES[self.name].ink)
         self._put(artist.set_hatch, artist.get_hatch(), hatch or artist.get_hatch())
 
     def _halo(self, effect: object) -> None:
-        gc = getattr(effect, "_gc", {})  # matplotlib has no public way to ask a stroke for its colour
+        gc = getattr(effect, "_gc", {})  # matplotlib has no public accessor for the colour of a stroke
         if "foreground" in gc and not any(gc is known for known in self._halos):
             self._halos.append(gc)
             old = gc["foreground"]

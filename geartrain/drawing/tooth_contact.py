@@ -66,7 +66,9 @@ def require_contact(transmission: TriangularTransmission) -> None:
     """Raise `GearTrainError` if the pair has no teeth, or no teeth in contact."""
     if not transmission.sizes.has_valleys or not transmission.intervals:
         raise GearTrainError(
-            Problem("this pair has no contact to draw", transmission.verdict.text, "change its teeth or its clearance")
+            Problem(
+                "the teeth of this pair never touch", transmission.verdict.text, "change `half_angle` or `clearance_factor`"
+            )
         )
 
 
@@ -121,7 +123,7 @@ class ToothPairPose:
         angles = alpha + half * steps.astype(float)
         teeth = self.place(which, radii, angles)
         if root > tip:
-            if within >= pi:  # closed, so that the rim can be cut open where the teeth begin
+            if within >= pi:  # closes the line of the teeth, from which the rim is drawn backwards
                 angles, teeth = np.append(angles, angles[0] + 2 * pi), np.vstack([teeth, teeth[:1]])
             return np.vstack([teeth, self.place(which, 2 * root - tip, angles[::-1])])
         return teeth if within >= pi else np.vstack([teeth, self.place(which, 0.0, 0.0)])
@@ -175,7 +177,7 @@ def _pose_at(transmission: TriangularTransmission, alpha1: float | None) -> tupl
     return transmission.contact.locate(alpha1)
 
 
-_FEW = 40  # teeth of both wheels, up to which they are drawn whole
+_FEW = 40  # maximum sum of tooth counts of wheels that are drawn whole
 _SHAPE = 0.68  # height over width of the view of a few teeth
 _COLORS = {DRIVER: ORANGE, DRIVEN: SKY}
 _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
@@ -299,7 +301,7 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
     axes.add_patch(
         Polygon(outline, facecolor=(color, 0.35), edgecolor="none" if ring else BLACK, linewidth=1.3, gid=name)
     )
-    if ring:  # the line of its teeth without the rim
+    if ring:  # draws the line of its teeth without the rim
         axes.plot(*outline[: len(outline) // 2].T, color=BLACK, linewidth=1.3)
     centre = tuple(here.place(which, 0.0, 0.0))
     pitch = sizes.D * z / sizes.pitch_sum
@@ -362,7 +364,7 @@ def _contact(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
     axes.plot(x + ends * nx, y + ends * ny, color=color, linewidth=1.4, gid="normal")
     axes.plot([x], [y], "o", color=color, markersize=7, zorder=5, gid="contact")
     axes.plot([cx], [cy], "D", color=PURPLE, markersize=7, markeredgecolor=BLACK, zorder=5, gid="centre")
-    if here.phase == APPROACH:  # each label in the body whose flank is touched
+    if here.phase == APPROACH:  # the label lies in the body whose flank is touched
         _label(axes, "$V_2$", (x, y), (-11, 5 * here.direction), -1)
     else:
         _label(axes, "$V_1$", (x, y), (12, -4 * here.direction), 1)

@@ -71,7 +71,8 @@ def picture(
 
         return stick_figure(train, labels, state)
     if kind not in KINDS:
-        raise QuestionError(Problem(f"no kind of picture '{kind}'", "it is not known", f"use {', '.join(KINDS)}"))
+        kinds = ", ".join(KINDS)
+        raise QuestionError(Problem(f"'{kind}' is not a kind of picture", f"kinds are {kinds}", "use one of them"))
     from geartrain.scene import make_scene
 
     scene = make_scene(train, state)

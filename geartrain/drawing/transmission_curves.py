@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 
 _ANY_SAMPLES = 1601
-_LOST = 1e-12  # of the power: less is rounding
+_LOST = 1e-12  # relative to the power: smaller losses are rounding
 _ANY_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "efficiency")
 
 
@@ -92,25 +92,25 @@ def transmission_figure(transmission: TransmissionFunction, title: str) -> Figur
         for corner in sorted(corners):
             axes.axvline(np.degrees(corner), color=GREY, linewidth=0.5)
         axes.plot(np.degrees(S), y, color=BLACK, linewidth=1.2)
-    whole = title if shown == len(curves) else f"{title}; without friction nothing is lost"
+    whole = title if shown == len(curves) else f"{title}; no friction, no losses"
     name_axes(panels[0], title=whole)
     name_axes(panels[-1], x="driver's angle (deg)")
     return figure
 
 
-_SAMPLES = 401  # of each phase, and of each interval
+_SAMPLES = 401  # samples of each phase, and of each interval
 _LABELS = (
     "driven angle\n$\\alpha_2$ (deg)",
     "speed ratio\n$\\tau$",
     "sliding efficiency\n$\\eta$",
     "arms of the force\n$b_i$ over pitch radius",
 )
-_EFFICIENCY = 2  # its row
-_STANDS: Any = (0, (0.7, 0.7))  # dashes of a standstill
-_CENTRES = 5  # at most, numbers beside the speed ratio
+_EFFICIENCY = 2  # index of the panel of efficiency
+_STANDS: Any = (0, (0.7, 0.7))  # dashes of a dwell
+_CENTRES = 5  # maximum number of ticks for the instant centre
 _CURVES: tuple[tuple[str, Any], ...] = (("", "-"), ("driven ", (0, (1.5, 0.7))))  # the driven wheel's curve: dashed
-_NEAR_RIM = 0.7  # of the panel: from here on words have more room on the left
-_BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyond it
+_NEAR_RIM = 0.7  # share of the panel width beyond which a label is placed to the left of its line
+_BEYOND = 4.0  # maximum extension of an axis beyond the real path, over the range of the real path
 
 
 def triangular_figure(transmission: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
@@ -212,7 +212,7 @@ def _values(
         none = np.full_like(x, np.nan)
         return (np.full_like(x, degrees(held)),), (np.zeros_like(x),), (none,), (none, none)
     tooth_pair, sizes = transmission.contact.path.tooth_pair, transmission.sizes
-    with np.errstate(all="ignore"):  # beyond the real path a flank may lean past the perpendicular
+    with np.errstate(all="ignore"):  # beyond the real path a flank may be inclined by more than 90 degrees
         rub = transmission.coefficient(phase, x, friction)
         eta = tooth_pair.efficiency(phase, x, rub, np)
         eta = np.where((eta >= 0) & (eta <= 1), eta, np.nan)
@@ -228,7 +228,7 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
     if not len(real):
         return 0.0, 1.0
     low, high = float(real.min()), float(real.max())
-    more = _BEYOND * max(high - low, 1e-3 * abs(high))  # a law without ripple has no range of its own
+    more = _BEYOND * max(high - low, 1e-3 * abs(high))  # a constant ratio has no range
     bottom, top = max(low - more, min(low, float(ideal.min()))), min(high + more, max(high, float(ideal.max())))
     rim = 0.07 * (top - bottom) or 0.05
     return bottom - rim, top + rim
@@ -329,7 +329,7 @@ def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
-    # on this bent scale numbers crowd where tau is near 0
+    # on this nonlinear scale ticks crowd where tau is near 0
     beside.set_yticks(_centres(signs, *axes.get_ylim()))
 
 
@@ -377,13 +377,13 @@ def _legend(transmission: TriangularTransmission) -> Iterator[Line2D]:
 
 Styles = Mapping[str, tuple[str, Dash]]
 
-_PATH_SAMPLES = 301  # of each side
-_BESIDE = 1e-6  # of a side: nearer to the pitch point costs may be 0/0
-_MOST = 3.0  # of the greatest value of a middling form: what exceeds it leaves its panel
-_SPIKE = 6.0  # of what nine tenths of a curve stay below: a spike of teeth with a fault leaves its panel
-_FLAT = 0.8  # of the greatest value: where the least is above it, a panel does not begin at 0
-_STRAIGHT = 0.1  # modules: the least that a panel shows across
-_AWAY = 0.1  # of a pitch: infinite costs are followed up to what they are this far from the pitch point
+_PATH_SAMPLES = 301  # samples of each side
+_BESIDE = 1e-6  # share of a side: closer to the pitch point some quantities are 0/0
+_MOST = 3.0  # panel height over the median of the forms' maxima; higher curves leave the panel
+_SPIKE = 6.0  # panel height over the 90 % quantile of a curve; spikes of faulty teeth leave the panel
+_FLAT = 0.8  # minimum over maximum beyond which a panel does not begin at 0
+_STRAIGHT = 0.1  # modules: minimum width that a panel shows
+_AWAY = 0.1  # pitches from the pitch point within which singular values do not set the panel height
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
@@ -402,7 +402,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     Raises
     ------
     QuestionError
-        If there is no path to draw.
+        If `paths` is empty.
 
     Examples
     --------
@@ -412,7 +412,9 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     8
     """
     if not paths:
-        raise QuestionError(Problem("no form can be drawn", "none of them can run", "change the arcs or the teeth"))
+        raise QuestionError(
+            Problem("none of the tooth forms can be drawn", "none of them can run", "change the arcs or the tooth counts")
+        )
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)
     for axes in panels.flat:
@@ -435,7 +437,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
         _drawn(axes, text)
     for axes, (words, cost) in zip(panels.flat[3:], _costs(pitch, unit), strict=True):
         _along(axes, words, cost, paths, styles)
-    beyond = "; curves that leave a panel go on beyond it" if any(map(_left, panels.flat[3:])) else ""
+    beyond = "; some curves extend beyond their panels" if any(map(_left, panels.flat[3:])) else ""
     headed(figure, f"{_form_text(paths)}, {_pitch_title(pitch)}{beyond}")
     if len(paths) == 1:
         return figure
@@ -491,9 +493,9 @@ def _drawn(axes: Axes, text: str) -> None:
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     name_axes(axes, title=text)
     low, high = axes.get_xlim()
-    if high - low < _STRAIGHT:  # a radial flank, whose rounding would be drawn as a comb
+    if high - low < _STRAIGHT:  # a radial flank, on which rounding errors would be magnified
         axes.set_xlim((low + high - _STRAIGHT) / 2, (low + high + _STRAIGHT) / 2)
-    axes.locator_params(axis="x", nbins=5)  # numbers of three decimals need room
+    axes.locator_params(axis="x", nbins=5)  # numbers with three decimals need space
     name_axes(axes, "along the pitch line (modules)", "towards gear 2 (modules)", size=SMALL)
 
 
@@ -520,7 +522,7 @@ def _along(
     for name, path in paths.items():
         X = _places(path)
         pitches = X / path.pitch.p
-        with np.errstate(invalid="ignore"):  # where a flank turns round there is no pressure to take the root of
+        with np.errstate(invalid="ignore"):  # where a flank turns back, H has no real root
             values = cost(path.at(X))
         _line(axes, name, styles, np.stack([pitches, values], axis=1))
         away = values[(np.abs(pitches) > _AWAY) & np.isfinite(values)]

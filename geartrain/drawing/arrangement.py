@@ -142,8 +142,8 @@ def _overlap(left: tuple[list[int], float], right: tuple[list[int], float], need
 def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
     """Return positions (n, 2) of items by stress majorization from a circle in the order of `arrange`.
 
-    The target distance of two items is the length of the shortest path between them (Gansner, Koren and North 2004, Graph
-    drawing by stress majorization, equation 3).
+    The target distance of two items is the length of the shortest path between them (Gansner, Koren and North 2004,
+    Graph drawing by stress majorization, equation 3).
 
     lengths   length of each pair, its items in either order
     """
@@ -168,8 +168,7 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths of the shortest paths (n, n) by the Floyd-Warshall algorithm; 0 between separate components.
-    """
+    """Return the lengths of shortest paths (n, n) by the Floyd-Warshall algorithm; 0 between separate components."""
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)

@@ -37,7 +37,7 @@ _OUTER = _FACE / 2 - 0.2  # inches: radius of a face
 _FINEST = 0.3  # points: minimum line width
 _DECIMALS = 9  # decimals of a turn to which an error is rounded, as its floats carry noise
 _PLAIN = len(HANDS["needle"].stations)  # outlines with more points than a needle are filled
-_SAMPLE, _DASHED = 0.45, 0.75  # inches: sample of a hand in the key, and of hands distinguished by dashes
+_SAMPLE, _DASHED = 0.45, 0.75  # inches: sample of a plain hand for the key, and of a dashed one
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +60,8 @@ class PointerReading:
     def at(self) -> Fraction:
         """Turns past the zero mark, clockwise as read.
 
-        They are exact except for the error, which is rounded. A hand on a line is read in the cell after the line, and an error
-        of -1e-17 turns would put it in the cell before.
+        They are exact except for the error, which is rounded. A hand on a line is read in the cell after the line, and
+        an error of -1e-17 turns would put it in the cell before.
         """
         return (self.turned or Fraction(0)) + Fraction(round(self.error, _DECIMALS))
 
@@ -134,13 +134,14 @@ def _driving_link(scene: Scene) -> str:
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, and for no face or too many.
-    """
+    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, and for no face or too many."""
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
             fix = f"choose from {', '.join(known)}" if known else "declare `outputs`"
-            raise QuestionError(Problem(f"'{scene.name}' has no output '{name}'", "only declared outputs have dials", fix))
+            raise QuestionError(
+                Problem(f"'{scene.name}' has no output '{name}'", "only declared outputs have dials", fix)
+            )
     wanted = [known[name] for name in outputs] or list(known.values())
     on: dict[int, list[int]] = {}
     for at in wanted:

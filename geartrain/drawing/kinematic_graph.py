@@ -254,8 +254,8 @@ def _draw_labels(
 ) -> None:
     """Draw every edge's label on the edge, close to its middle, where it hides as little of other edges as possible.
 
-    Labels with the fewest unobstructed positions are placed first. A label is placed next to its edge only if no position
-    on the edge is free.
+    Labels with the fewest unobstructed positions are placed first. A label is placed next to its edge only if no
+    position on the edge is free.
     """
     spots = [_spots(edge, curve, at, traces) for at, (edge, curve) in enumerate(zip(edges, curves, strict=True))]
     order = sorted(range(len(edges)), key=lambda at: (sum(not ink for ink, _ in spots[at]), at))

@@ -56,7 +56,7 @@ _LONG = 11  # letters of the longest fraction that is not written as a decimal
 
 
 def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Draw a panel for each epicyclic set and each state (or the named one): sets side by side, states below each other.
+    """Draw a panel for each epicyclic set and each state (or the named one): sets in rows, states below each other.
 
     Raise `QuestionError` if the train has no epicyclic set, or for more panels than fit on a page.
     """
@@ -186,8 +186,7 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
 
 
 def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
-    """Return a dictionary from each link to the names, in brackets, of the closed brakes and clutches that act on it.
-    """
+    """Return a dictionary from each link to the names, in brackets, of closed brakes and clutches that act on it."""
     found: dict[str, list[str]] = {}
     for name in train.kinematics.cases[state].engaged:
         clutch = train.declaration.clutches[name]

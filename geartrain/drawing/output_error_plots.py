@@ -77,9 +77,9 @@ _Drawer = Callable[[Any, _Trace], None]
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
     """Draw the motion of outputs: angles against mean motions, deviations and speeds; backward motion is red.
 
-    An output that deviates from uniform motion gets panels of its deviation and its speed. Over few turns a panel of its
-    angle is added, over many turns a panel of its backward motion, if any. Outputs that move uniformly are drawn only if
-    all do, each in one panel: its angle over few turns, otherwise its speed.
+    An output that deviates from uniform motion gets panels of its deviation and its speed. Over few turns a panel of
+    its angle is added, over many turns a panel of its backward motion, if any. Outputs that move uniformly are drawn
+    only if all do, each in one panel: its angle over few turns, otherwise its speed.
 
     Parameters
     ----------
@@ -289,8 +289,8 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
     """Plot a curve and return its abscissae and values.
 
     If a curve oscillates so often that it would fill its panel, only its beginning is plotted, between its bounds. The
-    criterion is the total variation over the range, compared with six times `_SWINGS` in a wide panel and three times in
-    a narrow one.
+    criterion is the total variation over the range, compared with six times `_SWINGS` in a wide panel and three times
+    in a narrow one.
     """
     turns, values = trace.turns, whole
     room = 6 if panel.get_gridspec().ncols == 1 else 3

@@ -320,7 +320,7 @@ _TOLD = 8.5  # points: text above the plan
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
-    """Draw the scene to scale after `turns` of its driving link; trains with wheels across the plane are drawn obliquely.
+    """Draw the scene to scale after `turns` of its driving link; trains that are not planar are drawn obliquely.
 
     Pairs in a loop that does not close are red. The verdict on a train that does not turn is written above the plan.
     """

@@ -256,7 +256,11 @@ def _loops(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:
         x = (placed.x[piece.source.column] + placed.x[piece.target.column]) / 2
         text = f"{percent_of_text(loop.power / flow.power_in, 'the power in')} circulates"
         how: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": TEXT, "color": BLACK, "zorder": 5}
-        box = {"boxstyle": "round,pad=0.2", "facecolor": WHITE, "linewidth": 0}  # keeps the text readable in print, where the band is hatched
+        box = {
+            "boxstyle": "round,pad=0.2",
+            "facecolor": WHITE,
+            "linewidth": 0,
+        }  # keeps the text readable in print, where the band is hatched
         axes.text(x, turn.lane + piece.width / 2, text, parse_math=False, bbox=box, gid="circulates", **how)
 
 

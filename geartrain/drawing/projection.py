@@ -80,7 +80,7 @@ class ProjectedScene:
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
-        """Return the tooth outline of a wheel (points, 3), scaled, and moved by `height` [mm] along its axis and its helix.
+        """Return the tooth outline of a wheel (points, 3), scaled, and moved by `height` [mm] along axis and helix.
 
         chord   maximum distance [mm] of omitted points from the line
         """
@@ -328,8 +328,7 @@ def _tint(wheel: SceneWheel, light: float) -> Floats:
 
 
 def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield the strips of the surface between both ends, then the far end, then the near end; for a worm, its thread.
-    """
+    """Yield strips of the surface between both ends, then the far end and the near end; for a worm, its thread."""
     far, near = _ends(standing, wheel)
     if wheel.kind == "worm":
         yield from _thread(standing, wheel)
@@ -425,8 +424,7 @@ def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> N
 def _draw_across_side(
     page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
 ) -> None:
-    """Draw a wheel whose axis differs from the axes of the plan: its teeth if it faces right, otherwise its silhouette.
-    """
+    """Draw a wheel that does not face the reader: its teeth if it faces right, otherwise its silhouette."""
     ends = [face.points for face in _ends(standing, wheel)]
     places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
     if abs(float(standing.seen(standing.axis(wheel))[0])) > _FACES_RIGHT:

@@ -62,8 +62,7 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """A band between two spots in neighbouring columns, or a return band; `start` and `end` are its tops at both spots.
-    """
+    """A band between two spots in neighbouring columns, or a return band; `start` and `end` are its tops there."""
 
     source: SankeySpot
     target: SankeySpot
@@ -81,8 +80,7 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """A return band: the distances right of its source and left of its target where it turns, and the top of its lane.
-    """
+    """A return band: distances right of its source and left of its target where it turns, and the top of its lane."""
 
     piece: BandSegment
     right: float
@@ -139,8 +137,7 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the centre of each column, far enough apart for names and return bands, and spread to the minimum width.
-    """
+    """Return the column centres, far enough apart for names and return bands, and spread to the minimum width."""
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     gaps = []
@@ -187,8 +184,7 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return the forward streams and the return streams: in each loop, one stream of purely circulating power returns.
-    """
+    """Return forward and return streams: in each loop, one stream of purely circulating power returns."""
     ahead = [stream for stream in streams if stream.circling < stream.power]
     back: list[PowerStream] = []
     for stream in _met(streams):
@@ -350,8 +346,7 @@ def _middle(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -
 
 
 def _tangle(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the crossing cost near some columns: the sum of products of crossing widths, plus a constant per crossing.
-    """
+    """Return the cost of crossings near some columns: products of crossing widths, plus a constant per crossing."""
     total = 0.0
     for at in columns:
         places = {spot: place for place, spot in enumerate(table[at])}
@@ -397,8 +392,7 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _wanted(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top at which a spot's bands would be level, and its weight; bands that pass a column weigh the most.
-    """
+    """Return the top at which a spot's bands are level, and its weight; bands that pass a column weigh the most."""
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:

@@ -539,8 +539,7 @@ class _Drawing:
             )
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw the mark of teeth at the end of a wheel: level, slanted for bevel and contrate wheels, long for worms.
-        """
+        """Draw the mark of teeth at the end of a wheel: level, slanted if bevel or contrate, long for a worm."""
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = _TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

@@ -31,8 +31,8 @@ def find_levels(
 ) -> list[list[str]]:
     """Return axes on common levels, from below, where they do not overlap.
 
-    The axes are placed one after another (greedy search), each on a level near the axes it is joined to, with the minimum
-    number of crossings.
+    The axes are placed one after another (greedy search), each on a level near the axes it is joined to, with the
+    minimum number of crossings.
 
     spans   vertical lines between two axes, with the abscissa of their column
     """

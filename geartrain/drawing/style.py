@@ -115,7 +115,8 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     if kind not in SUFFIXES:
         raise GearTrainError(
             Problem(
-                f"a plot cannot be written as {suffix or 'a file without suffix'}", fix=f"use one of {', '.join(SUFFIXES)}"
+                f"a plot cannot be written as {suffix or 'a file without suffix'}",
+                fix=f"use one of {', '.join(SUFFIXES)}",
             )
         )
     for text in _texts(figure):

@@ -113,7 +113,9 @@ class _Painter:
     def _colours(self, artist: Artist) -> None:
         area = _area_of(artist, self.name)
         kinds = [kind for kind in _COLOURS if hasattr(artist, f"get_{kind}") and hasattr(artist, f"set_{kind}")]
-        olds = [getattr(artist, f"get_{kind}")() for kind in kinds]  # read before any is set, as a marker follows its line
+        olds = [
+            getattr(artist, f"get_{kind}")() for kind in kinds
+        ]  # read before any is set, as a marker follows its line
         for kind, old in zip(kinds, olds, strict=True):
             self._put(getattr(artist, f"set_{kind}"), old, _themed_all(old, self.name))
         if area is not None:
@@ -171,8 +173,8 @@ def _none(colour: Any) -> bool:
 def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
     """Return the theme's equivalent of a colour of the light theme.
 
-    A colour of the palette becomes the palette colour of the theme, and a mixture of the two face colours the same mixture.
-    Any other colour gets the same relative lightness between paper and ink.
+    A colour of the palette becomes the palette colour of the theme, and a mixture of the two face colours the same
+    mixture. Any other colour gets the same relative lightness between paper and ink.
     """
     light, theme = THEMES["light"], THEMES[name]
     known = dict(zip(_named(light), _named(theme), strict=True))
@@ -187,8 +189,7 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
 
 
 def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """Return the theme's mixture of shade and fill for a colour; None if the colour is not a mixture of the light ones.
-    """
+    """Return the theme's mixture of shade and fill for a colour; None if it is not a mixture of the light ones."""
     shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
     along = fill - shade
     share = float((rgb - shade) @ along / (along @ along))

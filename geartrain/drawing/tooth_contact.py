@@ -67,7 +67,9 @@ def require_contact(transmission: TriangularTransmission) -> None:
     if not transmission.sizes.has_valleys or not transmission.intervals:
         raise GearTrainError(
             Problem(
-                "the teeth of this pair never touch", transmission.verdict.text, "change `half_angle` or `clearance_factor`"
+                "the teeth of this pair never touch",
+                transmission.verdict.text,
+                "change `half_angle` or `clearance_factor`",
             )
         )
 
@@ -110,7 +112,7 @@ class ToothPairPose:
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Return vertices (n, 2) of a wheel: of all its teeth, or of those within an angle [rad] of the line of centres.
+        """Return vertices (n, 2) of all teeth of a wheel, or of those within an angle [rad] of the line of centres.
 
         In the second case the centre is a vertex too. The body of a ring ends at a circle beyond its roots.
         """
@@ -156,7 +158,7 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose in which the driving tooth pair is at `alpha1` [rad], by default in the middle of the first interval.
+    """Return the pose with the driving tooth pair at `alpha1` [rad], by default in the middle of the first interval.
 
     If no tooth pair drives at alpha1, return the pose in which some tooth of the driver is there.
     """

@@ -55,7 +55,7 @@ _ANY_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean"
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
-    """Draw a transmission function over two periods: transmission error, speed ratio and efficiency on the drive flanks.
+    """Draw transmission error, speed ratio and efficiency of the drive flanks over two periods.
 
     Parameters
     ----------
@@ -117,9 +117,9 @@ def triangular_figure(transmission: TriangularTransmission, friction: PairFricti
     """Draw driven angle, speed ratio, sliding efficiency and moment arms of triangular teeth over the driver's angle.
 
     Thin lines are the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11), thick lines the real path of all
-    tooth pairs. The driver's angle decreases with time. The instant centre, which follows from the speed ratio, is read on
-    a second axis next to it. Moment arms are relative to the radii at which the mean ratio would roll, and dashed for the
-    driven wheel.
+    tooth pairs. The driver's angle decreases with time. The instant centre, which follows from the speed ratio, is read
+    on a second axis next to it. Moment arms are relative to the radii at which the mean ratio would roll, and dashed
+    for the driven wheel.
 
     Parameters
     ----------
@@ -205,8 +205,8 @@ def _values(
 ) -> tuple[tuple[Floats, ...], ...]:
     """Return the curves of each panel at alpha_1 = x [rad].
 
-    They are alpha_2 [deg], tau, the efficiency, and the moment arms of driver and driven wheel. Efficiency and moment arms
-    are NaN where friction locks and during a dwell.
+    They are alpha_2 [deg], tau, the efficiency, and the moment arms of driver and driven wheel. Efficiency and moment
+    arms are NaN where friction locks and during a dwell.
     """
     if held is not None:
         none = np.full_like(x, np.nan)
@@ -298,8 +298,7 @@ def _arms_key(axes: Axes) -> None:
 
 
 def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
-    """Return O1C / D at speed ratio tau, limited where an axis extends beyond the real path; `signs` are -1 for a ring.
-    """
+    """Return O1C / D at speed ratio tau, bounded where an axis exceeds the real path; `signs` are -1 for a ring."""
     first, second = signs
     return tau / np.maximum(first + second * tau, 0.1)
 
@@ -324,8 +323,7 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis with the instant centre over the centre distance: tau/(1 + tau), or tau/|1 - tau| with a ring.
-    """
+    """Draw a second axis of the instant centre over the centre distance: tau/(1 + tau), or tau/|1 - tau| with a ring."""
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -413,7 +411,9 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     """
     if not paths:
         raise QuestionError(
-            Problem("none of the tooth forms can be drawn", "none of them can run", "change the arcs or the tooth counts")
+            Problem(
+                "none of the tooth forms can be drawn", "none of them can run", "change the arcs or the tooth counts"
+            )
         )
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)

@@ -9,8 +9,11 @@ from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy
 from geartrain.numerics.results import Result
 from geartrain.report.document import Document, Section, Table
 
-_LEAD = "Times are the best of repeats on this machine: compare them within a stage. `prepared` comes once, before."
-_HEADER = ("method", "prepared (ms)", "time (ms)", "over the fastest", "error", "held against")
+_LEAD = (
+    "Each time is the minimum of repeated runs on this machine; compare times only within a stage. `prepared` is the "
+    "time of preparations that are done once."
+)
+_HEADER = ("method", "prepared (ms)", "time (ms)", "over the fastest", "error", "compared with")
 
 
 @dataclass(frozen=True, slots=True)

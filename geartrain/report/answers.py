@@ -19,9 +19,9 @@ from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut, 
 from geartrain.train import Train
 from geartrain.train.outputs import looks_away
 
-_SECONDS = 86400  # of a day
-_EXACT = 1e-9  # ppm, or days: less is rounding
-_YEAR = 300  # days, less than any year
+_SECONDS = 86400  # seconds of a day
+_EXACT = 1e-9  # ppm, or days: smaller errors are rounding
+_YEAR = 300  # days: shorter than any year and longer than other units of time
 _SPANS = (("d", Fraction(1)), ("h", Fraction(1, 24)), ("min", Fraction(1, 1440)), ("s", Fraction(1, 86400)))  # in days
 
 
@@ -165,7 +165,7 @@ def _targets(answer: Answer, head: str) -> Iterator[Section]:
         "within",
     )
     table = filled_table(header, targets, len(header) - 1)
-    said = ["A positive error is fast."]
+    said = ["A positive error means that the output is fast."]
     if any(row[6] == _COMPARED["magnitude"] for row in targets):
         said.append("Compared by magnitude: the target has no `sense`, so that either sense of rotation meets it.")
     yield Section(_title(head, "against the targets"), tuple(said), (table,))
@@ -202,7 +202,7 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
         return
     moving = [speed for speed in train.declaration.case(answer.state).inputs.values() if speed]
     rows = []
-    for link, speed in islice(answer.speeds.items(), MOST_ROWS):  # a long train's speeds are long
+    for link, speed in islice(answer.speeds.items(), MOST_ROWS):  # fractions of a long train have many digits
         mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
         ratio = speed / moving[0] if len(moving) == 1 else None
         rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
@@ -243,7 +243,7 @@ def result_words(result: OutputResult) -> str:
     if result.found is None:
         ratio = result.output.published is not None and result.output.published.as_ != "speed"
         open_ = result.speed is None or not ratio
-        return "undetermined" if open_ else "no such ratio, which needs one input that turns, and an output that does"
+        return "undetermined" if open_ else "undefined: a ratio needs exactly one turning input, and a turning output"
     text, near = exact(result.found), figure(result.found)
     return f"found {text}" + (f" = {near}" if near != text else "")
 
@@ -313,7 +313,7 @@ def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Sec
         if not found:
             continue
         head = f"State {answer.state}: " if answer.state is not None else ""
-        text = "Change of speed in ppm, solved again exactly; outputs that move alike share a row."
+        text = "Change of speed in ppm, from exact solutions; outputs with equal changes share a row."
         table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
         yield Section(_title(head, "uncertain tooth counts"), (text,), (table,), detail=True)
 
@@ -333,7 +333,7 @@ def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
 
 
 def _shift(value: float | None) -> str:
-    return "locks or stands" if value is None else f"{value:+.6g}"
+    return "locks or rests" if value is None else f"{value:+.6g}"
 
 
 # ------------------------------------------------------------------------------------------------------ speeds as lines
@@ -403,6 +403,6 @@ def _errors(answer: Answer, link: str) -> str:
     if accuracy is None:
         return ""
     true = "" if accuracy.true_error is None else f", true error {accuracy.true_error:.1e}"
-    known = accuracy.condition is not None and isfinite(accuracy.condition)  # it is infinite of a link at rest
+    known = accuracy.condition is not None and isfinite(accuracy.condition)  # infinite for a link at rest
     condition = f"condition {accuracy.condition:.3g}, " if known else ""
     return f"  {condition}estimate {accuracy.estimate:.1e}{true}"

@@ -56,8 +56,8 @@ def _wheels(design: PairDesign) -> Section:
     text = f"{distance}Radii in modules; thickness of a tooth, or pin, on the pitch circle in pitches."
     if helix := abs(design.mesh.wheels.helix[0]):
         text += (
-            f" Teeth lean by {degrees(helix):.6g} deg: sizes and costs are those of straight teeth in the section "
-            f"across the axes, in transverse modules of {1 / cos(helix):.9g} normal ones, with more friction."
+            f" The helix angle is {degrees(helix):.6g} deg. Sizes, losses and stresses are those of spur teeth in the "
+            f"transverse section with increased friction; a transverse module is {1 / cos(helix):.9g} normal modules."
         )
     if pitch.bevel:
         text = "Half-angles of cones; thickness of a tooth on the pitch cone in pitches."
@@ -76,24 +76,25 @@ def _path(design: PairDesign) -> Section:
         rows.append((name, f"{arc:.6g}", figure(last - first), *ends))
     header = ("side", "pitches", "length of path", "psi at the near end (deg)", "psi at the far end (deg)")
     text = (
-        f"Contact ratio {path.contact_ratio:.6g}, working depth {figure(depth(path))}; psi is the pressure angle, at "
-        "the ends near to the pitch point and far from it. "
+        f"Contact ratio {path.contact_ratio:.6g}, working depth {figure(depth(path))}; psi is the pressure angle at "
+        "the ends near the pitch point and far from it. "
         f"Lengths in {'rad on the unit sphere' if path.pitch.bevel else 'modules'}."
     )
     lines = [text]
     if min(path.arcs) < 0:
         lines.append(
-            "A negative arc: all contact is on the other side of the pitch point, and begins, or ends, so far from it."
+            "A negative arc means that all contact is on the other side of the pitch point, and begins or ends at this "
+            "distance from it."
         )
     return Section("Path of contact", lines, (Table(header, rows),))
 
 
 _LOADED = {
     "loss": "mean loss over friction",
-    "stress": "greatest Hertz pressure over the root of tangential force",
+    "stress": "maximum Hertz pressure over the root of tangential force",
     "off_pitch": "the same more than a tenth of a pitch from the pitch point",
-    "heat": "greatest heat per area over friction times tangential force",
-    "flash": "greatest flash proxy",
+    "heat": "maximum heat per area over friction times tangential force",
+    "flash": "maximum flash temperature (proxy)",
 }
 
 
@@ -103,38 +104,38 @@ def _costs(found: DesignLosses) -> Section:
     loads = found.measures.one_pair, found.measures.shared
     loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
     free = [
-        ("greatest sliding over the pitch-line speed", cost(found.sliding)),
-        ("greatest sliding over the contact's speed along a flank", cost(found.specific_sliding)),
-        ("least speed along a dedendum over the pitch-line speed", cost(found.measures.slowest)),
+        ("maximum sliding over the pitch-line speed", cost(found.sliding)),
+        ("maximum sliding over the contact's speed along a flank", cost(found.specific_sliding)),
+        ("minimum speed along a dedendum over the pitch-line speed", cost(found.measures.slowest)),
     ]
     text = (
-        f"To first order in friction. One pair: {ONE_PAIR}, the loss is the mean along it. Shared: {SHARED}, the "
-        "loss is the mean over a pitch; the efficiency below shares the load so, too."
+        f"To first order in friction. One pair: {ONE_PAIR}; the loss is the mean along the path. Shared: {SHARED}; "
+        "the loss is the mean over a pitch. The efficiency below is that of shared load."
     )
     tables = Table(("quantity", "one pair", "shared"), loaded), Table(("quantity, whatever the load", "value"), free)
-    return Section("Costs", (text,), tables)
+    return Section("Losses and stresses", (text,), tables)
 
 
 def _friction(design: PairDesign) -> Section:
     transmission = design.mesh.losses
     if not design.mesh.rubs:
-        return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
+        return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     if not design.mesh.tells_losses:
         return Section("Friction", (f"{design.mesh.friction_words}.",))
     if design.locks:
         return Section(
             "Friction",
             (
-                f"A friction of {transmission.friction:.6g} locks these teeth, as any from "
-                f"{transmission.locking_friction:.6g}.",
+                f"A friction coefficient of {transmission.friction:.6g} locks these teeth, which lock from "
+                f"{transmission.locking_friction:.6g} on.",
             ),
         )
     return Section(
         "Friction",
         (
-            f"{design.mesh.friction_words}. Efficiency, exact in friction, teeth in contact sharing the "
-            f"load equally: mean {transmission.efficiency_mean():.9f} at constant driver torque, "
-            f"{transmission.efficiency_at_constant_load():.9f} at constant load torque, least "
+            f"{design.mesh.friction_words}. Efficiency, exact in friction, with the load shared equally by teeth in "
+            f"contact: mean {transmission.efficiency_mean():.9f} at constant driver torque, "
+            f"{transmission.efficiency_at_constant_load():.9f} at constant load torque, minimum "
             f"{transmission.efficiency_minimum():.9f}.",
         ),
     )
@@ -180,18 +181,18 @@ def describe_form_comparison(found: FormComparison) -> Document:
     [('involute', '0.5 + 0.5', '1.0000', '1.0000'), ('cycloidal', '0.5 + 0.5', '1.0021', 'inf')]
     """
     text = (
-        "Ratios to the involute of 20 deg. Loss: of the mean power lost; stress: of the greatest Hertz pressure, "
-        "infinite where the pressure angle is 0 at the pitch point, and off pitch where contact is more than a tenth "
-        "of a pitch away from it; heat: of the greatest heat of friction per area; flash: of the greatest flash "
-        "temperature; depth: of the working depth; slowest: of the least speed of the contact along a dedendum. Arcs: "
-        f"approach and recess in pitches. Of loss, stress, heat and flash: {ONE_PAIR}."
+        "Ratios to the 20 degree involute. Loss: mean power loss; stress: maximum Hertz pressure, infinite if the "
+        "pressure angle is 0 at the pitch point; stress off pitch: the same more than a tenth of a pitch from the "
+        "pitch point; heat: maximum heat of friction per area; flash: maximum flash temperature; depth: working "
+        "depth; slowest: minimum speed of the contact along a dedendum. Arcs: approach and recess in pitches. For "
+        f"loss, stress, heat and flash, {ONE_PAIR}."
     )
     rows = [_ratios(form) for form in found.forms]
     header = ("form", "arcs", *map(_header, (*LOADED, *FREE)))
     sections = [Section("Ratios", (text,), [Table(header, rows, True)]), _sharing(found), _base(found)]
     faulty = [line for form in found.forms for line in _reasons(form)]
     if faulty:
-        sections.append(Section("What cannot run", faulty))
+        sections.append(Section("Forms that cannot run", faulty))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 
 
@@ -205,10 +206,12 @@ def _sharing(found: FormComparison) -> Section:
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):
-        return Section("Ratios, shared load", ("One pair of teeth touches at a time: sharing changes nothing.",))
+        return Section(
+            "Ratios, shared load", ("Only one tooth pair is in contact at a time, so that the ratios are the same.",)
+        )
     rows = [_shared(form) for form in found.forms]
     table = Table(("form", *map(_header, LOADED)), rows, True)
-    return Section("Ratios, shared load", (f"As above, where {SHARED}.",), [table])
+    return Section("Ratios, shared load", (f"As above, but {SHARED}.",), [table])
 
 
 def _shared(form: MeasuredForm) -> tuple[str, ...]:
@@ -240,8 +243,8 @@ def _base(found: FormComparison) -> Section:
     rows += [(_header(name), *[cost(getattr(base, name))] * 2) for name in FREE]
     unit = "rad on the unit sphere" if found.path.pitch.bevel else "modules"
     text = (
-        f"The involute itself, lengths in {unit}: mean loss over friction; greatest Hertz pressure as the root of "
-        "curvature over cos psi; greatest heat over friction times tangential force."
+        f"Values of the 20 degree involute, lengths in {unit}: mean loss over friction; maximum Hertz pressure as the "
+        "root of curvature over cos psi; maximum heat over friction times tangential force."
     )
     return Section("The involute of 20 deg", (text,), (Table(("quantity", "one pair", "shared"), rows),))
 

@@ -262,7 +262,9 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
         if not any(word.lower() in title.lower() for title in titles):
             raise QuestionError(
                 Problem(
-                    f"the report has no section '{word}'", f"its sections are {', '.join(titles)}", "name one of them"
+                    f"the report has no section '{word}'",
+                    f"its sections are {', '.join(titles)}",
+                    "use a word of one of these titles",
                 )
             )
     if requested:
@@ -302,7 +304,7 @@ def one_to(ratio: Fraction | Real | None) -> str:
 
 def ppm(value: float | None) -> str:
     """Return parts per million as text with a sign."""
-    # less than 1e-15 of the speed is what is left of rounding
+    # a relative error below 1e-15 is rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 
@@ -365,7 +367,7 @@ def column_widths(table: Table, width: int) -> list[int]:
     spare, sizes = max(0, free - sum(minimum)), list(minimum)
     left = len(columns)
     for at in sorted(range(len(columns)), key=lambda each: full[each] - minimum[each]):
-        # a column that wants little gets all of it: the fewer columns wrap, the more rows take one line
+        # columns that need few characters get all of them, because rows take one line only if no column wraps
         given = min(full[at] - minimum[at], spare if left == 1 else max(spare // 2, spare // left))
         sizes[at] += given
         spare, left = spare - given, left - 1

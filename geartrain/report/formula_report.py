@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.kinematics.formulas.closed_forms import ClosedForm
 
-_HEAD = "z_NAME stands for the tooth count of the wheel NAME, and the name of a link for its speed."
+_HEAD = "z_NAME is the tooth count of the wheel NAME; the name of a link denotes its speed."
 
 
 @dataclass(frozen=True)
@@ -146,8 +146,8 @@ def _state(found: FormulaReport, state: str | None, latex: bool, inverse: bool) 
     yield Section(_title(state), (_HEAD, *lines))
     rows = [_row(each, latex) for each in found.sensitivities if each.state == state]
     if rows:
-        text = "By how many per cent a ratio grows where a count grows by one per cent, (z/f) df/dz."
-        table = Table(("output/input", "wheel", "sensitivity", "here"), rows)
+        text = "Sensitivity (z/f) df/dz: change of the ratio in per cent if the tooth count increases by one per cent."
+        table = Table(("output/input", "wheel", "sensitivity", "value"), rows)
         yield Section("Sensitivities" if state is None else f"State {state}: sensitivities", (text,), (table,))
 
 
@@ -158,7 +158,7 @@ def _title(state: str | None) -> str:
 def _lines(each: OutputFormula, latex: bool) -> Iterator[str]:
     value = "not determined at these counts" if each.value is None else str(exact(each.value))
     written = each.latex if latex else each.text
-    yield f"{written} = {value}" if each.shares else written  # a speed of 0 is not told twice
+    yield f"{written} = {value}" if each.shares else written  # without shares the formula is already `output = 0`
     for condition in each.conditions:
         yield f"It turns only if {condition}."
     for pole in each.poles:
@@ -171,7 +171,7 @@ def _inverse(each: OutputFormula, latex: bool) -> Iterator[str]:
         value = "infinite" if ratio.value is None else str(exact(ratio.value))
         yield f"{each.shares[0].input}/{each.output} = {ratio.latex if latex else ratio.text} = {value}"
         for pole in ratio.poles:
-            yield f"'{each.output}' stands still if {pole}."
+            yield f"'{each.output}' is at rest if {pole}."
 
 
 def _row(each: RatioElasticity, latex: bool) -> tuple[str, ...]:

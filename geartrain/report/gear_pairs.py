@@ -91,7 +91,7 @@ def fault_text(fault: Problem) -> str:
 def _drivers(pairs: Sequence[DrivenPair]) -> Table:
     """Return a table of the driving wheel of each pair and the basis of this conclusion."""
     rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
-    return filled_table(("pair", "driver", "how that is known", "states"), rows, 3, wide=True)
+    return filled_table(("pair", "driving wheel", "basis", "states"), rows, 3, wide=True)
 
 
 def _pins(train: GearTrain) -> Section:
@@ -111,7 +111,7 @@ def _pins(train: GearTrain) -> Section:
             )
         )
     header = ("coupling", "pin -> slot", "pin radius", "offset", "mean ratio", "amplitude (deg)", "speed ratio")
-    text = "Speeds and angles of the slot in the carrier's frame, the pin turning evenly there."
+    text = "Speeds and angles of the slot relative to the carrier, for a pin that turns uniformly relative to it."
     return Section("Pins", (text,), (Table(header, rows),))
 
 

@@ -13,16 +13,16 @@ if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox, GearState, ShiftElement
 
 _DIGITS = 5
-_MOST = 12  # ways to close elements that are named
+_MOST = 12  # combinations of closed elements that are listed
 _RATIOS = (
-    "Ratio: input over output; step: that ratio over the next state's. Recirculating: power that runs round between "
-    "gear sets over power in; inside: within one set."
+    "Ratio: input speed over output speed; step: ratio over that of the next state. Recirculating: power that "
+    "circulates between gear sets, over power in; within sets: power that circulates within a gear set."
 )
 _TORQUES = (
-    "Over the input's torque, driven from the input: of a brake on what it holds, of a clutch on the first of the two "
-    "links that it locks. `open`: statics alone does not give it."
+    "Torques over the input torque, driven from the input: of a brake on the link it holds, of a clutch on the first "
+    "of the two links it locks. `open`: not determined by statics."
 )
-_ELEMENTS = "Greatest of all states, in sizes over the input's torque and speed."
+_ELEMENTS = "Maximum magnitudes over all states, relative to the torque and speed of the input."
 
 
 def describe_gearbox(found: Gearbox) -> Document:
@@ -51,7 +51,7 @@ def describe_gearbox(found: Gearbox) -> Document:
 def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     """Yield the sections of `describe_gearbox`, for use in a longer document."""
     names = [each.name for each in found.elements]
-    header = ("state", *names, "verdict", "ratio", "step", "efficiency", "recirculating", "inside")
+    header = ("state", *names, "verdict", "ratio", "step", "efficiency", "recirculating", "within sets")
     lines = [f"From '{found.input}' to '{found.output}'. x marks a closed clutch or brake.", _RATIOS]
     if all(each.efficiency in (None, 1) for each in found.states):
         lines.append("No losses are declared: every efficiency is 1.")
@@ -74,7 +74,7 @@ def _unit(found: Gearbox) -> str:
     """Return the unit of the speeds in a table, with the states whose input is at rest."""
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
-    return "Over the input's speed" + (f"; over that of another link in {named}." if named else ".")
+    return "Relative to the input speed" + (f"; relative to another link's in {named}." if named else ".")
 
 
 def _moves(found: Gearbox, link: str) -> bool:
@@ -143,11 +143,13 @@ def describe_gear_search(found: GearSearch) -> Document:
     ('forward, low', '2.4545', '1')
     """
     summary = (
-        f"From '{found.input}' to '{found.output}': {found.closed} elements closed, {found.combinations} ways, "
-        f"{len(found.gears)} of which determine the output; all were tried, exactly."
+        f"From '{found.input}' to '{found.output}': {found.combinations} combinations of {found.closed} closed "
+        f"elements, of which {len(found.gears)} determine the output (exhaustive exact search)."
     )
     others = [
-        f"{_some(ways)} {told}." for ways, told in ((found.free, "leave it free"), (found.locked, "lock it")) if ways
+        f"{effect}: {_some(ways)}."
+        for ways, effect in ((found.free, "The output is free with"), (found.locked, "The output is locked with"))
+        if ways
     ]
     sections = [
         Section("Gears", (summary, *others), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))
@@ -156,7 +158,11 @@ def describe_gear_search(found: GearSearch) -> Document:
         both = [("The widest series", found.widest), ("The most even series", found.evenest)]
         if found.widest == found.evenest:
             both = [("The widest series, and the most even", found.widest)]
-        head = "One series holds." if found.series == 1 else f"{found.series:,} series hold; of each kind one is told."
+        head = (
+            "One series meets the conditions."
+            if found.series == 1
+            else f"{found.series:,} series meet the conditions; one of each kind is shown."
+        )
         sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
     elif found.requested:
         sections.append(Section("Series", (f"No series of {found.requested} gears has all its steps in the window.",)))

@@ -19,7 +19,7 @@ from geartrain.scene.palette import THEMES
 
 ON_PAPER = 110
 """Characters per line on a sheet of A4 or letter paper, in the typeface of printed tables."""
-WORDS = {"viewer": "The train turning", "pictures": "Pictures", "sources": "Sources"}
+WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"

@@ -147,7 +147,7 @@ def answer_schema() -> Schema:
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Answers of geartrain",
-        "description": "What each command prints with --json; keys may be added, and none is left out.",
+        "description": "Output of each command with --json. Later versions may add keys but do not remove any.",
         "$defs": answers(),
     }
 
@@ -249,7 +249,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
         return _typed_dict(kind)
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
-    if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # one of its own
+    if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # a class with its own `to_dict`
         return shape_of(_returned(kind.to_dict))
     return _record(kind, keys_of(kind))
 
@@ -278,7 +278,7 @@ def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
         if not key.name:
             parts = [part for part in shape.get("anyOf", [shape]) if "properties" in part]
             properties |= {name: each for part in parts for name, each in part["properties"].items()}
-            required += shape.get("required", ())  # keys of a part that may be None are not needed
+            required += shape.get("required", ())  # a part that may be None has no required keys
             continue
         properties[key.name] = _described(shape, meaning_of(kind, key.path) if key.path else "")
         required.append(key.name)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
 
-_TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
+_TURNS, _POSITIONS = 20.0, 20_001  # turns and positions of the run in a report
 
 
 class PhaseRange(NamedTuple):
@@ -242,7 +242,12 @@ def ripples(train: GearTrain) -> bool:
 # ----------------------------------------------------------------------------------------------------------------- page
 
 
-_ABREAST = 8  # outputs side by side
+_ABREAST = 8  # outputs in one table
+
+
+def deviation_name(motion: Motion) -> str:
+    """Return the name of the outputs' deviations: transmission error with real teeth, anomaly without."""
+    return "transmission error" if motion._problem.rippling else "anomaly"
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
@@ -275,8 +280,8 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
     run = found.run
     train, period = run.motion._problem, run.motion.period
     summary = [
-        f"While '{train.driving_link}' makes {run.turns:g} turns, in {run.done} positions. Speeds are over that of "
-        f"'{train.driving_link}'; the error is the angle less its mean motion."
+        f"{run.turns:g} turns of '{train.driving_link}', {run.done} positions. Speeds are relative to the speed of "
+        f"'{train.driving_link}'; the {deviation_name(run.motion)} is the angle minus its mean motion."
     ]
     if run.done < run.samples:
         summary.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
@@ -304,7 +309,7 @@ def motion_document(found: Motion | MotionRun) -> Document | None:
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
     """Yield sections on outputs, on the pairs that cause their deviations, and on all other requested results."""
-    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics),))
+    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics, deviation_name(run.motion)),))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
     if rigid := _rigid(run.motion._problem.rigid):
@@ -312,7 +317,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
     if run.phase_statistics:
         yield _phased(run)
     if run.estimates:
-        yield _estimates(run.estimates)
+        yield _estimates(run.estimates, deviation_name(run.motion))
     for name, lines in run.spectra.items():
         if lines:
             yield _spectrum(name, lines)
@@ -331,11 +336,11 @@ def moving_sections(
             yield Section(head, [f"{problem.what}: {problem.why}." for problem in each.why.problems])
             continue
         run = each.run
-        text = f"While '{run.motion._problem.driving_link}' makes {run.turns:g} turns; `geartrain motion` has more."
+        text = f"{run.turns:g} turns of '{run.motion._problem.driving_link}'; for details see `geartrain motion`."
         holds: tuple[str, ...] = ()
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
-        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run)),))
+        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run), deviation_name(run.motion)),))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
@@ -349,14 +354,14 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
     if not forms:
         return ""
     words = "; ".join(f"{', '.join(names)} ({form})" for form, names in forms.items())
-    return f"These keep their ratio at every instant and add nothing to any motion: {words}."
+    return f"These pairs keep their ratio at every instant and contribute no error: {words}."
 
 
 def _rippling(run: MotionRun) -> list[RunningStatistics]:
     return [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
 
 
-def _outputs(tallies: list[RunningStatistics]) -> Table:
+def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     rows = []
     for tally in tallies:
         low, high = tally.speeds
@@ -369,7 +374,11 @@ def _outputs(tallies: list[RunningStatistics]) -> Table:
                 f"{low:.5f}..{high:.5f}" + ("" if tally.ratio else " (over the input's)"),
             )
         )
-    return Table(("output", "mean speed", "error p-p (deg)", "error rms (deg)", "speed over its mean"), rows)
+    return Table(("output", "mean speed", *_deviation_heads(deviation), "speed over its mean"), rows)
+
+
+def _deviation_heads(deviation: str) -> tuple[str, str]:
+    return f"{deviation} p-p (deg)", f"{deviation} rms (deg)"
 
 
 def _remarks(run: MotionRun) -> Iterator[str]:
@@ -377,31 +386,33 @@ def _remarks(run: MotionRun) -> Iterator[str]:
         composition = run.motion._forward if run.turns >= 0 else run.motion._backward
         names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)
         yield (
-            f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
-            "is not followed."
+            f"The driver of {names} temporarily turns backwards. Then the other flanks drive, and the crossing of the "
+            "backlash is not simulated."
         )
     if left := [tally for tally in run.statistics if tally.error_within != 0 or tally.speed_within != 0]:
-        yield f"The run is too long to search each pitch of it: the extremes of {', '.join(map(_left, left))}."
+        yield f"The run is too long to search every pitch: the extremes of {', '.join(map(_left, left))}."
 
 
 def _left(tally: RunningStatistics) -> str:
     """Return the uncertainty of an output's extremes as text."""
     error, speed = tally.error_within, tally.speed_within
     if error is None or speed is None:
-        return f"{tally.name} may lie anywhere beyond those told"
+        return f"{tally.name} may exceed the printed ones by any amount"
     scale = abs(tally.mean) or 1.0
-    return f"{tally.name} may lie up to {degrees(error):.2g} deg and {speed / scale:.2g} in speed beyond those told"
+    by = f"{degrees(error):.2g} deg and {speed / scale:.2g} in speed"
+    return f"{tally.name} may exceed the printed ones by up to {by}"
 
 
 def _pairs(run: MotionRun, every_output: bool) -> Section:
     motion = run.motion
     moved = [name for name in motion.outputs if any(motion.sensitivity[name][each.id] for each in motion._forward.used)]
     shown = moved if every_output else moved[:_ABREAST]
-    text = ["What each pair gives to an output: the range of its own error times the output's sensitivity to it."]
+    own = "transmission error" if motion._problem.rippling else "anomaly"
+    text = [f"Contribution of each pair to an output: the range of its own {own} times the output's sensitivity to it."]
     if still := [name for name in motion.outputs if name not in moved]:
-        text.append(f"No error reaches {', '.join(still)}.")
+        text.append(f"No pair affects {', '.join(still)}.")
     if left_out := moved[len(shown) :]:
-        text.append(f"Left out here: {', '.join(left_out)}; `--wide` or `--output` shows them.")
+        text.append(f"Not shown: {', '.join(left_out)}; `--wide` or `--output` shows them.")
     blocks = [shown[at : at + _ABREAST] for at in range(0, len(shown), _ABREAST)]
     return Section("Pairs", tuple(text), tuple(_shares(motion, outputs) for outputs in blocks or [[]]))
 
@@ -414,7 +425,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
         low, high = source.transmission.error_range()
         given = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
-    header = ("pair", "driver", "how that is known", "periods a turn", *(f"{name} (deg)" for name in outputs))
+    header = ("pair", "driving wheel", "basis", "periods a turn", *(f"{name} (deg)" for name in outputs))
     return Table(header, rows, wide=True)
 
 
@@ -425,12 +436,12 @@ def _phased(run: MotionRun) -> Section:
         errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
         lows, highs = zip(*(each.speeds for each in sets), strict=True)
         rows.append((tally.name, *errors, f"{min(lows):.5f}..{max(highs):.5f}"))
-    header = ("output", "error p-p (deg)", "error rms (deg)", "speed over its mean")
+    header = ("output", *_deviation_heads(deviation_name(run.motion)), "speed over its mean")
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     return Section("Random phases", (text,), (Table(header, rows),))
 
 
-def _estimates(found: dict[str, ErrorEstimates]) -> Section:
+def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
     rows = []
     for name, each in found.items():
         true = each.true
@@ -442,10 +453,11 @@ def _estimates(found: dict[str, ErrorEstimates]) -> Section:
         for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
             own, off = superposed.own, superposed.off
             rows.append(("", how, *_degrees(own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
-    header = ("output", "method", "error p-p (deg)", "rms (deg)", "greatest difference (deg)", "rms of it (deg)")
+    header = ("output", "method", f"{deviation} p-p (deg)", "rms (deg)", "maximum difference (deg)")
+    header = (*header, "rms difference (deg)")
     text = (
-        "Cheap estimates beside the composed motion, all at the sampled positions alone; the difference is pointwise, "
-        "each about its own mean."
+        "Approximations compared with the composed motion, all at the sampled positions only. Differences are "
+        "pointwise, after subtraction of each mean."
     )
     return Section("Estimates", (text,), (Table(header, rows),))
 

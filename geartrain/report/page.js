@@ -2,7 +2,7 @@
 (() => {
   const said = document.getElementById("said");
 
-  // what a cell says becomes a button in it, so that it can be reached with the keyboard
+  // the content of a cell becomes a button, so that it can be reached with the keyboard
   const button = (cell, label, act) => {
     const made = document.createElement("button");
     made.type = "button";
@@ -13,7 +13,7 @@
     return made;
   };
 
-  // a number as a fraction of two whole numbers, exactly; null where there is none
+  // returns a number as an exact fraction of two integers, or null if the text is not a number
   const number = (text) => {
     const found = /^([+\-−~]?)(\d+)(?:\.(\d*))?(?:e([+-]?\d+))?(?:\/(\d+))?(?![\w.])/.exec(text.trim());
     if (!found) return null;
@@ -26,13 +26,13 @@
 
   const key = (cell) => {
     const text = cell.dataset.exact ?? cell.textContent;
-    const ratio = /^1 : (.*)$/.exec(text.trim()); // 1 : n is 1/n
+    const ratio = /^1 : (.*)$/.exec(text.trim()); // 1 : n means 1/n
     const value = number(ratio ? ratio[1] : text);
     const turned = ratio && value && value[0] !== 0n;
     return { text, value: turned ? (value[0] < 0n ? [-value[1], -value[0]] : [value[1], value[0]]) : value };
   };
 
-  // numbers by size, then words; empty cells last, whichever way the column is sorted
+  // orders numbers by value, then words; empty cells are last in both directions
   const compare = (a, b, way) => {
     if (a.value && b.value) {
       const difference = a.value[0] * b.value[1] - b.value[0] * a.value[1];
@@ -60,7 +60,7 @@
   }
 
   const copied = (text) => {
-    const area = document.createElement("textarea"); // where the clipboard is out of reach of scripts
+    const area = document.createElement("textarea"); // fallback where scripts cannot access the clipboard
     area.value = text;
     document.body.append(area);
     area.select();
@@ -76,12 +76,12 @@
     } catch {
       done = copied(text);
     }
-    said.textContent = done ? `Copied ${text.length > 60 ? `${text.slice(0, 60)}…` : text}` : "Copying is not allowed here";
+    said.textContent = done ? `Copied ${text.length > 60 ? `${text.slice(0, 60)}…` : text}` : "The browser does not allow copying";
     said.classList.add("shown");
     setTimeout(() => said.classList.remove("shown"), 2000);
   };
 
-  // the viewer begins with its first scene: the one that is wanted is put before the others, and the frame made anew
+  // the viewer shows its first scene: move the wanted scene to the front and reload the frame
   const turn = (frame, number) => {
     frame.dataset.given ??= frame.srcdoc;
     const inner = new DOMParser().parseFromString(frame.dataset.given, "text/html");
@@ -96,7 +96,7 @@
 
   for (const text of document.querySelectorAll("[data-scene]")) {
     const frame = text.closest("article").querySelector("section.viewer iframe");
-    if (frame) button(text, "Show it turning", () => turn(frame, Number(text.dataset.scene)));
+    if (frame) button(text, "Show the animation", () => turn(frame, Number(text.dataset.scene)));
   }
 
   for (const cell of document.querySelectorAll("[data-exact]")) {

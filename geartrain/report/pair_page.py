@@ -102,7 +102,7 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """Return a document on one pair outside a train: verdict, design or figures, motion, losses, and wheels that were cut.
+    """Return a document on one pair outside a train: verdict, design or figures, motion, losses, and outlines.
 
     Parameters
     ----------
@@ -199,7 +199,9 @@ def _outline(wheel: WheelOutline) -> Section:
     )
     lines = [text]
     if wheel.relief:
-        lines.append(f"The root is turned {degrees(wheel.relief):.3g} deg off the flank so that the mate's tip passes.")
+        lines.append(
+            f"The root is relieved by {degrees(wheel.relief):.3g} deg from the flank so that the mate's tip clears it."
+        )
     return Section("Outline", lines, (Table(("quantity", "mm"), rows),))
 
 
@@ -226,7 +228,7 @@ def describe_pin(transmission: PinTransmission) -> Document:
 
     found = pin_figures(transmission)
     ratio, rms, efficiency = found.speed_ratio, found.transmission_error.rms, found.efficiency
-    kind = "encloses" if ratio.mean else "leaves out"
+    kind = "encloses" if ratio.mean else "does not enclose"
     summary = [
         f"The {transmission.driver} drives. The pin's circle, of radius {figure(found.pin_radius)}, "
         f"{kind} the slot's axis at "
@@ -234,16 +236,16 @@ def describe_pin(transmission: PinTransmission) -> Document:
     ]
     rows = [
         ("amplitude", f"{found.amplitude:.9g} rad", f"{degrees(found.amplitude):.9g} deg"),
-        ("error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
-        ("speed ratio, least", figure(ratio.minimum), ""),
-        ("speed ratio, greatest", figure(ratio.maximum), ""),
+        ("anomaly, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
+        ("speed ratio, minimum", figure(ratio.minimum), ""),
+        ("speed ratio, maximum", figure(ratio.maximum), ""),
     ]
     if efficiency.friction:
         name = f"efficiency at friction {efficiency.friction:g}, mean"
         rows.append((name, _share(efficiency.mean), "at constant driver torque"))
         rows.append(("", _share(efficiency.at_constant_load), "at constant load torque"))
     table = Table(("quantity", "value", ""), rows)
-    return Document("Pin in a slot", summary, [Section("Law of motion", (), (table,))])
+    return Document("Pin in a slot", summary, [Section("Transmission function", (), (table,))])
 
 
 def _share(efficiency: float | None) -> str:
@@ -308,7 +310,7 @@ def _clearance(transmission: TriangularTransmission, window: ClearanceWindow) ->
         f"These teeth turn from {window.jam_factor:.6f} ({window.jam_kind}) to {window.run_factor:.6f} "
         f"({window.run_kind})"
         if window
-        else f"No clearance works: {window.jam_kind} up to {window.jam_factor:.6f}, {window.run_kind} from "
+        else f"No clearance factor works: {window.jam_kind} up to {window.jam_factor:.6f}, {window.run_kind} from "
         f"{window.run_factor:.6f}"
     )
     lines = [
@@ -323,8 +325,8 @@ def _clearance(transmission: TriangularTransmission, window: ClearanceWindow) ->
         backlash = transmission.verdict.backlash
         arc = backlash * sizes.D * sizes.z2 / sizes.pitch_sum
         lines.append(
-            f"Least play of the back flanks over a pitch: {degrees(backlash):.6g} deg of the driven wheel, an arc of "
-            f"{arc:.6g} on its pitch circle."
+            f"Minimum backlash over a pitch: {degrees(backlash):.6g} deg of the driven wheel, an arc of {arc:.6g} on "
+            "its pitch circle."
         )
     return Section("Clearance", lines)
 
@@ -332,9 +334,9 @@ def _clearance(transmission: TriangularTransmission, window: ClearanceWindow) ->
 def _path(transmission: TriangularTransmission) -> Section:
     sizes = transmission.sizes
     ideal = (
-        f"Ideally a couple of teeth meets from alpha_1 = {_deg(sizes.reach1)} to {_deg(-sizes.reach1)} deg (Eq. 4), "
-        f"its flanks matching at {_deg(sizes.matching)} deg (Eq. 10): approach before, recess after. The real path is "
-        f"one pitch, {_deg(sizes.p1)} deg; alpha_1 decreases with time."
+        f"On the ideal path, a tooth pair is in contact from alpha_1 = {_deg(sizes.reach1)} to {_deg(-sizes.reach1)} "
+        f"deg (Eq. 4), with matching flanks at {_deg(sizes.matching)} deg (Eq. 10): approach before, recess after. The "
+        f"real path is one pitch, {_deg(sizes.p1)} deg. alpha_1 decreases with time."
     )
     rows = []
     for interval in transmission.intervals:
@@ -380,17 +382,17 @@ def _transmission(transmission: TriangularTransmission) -> Section:
     mean = float(transmission.ratio)
     rows = [
         ("speed ratio, mean", f"{transmission.ratio} = {figure(transmission.ratio)}", ""),
-        ("speed ratio, least", figure(minimum), f"{(minimum / mean - 1) * 100:+.3f} %"),
-        ("speed ratio, greatest", figure(most), f"{(most / mean - 1) * 100:+.3f} %"),
+        ("speed ratio, minimum", figure(minimum), f"{(minimum / mean - 1) * 100:+.3f} %"),
+        ("speed ratio, maximum", figure(most), f"{(most / mean - 1) * 100:+.3f} %"),
         ("transmission error, peak to peak", f"{high - low:.9g} rad", f"{degrees(high - low):.9g} deg"),
         ("transmission error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
         ("transmission error, mean", f"{lag:.9g} rad", f"{degrees(lag):.9g} deg"),
     ]
     text = (
-        "Transmission error: driven angle less its mean motion, positive where the driven wheel is ahead; counted from "
-        "the driver's tooth on the line of centres."
+        "Transmission error: driven angle minus its mean motion, positive where the driven wheel is ahead, measured "
+        "from the position with a tooth of the driver on the line of centres."
     )
-    return Section("Law of motion", (text,), (Table(("quantity", "value", ""), rows),))
+    return Section("Transmission function", (text,), (Table(("quantity", "value", ""), rows),))
 
 
 def _collisions(transmission: TriangularTransmission) -> Section:
@@ -399,7 +401,7 @@ def _collisions(transmission: TriangularTransmission) -> Section:
         for jump in transmission.jumps
     ]
     header = ("begins", "at alpha_1", "tau before", "tau after", "jump")
-    text = "Jump: 1 - before/after, the leap of normal velocity over the driver's (Eqs. 22, 25, 26, 27)."
+    text = "Jump: 1 - before/after, the jump of normal velocity over the driver's (Eqs. 22, 25, 26, 27)."
     return Section("Collisions", (text,), (Table(header, rows),))
 
 
@@ -415,7 +417,7 @@ def _lock(mesh: TriangularMesh) -> tuple[str, str, str]:
 def _losses(mesh: TriangularMesh) -> Section:
     transmission = mesh.losses
     if not mesh.rubs:
-        return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
+        return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     if not mesh.tells_losses:
         return Section("Friction", (f"{mesh.friction_words}.",))
     if transmission.locks:
@@ -423,11 +425,11 @@ def _losses(mesh: TriangularMesh) -> Section:
         return Section("Friction", (f"{what}: {why}.",))
     lines = [
         f"{mesh.friction_words}. Sliding efficiency: mean {transmission.efficiency_mean():.9f} at constant "
-        f"driver torque (Eq. 34), {transmission.efficiency_at_constant_load():.9f} at constant load torque, least "
+        f"driver torque (Eq. 34), {transmission.efficiency_at_constant_load():.9f} at constant load torque, minimum "
         f"{transmission.efficiency_minimum():.6f}.",
     ]
     if isfinite(transmission.locking_friction):
-        lines.append(f"From a friction of {transmission.locking_friction:.6g} on these teeth lock.")
+        lines.append(f"These teeth lock from a friction coefficient of {transmission.locking_friction:.6g} on.")
     return Section("Friction", lines)
 
 
@@ -441,9 +443,9 @@ def _impacts(transmission: TriangularTransmission, operation: PairOperation | No
     if found.work is not None:
         watts = found.work * (operation.rate or 0) * transmission.sizes.z1
         lines.append(
-            f"At {operation.rate:g} turns of the driver a second the collisions of one pitch hand "
-            f"{found.handed:.6g} J to the driven side, dissipate {found.dissipated:.6g} J, and cost the driver their "
-            f"sum, {found.work:.6g} J, or {watts:.6g} W. The source counts the first as lost; inelastic teeth lose "
+            f"At {operation.rate:g} turns of the driver per second, the impacts of one pitch transfer "
+            f"{found.handed:.6g} J to the driven side and dissipate {found.dissipated:.6g} J. The driver supplies "
+            f"their sum, {found.work:.6g} J, or {watts:.6g} W. The source counts the first as lost; inelastic teeth lose "
             "the second."
         )
         lines.append(
@@ -452,12 +454,13 @@ def _impacts(transmission: TriangularTransmission, operation: PairOperation | No
         )
     if found.void is not None:
         lines.append(
-            f"With a load torque of {operation.load:g} N m the quasi-static law is void above {found.void:.6g} "
-            f"turns of the driver a second ({2 * pi * found.void:.6g} rad/s)."
+            f"With a load torque of {operation.load:g} N m the quasi-static motion is invalid above {found.void:.6g} "
+            f"turns of the driver per second ({2 * pi * found.void:.6g} rad/s)."
         )
     if not lines:
         lines.append(
-            "Give a rate for the impacts, or a load torque for the speed above which the quasi-static law is void."
+            "Give a rate to compute the impacts, or a load torque to compute the speed above which the quasi-static "
+            "motion is invalid."
         )
     yield Section("Impacts", lines)
 

@@ -82,7 +82,7 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
         own = answer.state is not None and result.name in train.declaration.states[answer.state].outputs
         path = ("states", str(answer.state), "outputs") if own else ("outputs",)
         place = train.declaration.place(*path, result.name)
-        # a figure may be declared in a parent of the file that was asked about
+        # a figure may be declared in a parent of the given file
         head, tail = (place, "") if place.startswith(file) else (file, f" (declared at {place})")
         yield f"{head}:{state} output '{result.name}' is {exact(result.speed)}{_wanted(result)}{tail}"
 
@@ -94,7 +94,7 @@ def _left_out(train: GearTrain) -> Iterator[str]:
     for state in train.kinematics.usable_states:
         if train.declaration.is_loaded(state):
             where = f"state {state}: " if state is not None else ""
-            yield from (f"{where}torques leave out {each}: {each.why}" for each in train.torques(state).left_out)
+            yield from (f"{where}torques do not include {each}: {each.why}" for each in train.torques(state).left_out)
 
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
@@ -107,13 +107,13 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
             continue
         try:
             found = separation_rates(train, state)
-        except GearTrainError:  # what keeps the train from moving is told elsewhere
+        except GearTrainError:  # the cause is reported with the failures
             continue
         if found is not None and found.rate is not None and found.rate < abs(rate.base):
             where = f"state {state}: " if state is not None else ""
             at = "at any rate" if not found.rate else f"from {found.rate:.5g} turn/s of '{found.input}' on"
-            what = f"{where}the rate is {rate}, and the teeth of {found.pair} part {at}"
-            yield f"{train.declaration.place('rate')}: {what}: `motion` and `torques` hold below"
+            what = f"{where}the rate is {rate}, but the teeth of {found.pair} separate {at}"
+            yield f"{train.declaration.place('rate')}: {what}; `motion` and `torques` are valid below that rate"
 
 
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
@@ -137,9 +137,9 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
             state = f"state {answer.state}: " if answer.state is not None else ""
             beat = f"half a tooth of {escapement.teeth} every {escapement.beat} is {figure(escapement.speed)} turn/s"
             yield (
-                f"{declared.place('escapement')}: {state}{beat}, and '{escapement.link}' is to turn at {figure(speed)} "
-                f"turn/s{seen}: its beat would be "
-                f"{figure(1 / (2 * escapement.teeth * speed)) if speed else 'endless'} s"
+                f"{declared.place('escapement')}: {state}{beat}, but '{escapement.link}' turns at {figure(speed)} "
+                f"turn/s{seen}, which gives "
+                + (f"a beat of {figure(1 / (2 * escapement.teeth * speed))} s" if speed else "no beat")
             )
 
 

@@ -28,12 +28,12 @@ def _sections(found: GearSphere) -> Iterator[Section]:
     mobility = found.train.mobility
     lines = [f"Degrees of freedom by count {mobility.by_count}, by rank {mobility.by_rank}."]
     if found.moves:
-        lines.append(f"It turns; {mobility.redundant} of its meshes repeat what the others say.")
+        lines.append(f"The set turns; {mobility.redundant} of its meshes are redundant.")
     else:
         lines += [f"{line[0].upper()}{line[1:]}." for line in found.train.kinematics.gridlock.lines()]
-    yield Section("Whether it turns", lines)
+    yield Section("Mobility", lines)
     if found.graph is not None:
-        yield Section("How it was fitted to its graph", [line.strip() for line in str(found.graph).splitlines()])
+        yield Section("Fit to the graph", [line.strip() for line in str(found.graph).splitlines()])
     yield _phases(found)
     yield Section("Kinds of gear", (), (_kinds(found),))
     yield Section("Kinds of mesh", tuple(_pitch(found)), (_meshes(found),))
@@ -42,14 +42,16 @@ def _sections(found: GearSphere) -> Iterator[Section]:
 def _phases(found: GearSphere) -> Section:
     lines = []
     if found.rule is not None:
-        lines.append(f"It closes if {found.rule}." if found.rule != "always" else "It closes with any tooth numbers.")
+        lines.append(
+            f"The loops close if {found.rule}." if found.rule != "always" else "The loops close with any tooth counts."
+        )
     if found.closure is not None:
         lines += [line.strip() for line in found.closure.text.splitlines()]
     elif not found.moves:
-        lines.append("A set that cannot turn is not asked for phases.")
+        lines.append("Phases are not computed for a set that cannot turn.")
     elif not found.chosen:
-        lines.append("Give `--teeth` for every kind, or ask for tooth numbers with `--suggest`.")
-    return Section("Whether its teeth meet", lines)
+        lines.append("Give `--teeth` for every kind, or search tooth counts with `--suggest`.")
+    return Section("Phase closure", lines)
 
 
 def _kinds(found: GearSphere) -> Table:
@@ -100,25 +102,25 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """Return a table of polyhedra: which turn, which meshes to remove, which can have one pitch."""
+    """Return a table of polyhedra: which turn, how many meshes to remove, and the angles between axes."""
     table = result_table(
         rows,
         *("faces of=solid", "gears", "meshes", ("turns", lambda row: "yes" if row.bipartite else "no")),
-        *("count=gruebler", "to take out=drop", "types", "mesh_kinds", "free=positions"),
+        *("count=gruebler", "to remove=drop", "types", "mesh_kinds", "free=positions"),
         ("angles", lambda row: " ".join(f"{angle:.9f}" for angle in row.angles)),
         wide=True,
     )
     text = (
-        "Gears on all faces. A set turns if neighbours can turn against each other everywhere; `to take out` is the "
-        "least number of meshes that frees it. `count` is gears less meshes; types of gear and kinds of mesh are those "
-        "that no symmetry joins, and `free` the parameters by which axes can move while all symmetries stay."
+        "Gears on all faces. A set turns if all neighbours can turn in opposite senses; `to remove` is the minimum "
+        "number of meshes whose removal frees it. `count` is the number of gears minus that of meshes. `types` of gear "
+        "and `mesh kinds` are counted up to symmetry. `free` is the number of parameters by which the axes can move "
+        "with all symmetries kept."
     )
     return Document("Gears on the faces of solids", (text,), (Section("Solids", (), (table,)),))
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return tooth counts for which loops close and tips clear, best first, and the reasons for rejecting the others.
-    """
+    """Return tooth counts for which loops close and tips clear, best first, and the reasons for other rejections."""
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = [
         (
@@ -132,11 +134,11 @@ def describe_suggestions(found: ToothCountSuggestions) -> Document:
         for each in found
     ]
     gone = ", ".join(f"{count} by {reason}" for reason, count in found.removed.items())
-    lines = [f"Of {found.considered} sets of tooth numbers, removed: {gone}."]
+    lines = [f"{found.considered} sets of tooth counts were considered; rejected: {gone}."]
     if not rows:
-        lines.append("No tooth numbers meet every condition: raise the bound, or allow a greater mismatch.")
+        lines.append("No tooth counts meet every condition: raise the bound, or allow a larger mismatch.")
     meshes = ", ".join(str(mesh) for mesh in found.meshes)
-    lines.append(f"Meshes: {meshes}. The mismatch is ln of the ratio of their pitches.")
-    header = (*kinds, "mismatch", "cones (deg)", "pressure angles (deg)", "room (modules)", "residue")
-    title = f"Tooth numbers for {found.configuration.title or 'a set'}"
+    lines.append(f"Meshes: {meshes}. The mismatch is the logarithm of the ratio of their pitches.")
+    header = (*kinds, "mismatch", "cones (deg)", "pressure angles (deg)", "tip gap (modules)", "residue")
+    title = f"Tooth counts for {found.configuration.title or 'a set'}"
     return Document(title, lines, (Section("Best sets", (), (Table(header, cut(rows)),)),))

@@ -185,17 +185,17 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 _UNITS = (
-    "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
-    "in its carrier's frame. Brakes and locks: what they exert on what they hold."
+    "Torques are in the unit of the loads. Power is torque times speed in the train's unit, positive into the train; "
+    "for a pair, relative to its carrier. Torques of brakes and locks act on the links that they hold."
 )
 _UNITS_IN_WATTS = (
-    "Torques in N m; power is torque times speed in real time, positive into the train; in a pair, in its carrier's "
-    "frame. Brakes and locks: what they exert on what they hold."
+    "Torques are in N m. Power is torque times speed in real time, positive into the train; for a pair, relative to "
+    "its carrier. Torques of brakes and locks act on the links that they hold."
 )
 
 
 def describe_torques(found: TorqueReport) -> Document:
-    """Return a document on torques by state: verdict, efficiency in both directions, links, pairs, power flow and losses.
+    """Return a document on torques by state: verdict, efficiency in both directions, links, pairs, flow and losses.
 
     The torque over some turns and trials of its friction follow if requested.
 
@@ -256,8 +256,8 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     head = "Torques" if state is None else f"State {state}: torques"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
-        lines.append(f"It can be one of {', '.join(found.verdict.candidates)}.")
-    lines += [f"Left out: {each}: {each.why}." for each in found.left_out]
+        lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
+    lines += [f"Not included: {each}: {each.why}." for each in found.left_out]
     lines += _there_and_back(figures.drives)
     if not found.verdict:
         yield Section(head, lines)
@@ -268,7 +268,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
         kept = f"efficiency {figure(efficiency, 6)}{uncounted_words(found)}" if efficiency else "nothing is taken out"
         lines.append(
             f"Power in {amounts.text(found.power_in, 6)}, lost {amounts.text(found.loss, 6)}, {kept}; "
-            f"the greatest power through a pair is {figure(circulating, 5)} times that."
+            f"the maximum power through a pair is {figure(circulating, 5)} times the power in."
         )
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.requested)
@@ -277,7 +277,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     yield Section(head, lines, tuple(tables))
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))
     if any(parts):
-        yield Section("Flow of power" if state is None else f"State {state}: flow of power", *parts)
+        yield Section("Power flow" if state is None else f"State {state}: power flow", *parts)
 
 
 class _Amounts:
@@ -351,7 +351,7 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
 def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
     """Yield sentences on the pairs and shafts through which power circulates, and its amount."""
     if flow.loops:
-        yield "Here power is torque times absolute speed, so that every shaft and pair gives on what it takes in."
+        yield "Here power is torque times absolute speed, so that it is balanced at every shaft and pair."
     for loop in flow.loops:
         part = percent_of_text(loop.power / flow.power_in, "the power in") if flow.power_in else "no power in"
         yield (
@@ -401,8 +401,8 @@ def summary_text(torques: Torques) -> str:
     lost = {"teeth": teeth, "bearings": torques.bearing_loss}
     named = [f"{percent_text(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
     out = percent_text(1 - torques.loss / torques.power_in)
-    uncounted = [f"left out: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
-    return "; ".join([f"{out} of the power that enters comes out", *named, *uncounted])
+    uncounted = [f"not included: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
+    return "; ".join([f"efficiency {out}", *named, *uncounted])
 
 
 # ------------------------------------------------------------------------------------------------------ there and back
@@ -422,14 +422,14 @@ def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
 # --------------------------------------------------------------------------------------------------- torque over a turn
 
 
-_MINIMUM = 1e-12  # of all that is lost: less is rounding
+_MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
     """Yield sections on crank torque over a run, energies, and the losses of each pair, pin and bearing."""
     head = "Torque over a turn" if found.state is None else f"State {found.state}: torque over a turn"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
-    lines += [f"Left out: {each}: {each.why}." for each in found.left_out]
+    lines += [f"Not included: {each}: {each.why}." for each in found.left_out]
     if found.turns is None:
         yield Section(head, lines)
         return
@@ -451,11 +451,11 @@ def turns_text(turns: float) -> str:
 def _run(found: TorqueCycle) -> str:
     assert found.turns is not None
     text = f"Torque at '{found.link}' over {turns_text(found.span)} of the input, at {len(found.turns)} positions"
-    text += ", corners and both sides of jumps among them"
+    text += ", including kinks and both sides of jumps"
     if found.period is not None:
         whole = found.span / found.period
         text += f"; everything repeats after {turns_text(found.period)}"
-        text += "" if whole >= 1 - 1e-9 else ", of which this is a part"
+        text += "" if whole >= 1 - 1e-9 else ", and this run is a part of the period"
     return text + "."
 
 
@@ -464,7 +464,7 @@ def _shares(found: TorqueCycle) -> Iterator[str]:
     shares = {
         "no torque balances: the train locks": found.locked_share,
         "loads and the crank both put power in, and all of it is lost": found.held_share,
-        "several patterns of power flow balance; the torque is of the one that loses least": found.ambiguous_share,
+        "several patterns of power flow balance; the one with the minimum loss is used": found.ambiguous_share,
     }
     for what, share in shares.items():
         if share:
@@ -475,18 +475,18 @@ def _efficiency(found: TorqueCycle) -> Iterator[str]:
     if found.efficiency:
         yield f"Efficiency, energy out over energy in: {figure(found.efficiency, 10)}."
     elif found.energy is not None and found.energy.net_in > 0:
-        yield "No energy is taken out on the whole: all that is put in is lost."
+        yield "No net energy is taken out: all energy put in is lost."
 
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
     if found.loses_most is not None and len(found.parts) > 1:
-        yield f"Most is lost in {found.loses_most}."
+        yield f"The largest loss is in {found.loses_most}."
     if changes := {name: count for name, count in found.flank_changes.items() if count}:
         words = ", ".join(f"{name} {count} times" for name, count in changes.items())
-        yield f"The torque changes its sense, and play is crossed, at {words}."
+        yield f"The torque reverses and backlash is crossed: {words}."
     if found.recirculating:
         words = ", ".join(f"{figure(share, 4)} times at {name}" for name, share in found.recirculating.items())
-        yield f"More power passes than is put in: {words}."
+        yield f"The power passed on exceeds the power put in: {words}."
     if not found.complete:
         yield "Not all patterns of power flow were tried."
 
@@ -536,8 +536,7 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return energies over a run with their shares of all energy put in; values at the level of rounding are left out.
-    """
+    """Return energies over a run with their shares of all energy put in; values that are rounding are left out."""
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
     from geartrain.train.states import Erratum
 
-_MOST_LINKS = 500  # of a train whose adjacency is told
+_MOST_LINKS = 500  # maximum number of links of a train whose adjacency matrix is reported
 
 
 @dataclass(frozen=True)

@@ -51,7 +51,7 @@ _LETTERS = {"": ".", "revolute": "R", "gear": "G", "several": "+"}
 SOURCES = "Sources"
 """Title of the section of references; a page has a list with links instead."""
 
-_SIDES = ("above", "below", "behind")  # from which one looks without an article
+_SIDES = ("above", "below", "behind")  # viewing sides that are written without an article
 
 
 def describe_train(found: TrainReport) -> Document:
@@ -132,14 +132,14 @@ def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
         sections = list(answer_sections(train, answer))
         if box is None or not answer.verdict:
             yield from sections
-        else:  # the tables of a gearbox have all speeds and ratios
+        else:  # the tables of a gearbox already have all speeds and ratios
             yield from (replace(section, detail=True) for section in sections[:-1])
 
 
 def _findings(train: GearTrain) -> Iterator[Section]:
     """Yield sections on parts of the train that cannot be built, and on remarks."""
     if train.build_findings:
-        head = "From the declaration alone. An error cannot be built as it is declared; a note is unwise, or left open."
+        head = "An error prevents building as declared; a note is a warning or names an undeclared detail."
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
         yield Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
     if train.kinematics.remarks:
@@ -198,8 +198,8 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     for answer in answers:
         if not answer.verdict:
             state = f"State {answer.state}: " if answer.state is not None else ""
-            told = "as expected, " if answer.as_expected else ""
-            yield f"{state}Verdict: {told}{answer.verdict} ({answer.place})."
+            expected = "as expected, " if answer.as_expected else ""
+            yield f"{state}Verdict: {expected}{answer.verdict} ({answer.place})."
     if all(answer.as_expected for answer in answers) and any(answer.verdict for answer in answers):
         held = expectations_met(answers)
         yield f"Verdict: determined; {held}." if held else "Verdict: determined."
@@ -210,13 +210,13 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     yield (
         f"Speeds are in {unit}" if unit else "Speeds are plain numbers"
     ) + f", absolute, about each link's own axis{clock}."
-    yield f"Train '{declared.name}'" + (f", a change of '{declared.extends}'." if declared.extends else ".")
+    yield f"Train '{declared.name}'" + (f", an extension of '{declared.extends}'." if declared.extends else ".")
     if declared.note:
         yield declared.note
     if train.kinematics.joint_sums:
         yield (
-            "A sum of joint speeds is of a link whose axis is carried round at an angle: its speeds about all of its "
-            "joints added up, no rotation about one axis."
+            "The speed of a link whose axis is carried about a non-parallel axis is a sum of joint speeds, not a "
+            "rotation about one axis."
         )
 
 
@@ -234,8 +234,8 @@ def _structure(train: GearTrain) -> Iterator[Section]:
         (len(declared.couplings), "coupling"),
         (wheels, "wheel"),
     )
-    told = ", ".join(plural(count, noun) for count, noun in parts if count)
-    counts = f"{len(declared.links)} links (the frame is '{declared.frame}'), {told}."
+    counted = ", ".join(plural(count, noun) for count, noun in parts if count)
+    counts = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
     rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
     yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
@@ -259,7 +259,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
 
 def _note(link: Link) -> str:
     """Return the declared note of a link, after the number of its copies."""
-    number = f"{link.copies} of them, equal" if link.copies > 1 else ""
+    number = f"{link.copies} equal copies" if link.copies > 1 else ""
     return "; ".join(filter(None, (number, link.note or "")))
 
 
@@ -352,21 +352,21 @@ def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
     yield f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}{exact}"
     if found.redundant:
         many = "circuit" if found.redundant == 1 else "circuits"
-        yield f"{found.redundant} redundant {many}: what the others say already."
+        yield f"{found.redundant} redundant {many}, implied by the others."
     yield from (f"Redundant: {_loop(loop)}." for loop in found.loops[:12])
     if len(found.loops) > 12:
         yield f"... and {len(found.loops) - 12} more redundant loops."
-    yield from (f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12])
+    yield from (f"Redundant: the circuits that meet at link '{link}' are dependent." for link in found.shared[:12])
     yield from held
     if found.idle:
-        yield f"Never rolling: {', '.join(found.idle[:20])}."
+        yield f"Pairs that never roll: {', '.join(found.idle[:20])}."
     if found.still and found.by_rank:
-        yield f"Standing still in every motion: {', '.join(found.still[:20])}."
+        yield f"Links at rest in every motion: {', '.join(found.still[:20])}."
 
 
 def phasing_document(closure: MeshPhasing) -> Document:
     """Return the section of the report on phase closure as a document."""
-    sections = list(_phasing(closure)) or [Section("Putting it together", ("No loop of the train is judged.",))]
+    sections = list(_phasing(closure)) or [Section("Phase closure", ("The train has no loop to check.",))]
     return Document("Phase closure", (), sections)
 
 
@@ -380,9 +380,9 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
     if closure is None or closure.kind == "open":
         return
     rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
-    text = "Zero marks of links at these angles put every tooth before a gap; wheels have a tooth at their link's mark."
+    text = "With the zero marks of links at these angles, every tooth faces a gap; wheels have a tooth at the mark."
     lines = [line.strip() for line in closure.text.splitlines()]
-    yield Section("Putting it together", (*lines, text), (Table(("link", "angle (deg)"), cut(rows)),))
+    yield Section("Phase closure", (*lines, text), (Table(("link", "angle (deg)"), cut(rows)),))
 
 
 def _loop(loop: Loop) -> str:
@@ -394,8 +394,7 @@ def _loop(loop: Loop) -> str:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return the adjacency matrix of links; R(axis) is a turning pair, gear pairs and couplings are shown by their ids.
-    """
+    """Return the adjacency matrix of links: R(axis) for a turning pair, ids for gear pairs and couplings."""
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
@@ -470,7 +469,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
         kind = wrong[0].verdict.kind
         return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
     if train.mechanics.faults:
-        return "its teeth cannot turn", False
+        return "teeth cannot turn", False
     failed = sum(len(answer.failures) for answer in answers)
     if failed:
         return f"{failed} expectation{'' if failed == 1 else 's'} failed", False

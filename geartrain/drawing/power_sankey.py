@@ -76,7 +76,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     if isinstance(flow, Torques):
         flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:
-        raise GearTrainError(Problem(f"no power flows in '{title}'", "no link is loaded and turns", "declare `loads`"))
+        raise GearTrainError(Problem("no power flows through the train", title, "declare `loads` on links that turn"))
     if len(flow.nodes) > _MOST:
         what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
         raise GearTrainError(Problem(what, f"the maximum is {_MOST}", "draw a part of the train"))

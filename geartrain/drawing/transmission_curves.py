@@ -323,7 +323,7 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis of the instant centre over the centre distance: tau/(1 + tau), or tau/|1 - tau| with a ring."""
+    """Draw a second axis of the instant centre over the distance: tau/(1 + tau), or tau/|1 - tau| with a ring."""
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)

@@ -355,8 +355,8 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 def column_widths(table: Table, width: int) -> list[int]:
     """Return the width of each column in characters, at most its longest cell.
 
-    Columns that need the fewest characters beyond their longest word get them first. The sum exceeds the available width
-    only if the longest words together do.
+    Columns that need the fewest characters beyond their longest word get them first. The sum exceeds the available
+    width only if the longest words together do.
     """
     columns = _columns(table)
     full = [max(map(len, column)) for column in columns]

@@ -445,8 +445,8 @@ def _impacts(transmission: TriangularTransmission, operation: PairOperation | No
         lines.append(
             f"At {operation.rate:g} turns of the driver per second, the impacts of one pitch transfer "
             f"{found.handed:.6g} J to the driven side and dissipate {found.dissipated:.6g} J. The driver supplies "
-            f"their sum, {found.work:.6g} J, or {watts:.6g} W. The source counts the first as lost; inelastic teeth lose "
-            "the second."
+            f"their sum, {found.work:.6g} J, or {watts:.6g} W. The source counts the first as lost; inelastic teeth "
+            "lose the second."
         )
         lines.append(
             f"The driven inertia stays in contact as tau falls if the load torque is at least {found.minimum_load:.6g} "

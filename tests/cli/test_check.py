@@ -118,7 +118,7 @@ def test_a_ratio_that_there_is_not_is_said_to_be_none(tmp_path: Path) -> None:
         "extends: planetary\noutputs: {ring: {published: {value: 3, as: input/output}}}\n", encoding="utf-8"
     )
     said = call("check", path).stdout
-    assert "published 3 as input/output, no such ratio" in said
+    assert "published 3 as input/output, undefined: a ratio" in said
 
 
 def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
@@ -162,7 +162,7 @@ def test_a_rate_at_which_teeth_part_is_noted(rate: str, noted: bool, tmp_path: P
 
 
 @pytest.mark.parametrize(
-    ("beat", "said"), [("1 s", ""), ("0.5 s", "its beat would be 1 s"), ("61/60 s", "would be 1 s")]
+    ("beat", "said"), [("1 s", ""), ("0.5 s", "gives a beat of 1 s"), ("61/60 s", "a beat of 1 s")]
 )
 def test_an_escapement_that_beats_at_another_speed_is_noted(beat: str, said: str, tmp_path: Path) -> None:
     file = tmp_path / "clock.yaml"

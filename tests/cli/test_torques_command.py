@@ -60,8 +60,8 @@ def test_a_train_without_load_is_said_to_give_nothing_out(train_file: Write) -> 
         PIN.replace("b: {}}\nrev", "b: {bearing: 1 N m}}\nrev").replace("loads: {b: -10 N m}", ""), "idle.yaml"
     )
     text = " ".join(call("torques", path, "--turns", "1", *SAMPLES).output.split())
-    assert "nothing is taken out; the greatest power" in text
-    assert "No energy is taken out on the whole: all that is put in is lost." in text
+    assert "nothing is taken out; the maximum power" in text
+    assert "No net energy is taken out: all energy put in is lost." in text
     assert "Efficiency, energy" not in text
 
 
@@ -126,7 +126,7 @@ inputs: {b: 1}
 crank: a
 """)
     above, below = torque_cycle_figure(train.torques(turns=1, samples=20)).axes
-    assert below.get_ylabel() == "lost, as torque at a (N m)"
+    assert below.get_ylabel() == "losses, as torque at a (N m)"
     stack = below.collections[0].get_paths()[0].vertices
     assert float(stack[:, 1].max()) == pytest.approx(1e-3)
     assert float(above.lines[0].get_ydata()[0]) == pytest.approx(1e-3)

@@ -215,14 +215,14 @@ def test_outputs_in_rows_have_their_errors_below_each_other() -> None:
 
 def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
     figure = motion_figure(MotionRun(load("longcase-clock-cycloidal").motion(), 2, 101), title="a clock")
-    assert "no output has an error" in figure.get_suptitle()
+    assert "every output moves uniformly" in figure.get_suptitle()
     assert not any("error" in axes.get_ylabel() for axes in figure.axes)
 
 
 def test_outputs_without_error_that_are_left_out_are_told() -> None:
     figure = motion_figure(MotionRun(load("price-1974").motion(), 0.02, 21), title="price-1974")
     said = " ".join(figure.get_suptitle().split())
-    assert said == "price-1974; no output has an error; 8 outputs are left out: name them with --output"
+    assert said == "price-1974; every output moves uniformly; 8 outputs are left out: select them with --output"
     assert len([axes for axes in figure.axes if axes.axison]) == 12
 
 

@@ -303,7 +303,7 @@ def test_another_suffix_is_refused_with_those_that_are_known(suffix: str) -> Non
 @pytest.mark.parametrize("pair", [(48, 96, 0.05), (3, 10, 0.01)])
 def test_wheels_without_contact_are_refused_with_their_verdict(pair: tuple[int, int, float]) -> None:
     for draw in (triangular_figure, teeth_figure):
-        with pytest.raises(GearTrainError, match="no contact to draw"):
+        with pytest.raises(GearTrainError, match="never touch"):
             draw(transmission(*pair))
 
 

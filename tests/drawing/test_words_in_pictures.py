@@ -241,7 +241,7 @@ def test_the_key_of_hands_shows_their_dashes() -> None:
 
 def test_plain_faces_tell_no_cells() -> None:
     (axes,) = picture(load("planetary-24-18-60"), "dials", None, Fraction(1, 3)).axes
-    assert any("turn, going" in words.get_text() for words in axes.texts)
+    assert any("turn, turning" in words.get_text() for words in axes.texts)
     assert not any("cell" in words.get_text() for words in axes.texts)
 
 

@@ -78,8 +78,8 @@ def test_check_compares_the_beat_with_the_speed_relative_to_the_carriage(
     assert "half a tooth" not in call("check", file).stdout
     file.write_text(carried(fixed, pinion, teeth, "0.22 s"), encoding="utf-8")
     told = call("check", file).stdout
-    assert "'escape' is to turn at 0.16666667 turn/s relative to 'carriage'" in told
-    assert f"its beat would be {beat}" in told
+    assert "'escape' turns at 0.16666667 turn/s relative to 'carriage'" in told
+    assert f"which gives a beat of {beat}" in told
 
 
 def test_the_torque_at_a_carried_escapement_acts_between_its_wheel_and_the_carriage() -> None:

@@ -246,7 +246,7 @@ def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
     }
     assert set(data["outputs"]["moon"]["transmission_error"]) == {"peak_to_peak", "rms"}
     assert data["outputs"]["moon"]["speed"]["mean"] == pytest.approx(254 / 19 / 5, rel=1e-15)
-    assert "error p-p (deg)" in call(*arguments).stdout
+    assert "transmission error p-p (deg)" in call(*arguments).stdout
     out, picture = tmp_path / "m.csv", tmp_path / "m.png"
     assert call(*arguments, "-o", out, "--plot", picture).exit_code == 0
     rows = out.read_text(encoding="utf-8").splitlines()
@@ -526,13 +526,13 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
 
     year = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
     labels = [panel.get_ylabel() for panel in year.axes]
-    assert labels == ["mars\nangle (deg)", "mars\nerror less\nits mean (deg)", "mars\nspeed over mean"]
+    assert labels == ["mars\nangle (deg)", "mars\nanomaly\nless its mean (deg)", "mars\nspeed over mean"]
     back = year.axes[0].lines[2]
-    assert back.get_label() == "going back"
+    assert back.get_label() == "backward"
     y = np.asarray(back.get_ydata(), dtype=float)
     assert (np.diff(y)[np.isfinite(np.diff(y))] < 0).all()
     long = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001))
-    assert long.axes[0].get_ylabel() == "mars\nwhere it goes back (deg)"
+    assert long.axes[0].get_ylabel() == "mars\nbackward motion (deg)"
     (arcs,) = long.axes[0].lines
     starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)
     # 133 arcs, the first cut in two by the ends of the run; those that pass 0 on the dial are broken there

@@ -453,7 +453,7 @@ def titles(document: Document) -> list[str]:
 def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
     train = load(SPLIT)
     found = [title for title in titles(describe_train(collect_report(train))) if "torques" in title or "power" in title]
-    assert found == [f"State {s}: {what}" for s in ("cruising", "boost") for what in ("torques", "flow of power")]
+    assert found == [f"State {s}: {what}" for s in ("cruising", "boost") for what in ("torques", "power flow")]
     assert [each["state"] for each in collect_report(train).to_dict()["torques"]] == ["cruising", "boost"]
     bare = load("prius-power-split")
     assert not [title for title in titles(describe_train(collect_report(bare))) if "orque" in title]
@@ -573,7 +573,7 @@ def test_the_command_draws_one_state(tmp_path: Path) -> None:
     assert "--state" in done.stderr
     assert not picture.exists()
     assert call("torques", path, "--state", "boost", "--plot", picture).exit_code == 0
-    assert "98.89 % of the power that enters comes out; 1.111 % is lost in teeth" in picture.read_text(encoding="utf-8")
+    assert "efficiency 98.89 %; 1.111 % is lost in teeth" in picture.read_text(encoding="utf-8")
     # a single loaded state needs no name
     path.write_text(REVERSE, encoding="utf-8")
     assert call("torques", path, "--plot", tmp_path / "r.png").exit_code == 0
@@ -593,7 +593,7 @@ def test_where_no_power_flows_nothing_is_drawn(tmp_path: Path) -> None:
     path.write_text(SHARED, encoding="utf-8")
     done = call("torques", path, "--plot", picture)
     assert isinstance(done.exception, GearTrainError)
-    assert "no flow of power to draw" in str(done.exception)
+    assert "no power flows through the train" in str(done.exception)
     assert done.stdout == ""
     assert not picture.exists()
 

@@ -136,8 +136,8 @@ def test_friction_of_a_pin_that_is_not_counted_is_named_wherever_the_result_is_t
     (why,) = [each.why for each in found.left_out if each.what == "friction of pins"]
     assert what in why
     page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
-    assert "Left out: friction of pins (P): " in page
-    assert "Left out: friction of pins (P): " in to_markdown([describe_train(collect_report(train))])
+    assert "Not included: friction of pins (P): " in page
+    assert "Not included: friction of pins (P): " in to_markdown([describe_train(collect_report(train))])
     data = torque_figures(train).to_dict()
     assert data["left_out"][0] == {"what": "friction of pins", "where": ["P"], "why": why}
     if found.efficiency is not None:
@@ -146,7 +146,7 @@ def test_friction_of_a_pin_that_is_not_counted_is_named_wherever_the_result_is_t
     path = tmp_path / "t.yaml"
     path.write_text(text, encoding="utf-8")
     assert json.loads(call("torques", path, "--json").output)["states"][0]["left_out"] == data["left_out"]
-    assert f"note {path}: torques leave out friction of pins (P): " in call("check", path).output
+    assert f"note {path}: torques do not include friction of pins (P): " in call("check", path).output
 
 
 def test_nothing_is_left_out_of_what_is_declared_in_full() -> None:

@@ -27,15 +27,15 @@ def test_outputs_that_are_left_out_are_named() -> None:
     assert columns(section) == [str(link) for link in range(3, 11)]
     others = ", ".join([*map(str, range(11, 21)), "sun", "moon"])
     assert list(section.paragraphs)[1:] == [
-        "No error reaches 1, 2.",
-        f"Left out here: {others}; `--wide` or `--output` shows them.",
+        "No pair affects 1, 2.",
+        f"Not shown: {others}; `--wide` or `--output` shows them.",
     ]
 
 
 def test_every_output_has_its_column_when_requested() -> None:
     section = pairs(every_output=True)
     assert columns(section) == [*map(str, range(3, 21)), "sun", "moon"]
-    assert not any("Left out" in line for line in section.paragraphs)
+    assert not any("Not shown" in line for line in section.paragraphs)
     assert {len(table.rows) for table in section.tables} == {18}
 
 

@@ -2,9 +2,9 @@
 
 Wheels without a flat outline (bevels, crowns, worms, and teeth that cannot be cut) get nominal teeth.
 
-A train declares the thin wheel of a strain wave on an axis that a generator carries round, as if the wheel were rigid:
-that gives its speed. Bent by the wave, it stays about the generator's own axis, and its teeth meet the ring at each
-lobe (docs/reducers.md, (8)).
+A declaration places the flexible wheel of a strain wave on an axis that the generator carries, as if the wheel were
+rigid. This gives its speed. The scene places the deformed wheel about the generator's own axis, and its teeth mesh with
+the ring at each lobe (docs/reducers.md, (8)).
 """
 
 from __future__ import annotations
@@ -35,22 +35,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """A thin wheel and its generator."""
+    """Flexible wheel of a strain wave and its generator."""
 
     wheel: str
-    """Its own, and the link whose wave bends it."""
+    """Name of the wheel."""
     link: str
-    """Its own, and the link whose wave bends it."""
+    """Link that is the wave generator."""
     axis: str
     """Label of the generator's axis."""
     offset: Vector
-    """From that to the axis on which the wheel is declared (mm): how far its wave rises, and towards where."""
+    """Vector from that axis to the axis on which the wheel is declared (mm): amplitude and direction of the wave."""
     lobes: int
-    """Of the wave: as many as the ring has teeth more."""
+    """Number of lobes of the wave, the difference of the tooth counts of ring and wheel."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
-    """All of a train as placed."""
+    """Yield all flexible wheels of a train that a generator deforms."""
     declared = train.declaration
     for gear in declared.gears:
         thin = next((name for name in gear.pair if declared.wheels[name][1].flexible), None)
@@ -69,7 +69,8 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Bodies and wheels with those that are bent about the axes of their generators, and the waves that bend them."""
+    """Return bodies and wheels with flexible ones moved to the axes of their generators, and the waves that bend them.
+    """
     told, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
@@ -85,7 +86,7 @@ def bend(
 
 
 Points = tuple[tuple[float, float], ...]
-"""Radii over the pitch radius, and angles (rad)."""
+"""Points of a flank: radius (relative to the pitch radius) and angle (rad)."""
 
 FORM = "likeness"
 _PRESSURE = pi / 9
@@ -101,16 +102,18 @@ _STEP = pi / 18  # between points of a thread's section, of which a few go round
 _LAND = 0.08  # of a pitch: least half width of a tip
 
 
-def spur(z: int, room: float = ADDENDUM) -> ToothProfile:
-    """A tooth of a wheel, of at most the height `room` (modules) over the pitch circle."""
-    return ToothProfile(FORM, _tooth(z, min(ADDENDUM, room)))
+def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
+    """Return a nominal tooth of a wheel, at most `height` (modules) above the pitch circle."""
+    return ToothProfile(FORM, _tooth(z, min(ADDENDUM, height)))
 
 
-def ring(z: int, room: float = ADDENDUM) -> ToothProfile:
-    """A tooth of a ring: what a wheel of as many teeth leaves between its own, within the pitch circle by `room`."""
+def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
+    """Return a nominal tooth of a ring, the tooth space of an external wheel, at most `height` (modules) within the pitch
+    circle.
+    """
     most = 1 + 2 * DEDENDUM / z
     # the space of the ring is the tooth of a wheel, higher and a little wider
-    tip = max(1 - 2 * min(ADDENDUM, room) / z, _MINIMUM_ROOT)
+    tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
     half = pi / z
     flank = [(r, half - _half(z, r) - 2 * _BACKLASH * pi / z) for r in _spread(tip, most)]
     return ToothProfile(
@@ -118,10 +121,10 @@ def ring(z: int, room: float = ADDENDUM) -> ToothProfile:
     )
 
 
-def room(z: int, mate: int, within: bool) -> float:
-    """How tall (modules) a tooth may be for a mate: down to the roots of one of few teeth.
+def tooth_height(z: int, mate: int, within: bool) -> float:
+    """Return the maximum height (modules) of a tooth that does not touch the roots of a mate with few teeth.
 
-    within   one of them is a ring: then so that tips pass each other where the teeth are long out of mesh
+    within   one of them is a ring; tips then also pass each other outside of the mesh
     """
     if within:
         return _PASSING * abs(z - mate)
@@ -133,9 +136,9 @@ def _root(z: float) -> float:
 
 
 def bevel(z: int, cone: float) -> ToothProfile:
-    """A tooth of a bevel wheel at its wide end: that of the wheel into which its back cone unrolls.
+    """Return a nominal tooth of a bevel wheel at its wide end, from the virtual spur wheel of its back cone (Tredgold).
 
-    The radius counts heights over the pitch cone along the back cone; cone is the half angle of the pitch cone (rad).
+    Its radii contain heights above the pitch cone along the back cone; cone is the half angle of the pitch cone (rad).
     """
     # the back cone of a crown wheel never closes: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
@@ -145,9 +148,9 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
 
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
-    """A tooth of a crown wheel whose spaces are a little wider than the teeth of its mate, of which one is given.
+    """Return a tooth of a crown wheel whose tooth spaces are slightly wider than the given teeth of its mate.
 
-    section   of that tooth: radius over its pitch radius, and angle (rad), in order of angle
+    section   one tooth of the mate: radius relative to its pitch radius and angle (rad), by increasing angle
     """
     import numpy as np
 
@@ -161,7 +164,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """A thread: its section along the axle, wound round it; height over the pitch radius."""
+    """Return the axial section of a worm's thread, wound round its axis; height is relative to the pitch radius."""
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -188,8 +191,9 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Half the angle (rad) of a tooth of a wheel at radius r: involute, straight towards the axle under its base, and
-    undercut as much as a rack does it."""
+    """Return half the angle (rad) of a tooth at relative radius r: an involute, radial below the base circle, with the
+    undercut of a rack.
+    """
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
@@ -197,10 +201,11 @@ def _half(z: float, r: float) -> float:
 
 
 def _swept(z: float, r: float) -> float:
-    """Half the angle (rad) of a space that the tips of a rack sweep at radius r, from the middle of their own tooth.
+    """Return half the angle (rad) of the tooth space that the tips of a rack cut out at relative radius r.
 
-    A corner of the rack, `b` from that middle and at the height `c` over the axle, is u aside when the wheel has turned
-    by u - b: it then stands atan(u / c) - (u - b) from the middle of the space.
+    The rack's tip corner is at the distance `b` from the middle of its tooth and at the height `c` above the axis. After a
+    rotation of the wheel by u - b it is displaced by u, and then at the angle atan(u / c) - (u - b) from the middle of the
+    space.
     """
     c = 1 - 2 * ADDENDUM / z
     b = pi / 2 / z - (1 - c) * tan(_PRESSURE)
@@ -209,7 +214,7 @@ def _swept(z: float, r: float) -> float:
 
 
 def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
-    """From the middle of a space to the middle of the next; the flank runs from root to tip."""
+    """Return a whole tooth from the middle of a space to the middle of the next; the flank runs from root to tip."""
     root = flank[0][0]
     before = [(r, -angle) for r, angle in flank]
     return ((root, -pi / z), *before, *reversed(flank), (root, pi / z))
@@ -219,7 +224,7 @@ def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
 
 
 def find_bodies(stage: SceneContext) -> tuple[SceneBody, ...]:
-    """All links in the order declared."""
+    """Return the bodies of all links, in the order declared."""
     return tuple(_body(stage, link) for link in stage.train.declaration.links)
 
 
@@ -255,7 +260,7 @@ def _role(stage: SceneContext, link: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ToothProfiles:
-    """Teeth by wheel, names of forms by pair, and what could not be drawn."""
+    """Tooth profiles by wheel, names of tooth forms by pair, and notices on wheels that could not be drawn."""
 
     profiles: Mapping[str, ToothProfile]
     forms: Mapping[str, str]
@@ -263,7 +268,7 @@ class ToothProfiles:
 
 
 def find_profiles(stage: SceneContext) -> ToothProfiles:
-    """The tooth of every wheel, as it is cut where nothing is said of play; of others a"""
+    """Return the tooth profile of every wheel: as cut with the declared backlash, else of nominal shape."""
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
     return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
@@ -279,7 +284,7 @@ def _section(toothing: WheelTeeth) -> ToothProfile:
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Why wheels that lie in a plane are drawn otherwise than they could be cut, each reason once."""
+    """Yield the reasons why planar wheels are drawn differently from how they could be cut, each reason once."""
     told: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -308,8 +313,8 @@ def _likeness(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfi
     if place.cone:
         return bevel(z, place.cone)
     mates = [stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)]
-    rooms = [room(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
-    return (ring if wheel.internal else spur)(z, *([min(rooms)] if rooms else []))
+    heights = [tooth_height(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
+    return (ring if wheel.internal else spur)(z, *([min(heights)] if heights else []))
 
 
 def _mate_module(stage: SceneContext, name: str) -> float:
@@ -317,7 +322,7 @@ def _mate_module(stage: SceneContext, name: str) -> float:
 
 
 def _mates(stage: SceneContext, name: str) -> Iterator[str]:
-    """Wheels that a wheel meshes with."""
+    """Yield the wheels with which a wheel meshes."""
     for circuit in stage.train.circuits:
         if name in circuit.wheels:
             yield circuit.wheels[1 - circuit.wheels.index(name)]
@@ -326,9 +331,10 @@ def _mates(stage: SceneContext, name: str) -> Iterator[str]:
 def find_wheels(
     stage: SceneContext, profiles: Mapping[str, ToothProfile], turns: Mapping[str, float]
 ) -> tuple[tuple[SceneWheel, ...], tuple[ToothProfile, ...]]:
-    """All wheels in the order declared, and the tooth forms they share.
+    """Return all wheels in the order declared, and the tooth forms that they share.
 
-    profiles   tooth by wheel; turns, angle (rad) of its first tooth about the direction of its body
+    profiles   tooth by wheel
+    turns      angle (rad) of the first tooth of each wheel about the direction of its body
     """
     shared: dict[ToothProfile, int] = {}
     circuits: dict[str, list[str]] = {}
@@ -392,7 +398,7 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Angle (rad) of its teeth from its axis, of a right hand above 0; of a worm's thread too."""
+    """Return the helix angle (rad) of its teeth or its thread from the axis, positive for a right hand."""
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)
@@ -400,18 +406,18 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """-1 where the declared axis of a wheel points against the reference direction of its parallels."""
+    """Return -1 if the declared axis of a wheel points against the reference direction of its parallels, else 1."""
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
 def as_placed(stage: SceneContext, wheel: str) -> float:
-    """The turn of a wheel as the layout has it, about the reference direction."""
+    """Return the angle (rad) of a wheel's first tooth in the layout, about the reference direction."""
     place = stage.layout.wheels[wheel]
     return place.turn * flip(stage, place)
 
 
 def _doubt(wheel: Declared) -> str:
-    """What the evidence allows, in words; nothing for a sure count."""
+    """Return the tooth counts that the evidence allows, as text; empty for a certain count."""
     doubt = wheel.doubt
     if doubt is None:
         return ""
@@ -421,7 +427,8 @@ def _doubt(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Part of the power put in that is lost at each wheel's meshes, half of a pair's at either wheel."""
+    """Return the fraction of the input power that is lost at each wheel's meshes, half of a pair's loss at each wheel.
+    """
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

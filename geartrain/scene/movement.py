@@ -1,7 +1,7 @@
 """Motion of a scene: exact speeds, and the errors of teeth and pins as tables and steps that a page can carry.
 
-Angles differ from their exact means by transmission errors: tables of the functions of teeth and pins, and the steps of
-their sum.
+Angles differ from their exact mean values by transmission errors. These are given as tables of the errors of gear pairs
+and pins, and as the steps that compose them.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ErrorTable(Result):
-    """The periodic error of a gear pair or a pin in a slot, as polynomials between breaks.
+    """Periodic error of a gear pair or a pin in a slot, as piecewise polynomials.
 
     See Also
     --------
@@ -47,31 +47,32 @@ class ErrorTable(Result):
     )
 
     pair: str
-    """The pair, the first of those that share the law."""
+    """Name of the pair, the first of those that share the transmission function."""
     period: float
-    """Of the driver's angle [rad]."""
+    """Period in the driver's angle [rad]."""
     breaks: Floats
-    """Of the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
+    """Breakpoints in the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
-    """Of the driven side's error [rad], in powers of the driver's angle less the middle of its cell. Shape (n,
-    degree + 1)."""
+    """Coefficients of the driven side's error [rad], in powers of the driver's angle minus the middle of its cell. Shape (n,
+    degree + 1).
+    """
     uncertainty: float
-    """Greatest error of the table [rad]."""
+    """Maximum error of the table [rad]."""
 
     @property
     def packed_breaks(self) -> str:
-        """The breaks as a page carries them."""
+        """Breakpoints as base64 text."""
         return packed(self.breaks)
 
     @property
     def packed_coefficients(self) -> str:
-        """The coefficients as a page carries them, row by row."""
+        """Coefficients as base64 text, row by row."""
         return packed(self.coefficients)
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorSource:
-    """A pair whose law adds to the errors of a scene.
+    """A pair whose transmission error contributes to the errors of a scene.
 
     After t turns of the lead the driver's forward angle is
 
@@ -87,28 +88,28 @@ class ErrorSource:
     pair: str
     """Name of the gear pair or coupling."""
     transmission: int
-    """Index of its law in the movement."""
+    """Index of its error table in the movement."""
     driver: int
     """Index of the driving body."""
     carrier: int
     """Index of the body that carries the pair."""
     driver_sense: int
-    """1 or -1: how the error of the driver counts in the pair's own sense."""
+    """1 or -1: sign of the driver's error in the pair's own sense."""
     carrier_sense: int
-    """1 or -1: how the error of the carrier counts in the pair's own sense."""
+    """1 or -1: sign of the carrier's error in the pair's own sense."""
     cycles: str
-    """Periods of the law in a turn of the lead, exact."""
+    """Periods of the transmission error per turn of the driving link, exact."""
     start: float
-    """S at the start [rad]."""
+    """Initial value of S [rad]."""
     forward: int
     """1 or -1: the sense in which the driver turns."""
     sense: int
-    """1 or -1: the sign with which the law counts."""
+    """1 or -1: sign of the transmission error."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep:
-    """Errors of some bodies from those known: error[bodies] = from_known error[known] + from_sources delta[sources].
+    """Errors of some bodies from known ones: error[bodies] = from_known error[known] + from_sources delta[sources].
 
     See Also
     --------
@@ -116,22 +117,22 @@ class ErrorStep:
     """
 
     bodies: Sequence[int]
-    """Indices of the bodies found in this step."""
+    """Indices of the bodies whose errors this step gives."""
     known: Sequence[int]
-    """Indices of the bodies from steps before that it takes."""
+    """Indices of the bodies from earlier steps on which it depends."""
     from_known: Sequence[Sequence[float]]
-    """Coefficients of the known bodies, a row for each body found."""
+    """Coefficients of the known bodies, one row per body in `bodies`."""
     sources: Sequence[int]
     """Indices of sources."""
     from_sources: Sequence[Sequence[float]]
-    """Coefficients of the sources, a row for each body found."""
+    """Coefficients of the sources, one row per body in `bodies`."""
     coupled: bool
-    """True where sources depend on the bodies found: they are found together, by iteration."""
+    """True if sources depend on the bodies of this step; it is then solved by iteration."""
 
 
 @dataclass(frozen=True, slots=True)
 class Movement:
-    """How errors of angles follow from the turns of the lead: the steps in order, then constant offsets.
+    """Errors of angles as functions of the turns of the driving link: the steps in order, then constant offsets.
 
     See Also
     --------
@@ -139,17 +140,19 @@ class Movement:
     """
 
     kind: str
-    """Nothing ripples; teeth or pins ripple; they would, but cannot be followed; no speed is determined."""
+    """`exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: these errors cannot be followed.
+    `still`: no speed is determined.
+    """
     why: str = ""
-    """Why it is mean or still."""
+    """Reason for `mean` or `still`."""
     period: str | None = None
-    """Turns of the lead after which all stands as before, exact; None where nothing repeats."""
+    """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
-    """Laws, those of pairs alike once."""
+    """Error tables, each once for equal pairs."""
     sources: Sequence[ErrorSource] = ()
-    """The pairs that have them."""
+    """Pairs with transmission errors."""
     steps: Sequence[ErrorStep] = ()
-    """In the order in which they can be taken."""
+    """Steps in the order of their evaluation."""
     offsets: Mapping[str, float] = field(default_factory=dict)
     """Constant errors by the index of the body [rad]."""
 
@@ -159,7 +162,7 @@ _DEGREES = (7, 9, 11, 14)  # tried in turn: the smallest table wins
 
 
 def step_of(step: Composed) -> ErrorStep:
-    """A step of a composition in plain numbers."""
+    """Return a step of a composition as plain numbers."""
     return ErrorStep(
         bodies=step.links,
         known=step.known,
@@ -173,9 +176,10 @@ def step_of(step: Composed) -> ErrorStep:
 def laws_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
-    """Every source with its law; pairs alike share one.
+    """Return the error tables and the sources that refer to them; equal pairs share a table.
 
-    way   -1 where the lead turns backwards: a composition counts in the lead's sense, a scene about declared axes
+    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, a scene
+          about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     numbers: dict[tuple[float, bytes, bytes], int] = {}
@@ -204,7 +208,7 @@ def laws_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """The error of a law as polynomials within `TOLERANCE` of a driven pitch, in the fewest numbers."""
+    """Return the transmission error as polynomials within `TOLERANCE` of a driven pitch, in the smallest table."""
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
@@ -235,23 +239,23 @@ _TRIED = 257  # positions at which pairs that depend on each other are tried
 
 @dataclass(frozen=True, slots=True)
 class InitialPosition:
-    """How a pair that ripples stands at the beginning."""
+    """Initial position of a pair with a transmission error."""
 
     driver: str
-    """Its link; `forward` 1, or -1 where it turns against its body's direction."""
+    """Driving link. `forward` is 1, or -1 if it turns against its body's direction."""
     forward: int
     S: float
-    """Its forward angle, and the error of the driven side there (rad)."""
+    """Forward angle of the driver (rad)."""
     error: float
-    """Its forward angle, and the error of the driven side there (rad)."""
+    """Error of the driven side at S (rad)."""
     transmission: ToothTransmission
-    """Of the pair."""
+    """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """The least error (rad) with which a driven tooth that moves by this law is never cut by its driver's, where
-        these stand `shift` (rad) before it.
+        """Return the minimum error (rad) at which a driver that is `shift` (rad) behind its phase does not cut into the driven
+        tooth.
 
-        The driven side then keeps e(S) + c, its mate asks for e(S + shift), and c is the most by which that is more.
+        The driven side follows e(S) + c and its mate requires e(S + shift), so c is the maximum of their difference.
         """
         import numpy as np
 
@@ -261,21 +265,22 @@ class InitialPosition:
 
 @dataclass(frozen=True, slots=True)
 class MovementStart:
-    """The movement, and the pose at its beginning."""
+    """The movement, and the pose at its start."""
 
     movement: Movement
     rest: Mapping[str, float]
-    """Angle A of each link about its body's direction after no turn (rad)."""
+    """Initial angle A of each link about its body's direction (rad)."""
     driving: Mapping[str, InitialPosition] = field(default_factory=dict)
-    """By pair or coupling that ripples."""
+    """Initial positions, by pair or coupling with a transmission error."""
     motion: Motion | None = None
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
-    """The movement against the declared sense of the lead, on the other flanks; None where it is the same."""
+    """Movement against the declared sense of the driving link, on the other flanks; None if it is the same."""
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """The movement of a train in its state; never an error: what cannot be followed moves in the mean, and says why."""
+    """Return the movement of a train in its state. If errors cannot be followed it is the mean motion, with the reason.
+    """
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _started(stage))
@@ -318,7 +323,7 @@ def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
 
 
 def _try(composition: ErrorComposition, turns: float) -> None:
-    """Raises `GearTrainError` where pairs that depend on each other have no common position."""
+    """Raise `GearTrainError` if pairs that depend on each other have no common position."""
     import numpy as np
 
     if any(step.coupled for step in composition.steps):
@@ -326,7 +331,7 @@ def _try(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """How errors follow where the lead turns back, if otherwise than ahead; and why they cannot be followed."""
+    """Return the movement in reverse if it differs from that ahead, and notices on why it cannot be followed."""
     try:
         composition = motion.back
         _try(composition, -float(motion.period or 1))
@@ -338,7 +343,8 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _written(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Exact where nothing ripples: teeth that keep their ratio may still have play, and then their offsets stand."""
+    """Return the movement of a composition, `exact` if ratios are constant. Backlash may still give constant offsets.
+    """
     transmissions, sources = laws_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
@@ -362,7 +368,7 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Turns of the lead after which all bodies and laws stand as before; None where nothing moves."""
+    """Return the turns of the driving link after which all angles and errors repeat; None if nothing moves."""
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:

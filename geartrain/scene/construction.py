@@ -176,7 +176,9 @@ class _Mounting:
         self._note_phase(circuit, at)
 
     def _shift(self, circuit: Circuit, stands: float) -> float:
-        """Return the pitches by which a driver's tooth is behind the phase of its transmission function, modulo 1."""
+        """Return the pitches by which a driver's tooth is ahead of the phase of its transmission function, from -1/2 to
+        1/2.
+        """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
@@ -188,10 +190,10 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _ahead(self, circuit: Circuit, stands: float | None = None) -> float:
-        """Return how far (pitches, in the sense of rotation) the driven wheel's tooth is behind the driver's.
+        """Return how far (pitches, in the sense of rotation) the driven wheel's tooth is ahead of the driver's.
 
-        stands   position of the driver's tooth; off the phase of its transmission function, the driven tooth is advanced until
-                 the driver does not interfere with it at any position
+        stands   position of the driver's tooth (pitches); off the phase of its transmission function, the driven tooth is
+                 advanced until the driver does not interfere with it at any position
         """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:

@@ -1,11 +1,11 @@
-"""Dials, with the place and direction of their scales; pointers, with what they show and on which pairs they depend.
+"""Dials, with the place and direction of their scales; pointers, with their readings and the pairs on which they depend.
 
-Dependence of an output: the pairs whose error would move it, exactly. An error in one pair is a right-hand side in its
-row. Its effect on an output is the weight of that row in the one combination of rows that gives the output, so that one
-elimination of the transposed system answers for all outputs. The mean speed of a follower does not depend on the speed
-of its pin, but its position does: the pairs that turn the pin count too.
+An output depends on the pairs whose errors would change it; this is computed exactly. An error in one pair is a
+right-hand side in its row. Its effect on an output is the weight of that row in the only combination of rows that gives
+the output, so that one elimination of the transposed system answers for all outputs. The mean speed of a follower does
+not depend on the speed of its pin, but its position does: the pairs that turn the pin are included too.
 
-Dates of the driving link's turns, and the mean motion that pointers should show.
+The module also gives dates of the driving link's turns, and the mean motions that pointers should show.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ _BUDGET = 4_000_000  # operations
 
 
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
-    """Names of pairs and couplings by output, in order from the input; nothing for a train that does not move.
+    """Return names of pairs and couplings by output, in order from the input; empty for a train that does not move.
 
-    Of meshes in parallel, such as several planets between two wheels, all count.
+    All meshes in parallel, such as several planets between two wheels, are included.
     """
     if not stage.answer.verdict:
         return {}
@@ -66,7 +66,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Also what turns the pins of the followers that are used."""
+    """Return the used pairs with those that turn the pins of used followers."""
     found, left = set(used), set(swings)
     while met := found & left:
         left -= met
@@ -75,19 +75,19 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
 
 
 def _ends(stage: SceneContext, name: str) -> dict[str, int]:
-    """An output as a sum of declared speeds."""
+    """Return an output as a linear combination of declared speeds."""
     return _seen(stage, *stage.outputs[name].links(name, stage.train.declaration.frame))
 
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
-    """A link seen from another, as a sum of declared speeds."""
+    """Return the speed of a link relative to another as a linear combination of declared speeds."""
     found = {of: 1}
     found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.kinematics.signs)
     return found
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """For each output the labels of the rows that have a weight in it; redundant rows have none."""
+    """Return for each output the labels of the rows that have a weight in it; redundant rows have none."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -106,7 +106,7 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
 
 
 def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterable[str]) -> tuple[str, ...]:
-    """Pairs in the order in which one meets them, walking from the inputs."""
+    """Return pairs in the order of a breadth-first search from the inputs."""
     left = dict.fromkeys(name for name in circuits if name in set(used))
     for loop in stage.train.mobility.loops:
         if any(pair in left for pair in loop.pairs):
@@ -134,7 +134,7 @@ def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterabl
 
 
 Key = tuple[str, str, str]
-"""A dial, the link it stands on, the axis of the pointer that is read on it."""
+"""Key of a dial: its name, the link on which it is mounted, the axis of the pointer that is read on it."""
 
 _APART = 0.96  # of the distance of two neighbours: what their radii may fill together
 _SPIRAL = 1.8  # radius of a spiral over that of a circle beside it
@@ -147,7 +147,7 @@ _GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and fr
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
-    """Every declared dial on which an output is read, once for each body and axis."""
+    """Return every declared dial on which an output is read, once for each body and axis."""
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
     width = _width(stage)
@@ -177,7 +177,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
 
 @lru_cache(maxsize=64)
 def _told(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """What is engraved, from point to point, in whole parts of the radius."""
+    """Return the engraving as differences from point to point, in integer fractions of the radius."""
     return tuple((each.kind, round(each.width, 4), tuple(map(_steps, each.lines))) for each in engrave(scale))
 
 
@@ -192,14 +192,16 @@ def _steps(line: Stroke) -> tuple[int, ...]:
 
 
 def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
-    """A ball on its own axis, until the pointer that bears it is known."""
+    """Return the dial as a ball on its own axis, until the pointer that carries it is known."""
     place = stage.layout.axes.get(key[2])
     foot = (0.0, 0.0, 0.0) if place is None else place.point
     return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """The dials, balls put in the middle of the pointers of the links that bear them, if these have pointers."""
+    """Return the dials with balls moved to the middle of the pointers of the links that carry them, if these have
+    pointers.
+    """
     return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
 
 
@@ -213,7 +215,7 @@ def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Po
 
 
 def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """The dials, those that stand about several axes told apart by what is read on them."""
+    """Return the dials with titles; those that exist about several axes are distinguished by their outputs."""
     often = Counter(face.id for face in dials)
     read = [", ".join(each.output for each in pointers if each.dial == at) for at in range(len(dials))]
     return tuple(
@@ -223,7 +225,7 @@ def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
 
 
 def dial_key(stage: SceneContext, name: str) -> Key | None:
-    """The dial of an output; None where it names none."""
+    """Return the key of the dial of an output; None if it names none."""
     output = stage.outputs[name]
     if output.dial is None:
         return None
@@ -232,7 +234,7 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
 
 
 def facing(stage: SceneContext, name: str) -> Vector:
-    """Unit vector towards one who reads an output: along its axis, on the side its dial looks to."""
+    """Return the unit vector towards the reader of an output, along its axis on the side that its dial faces."""
     declared = stage.train.declaration
     output = stage.outputs[name]
     along = stage.along(stage.train.kinematics.tree.axis(output.of or name))
@@ -245,7 +247,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
 
 
 def _width(stage: SceneContext) -> float:
-    """How far the train reaches across, mm."""
+    """Return the extent of the train perpendicular to the view (mm)."""
     places = stage.layout.wheels.values()
     if not places:
         return 1.0
@@ -256,7 +258,7 @@ def _width(stage: SceneContext) -> float:
 
 
 def _side(stage: SceneContext, normal: Vector) -> float:
-    """How wide the side on which a dial stands is, mm; without bound for those that look to the reader or away."""
+    """Return the width of the side on which a dial is mounted (mm); infinite for dials that face the reader or away."""
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
@@ -264,7 +266,7 @@ def _side(stage: SceneContext, normal: Vector) -> float:
 
 
 def _reach(stage: SceneContext, way: Vector) -> float:
-    """How far all wheels reach along a direction, mm."""
+    """Return the extent of all wheels along a direction (mm)."""
     ends = []
     for wheel in stage.layout.wheels.values():
         along = dot(stage.layout.axes[wheel.axis].direction, way)
@@ -275,7 +277,7 @@ def _reach(stage: SceneContext, way: Vector) -> float:
 
 
 def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
-    """The point of an axis that lies beyond all wheels on one side."""
+    """Return the point of an axis beyond all wheels on one side."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point
     wheels = stage.layout.wheels.values()
@@ -284,14 +286,14 @@ def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vecto
 
 
 def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, float]:
-    """Between which places along a direction the middles of a wheel's faces lie, mm."""
+    """Return the lower and upper position of the faces' centres of a wheel along a direction (mm)."""
     along = dot(stage.layout.axes[wheel.axis].direction, way)
     low, high = sorted(dot(wheel.centre, way) + at * along for at in wheel.span)
     return low, high
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """The dials made small enough to cover none of their neighbours; those about one axis stand in each other."""
+    """Return the dials reduced so that they do not overlap; dials about one axis are nested."""
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -317,7 +319,9 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """A pointer for every output of the state, in the order declared; hands of one dial stand over each other."""
+    """Return a pointer for every output of the state, in the order declared; hands of one dial are at increasing
+    heights.
+    """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found = []
     for name in stage.outputs:
@@ -377,7 +381,7 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext) -> SceneEpoch | None:
-    """The declared date as turns of the lead; None where none is declared, or nothing is driven."""
+    """Return the declared date in turns of the driving link; None if none is declared, or nothing is driven."""
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
     if epoch is None or unit is None or stage.driving_link is None:
@@ -393,9 +397,9 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """What an output should show for each turn of the lead.
+    """Return the speeds that an output should have relative to the driving link.
 
-    speed   its own, in the train's unit; a target without a sense is met by either, and takes that of the output
+    speed   speed of the output in the train's unit; a target without a sense takes that of the output
     """
     if stage.driving_link is None or speed is None:
         return ()

@@ -252,8 +252,8 @@ class InitialPosition:
     """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error (rad) at which a driver that is `shift` (rad) behind its phase does not cut into the driven
-        tooth.
+        """Return the minimum error (rad) of the driven side at which a driver whose teeth are `shift` (rad) ahead of their phase
+        does not cut into driven teeth.
 
         The driven side follows e(S) + c and its mate requires e(S + shift), so c is the maximum of their difference.
         """

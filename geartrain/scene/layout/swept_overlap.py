@@ -1,7 +1,8 @@
-"""Which wheels of parallel axes stand in whose way in plan, at any turns of the carriers that move them.
+"""Wheels of parallel axes that overlap in plan at any angles of the carriers that move them.
 
-Seen from the nearest link that bears both, each of two axes stays in a ring about the axis of the carrier that hangs
-there. All of both rings is counted, as if carriers never kept step: that is an interval of distances for each two axes.
+Relative to the nearest link that carries both, each of two axes stays in an annulus about the axis of a carrier. The
+whole of both annuli is used, as if the angles of carriers were independent, which gives an interval of distances for
+every two axes.
 """
 
 from __future__ import annotations
@@ -30,15 +31,16 @@ class Disc(Protocol):
 
     @property
     def inner(self) -> float:
-        """Of a ring, the radius within which all is free (mm); 0 of other wheels."""
+        """Radius of the free space inside a ring (mm); 0 for other wheels."""
 
     @property
     def outer(self) -> float:
-        """The radius that it needs (mm)."""
+        """Outer radius, including clearance (mm)."""
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
-    """True if two wheels at one height run into each other, their axes being between `near` and `far` (mm) apart."""
+    """Return whether two wheels at one height collide if the distance of their axes ranges from `near` to `far` (mm).
+    """
     for ring, inside in ((disc, other), (other, disc)):
         if ring.inner and far + inside.outer <= ring.inner * (1 + _SLACK):
             return False
@@ -47,18 +49,18 @@ def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
 
 @dataclass(frozen=True)
 class SweptDistances:
-    """Least and greatest distance (mm) of each two of n parallel axes, (n, n), while carriers turn."""
+    """Minimum and maximum distance (mm) of every two of n parallel axes, shape (n, n), while carriers turn."""
 
     near: Floats
     far: Floats
 
     def overlap(self, disc: Disc, axis: int, other: Disc, other_axis: int) -> bool:
-        """True if wheels of two axes, at one height, run into each other."""
+        """Return whether wheels of two axes, at one height, collide."""
         return overlap(disc, other, float(self.near[axis, other_axis]), float(self.far[axis, other_axis]))
 
 
 class _Swept(NamedTuple):
-    """An axis as a link sees it that bears it: it keeps between `low` and `high` (mm) from the axis `centre`."""
+    """Position of an axis relative to a link that carries it: from `low` to `high` (mm) from the axis `centre`."""
 
     at: int
     centre: str
@@ -67,9 +69,9 @@ class _Swept(NamedTuple):
 
 
 def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> SweptDistances:
-    """Distances of parallel axes at any turns of their carriers.
+    """Return distances of parallel axes at any angles of their carriers.
 
-    Axes borne by a link that turns about another direction are far from all that it does not bear.
+    Axes carried by a link that turns about another direction are infinitely far from all that it does not carry.
     """
     seen: dict[tuple[str, ...], list[_Swept]] = {}  # by the link that sees, with all that bear it
     for at, line in enumerate(lines):
@@ -112,33 +114,34 @@ class WheelBlock:
 
     wheel: str
     axis: int
-    """Index of its axis; link, that of its arbor."""
+    """Index of its axis. `link` is that of its arbor."""
     link: str
     stack: int
-    """Number of the wheels that keep their heights to each other: those that mesh."""
+    """Number of its stack, a set of wheels with fixed relative heights because they mesh."""
     offset: float
-    """Its height in its stack; low and high, how far it reaches along the direction from there."""
+    """Height in its stack. `low` and `high` are the extents below and above it."""
     low: float
     high: float
     inner: float
-    """Of a ring, the radius within which all is free."""
+    """Radius of the free space inside a ring; 0 for other wheels."""
     outer: float
-    """The radius that it needs."""
+    """Outer radius, including clearance."""
     across: bool = False
-    """It stands across, and meshes with a wheel of this stack."""
+    """True for a wheel of an axis that crosses this group, which meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
-    """Of a wheel across that keeps its place: the ends of its trace in plan, on both sides of which `outer` is
-    taken; None of others."""
+    """Ends of the trace in plan of a crossing wheel that stays in place; its half width is `outer`. None for other
+    wheels.
+    """
 
 
 @dataclass(frozen=True)
 class PlanOverlap:
-    """What stands in whose way, in plan."""
+    """Overlaps of wheels and arbors in plan."""
 
     clash: Flags
-    """(blocks, blocks): two that must not share a height."""
+    """Shape (blocks, blocks): pairs that must not be at the same height."""
     pierce: Flags
-    """(links and pins, blocks): wheels that an arbor, or a pin, would go through at their height."""
+    """Shape (links and pins, blocks): wheels that an arbor, or a pin, would pass through at their height."""
 
 
 def find_plan_overlap(
@@ -150,9 +153,9 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> PlanOverlap:
-    """Which blocks overlap in plan, and through which an arbor at its place would go, or a pin from wheel to wheel.
+    """Return the blocks that overlap in plan, and those that an arbor, or a pin from wheel to wheel, would pass through.
 
-    plates   arbor -> the wheel that bears its axis, and has a hole for it
+    plates   arbor -> the wheel that carries its axis, and has a hole for it
     """
     if not blocks:
         return PlanOverlap(np.zeros((0, 0), bool), np.zeros((len(links), 0), bool))
@@ -184,7 +187,7 @@ def find_plan_overlap(
 
 
 def _in_the_way(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
-    """Blocks of other links that a pin may meet between its wheel and that of its slot."""
+    """Return blocks of other links that a pin may meet between its wheel and that of its slot."""
     pin, slot = (blocks[at] for at in ends)
     outer = np.array([block.outer for block in blocks])
     own = np.array([block.link in (pin.link, slot.link) for block in blocks])
@@ -192,7 +195,7 @@ def _in_the_way(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]
 
 
 def segment_distance(point: Point, start: Point, end: Point) -> float:
-    """Distance of a point from a segment."""
+    """Return the distance of a point from a segment."""
     u, v = end[0] - start[0], end[1] - start[1]
     x, y = point[0] - start[0], point[1] - start[1]
     square = u * u + v * v

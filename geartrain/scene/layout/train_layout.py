@@ -1,9 +1,10 @@
-"""From a train to its layout: every axis and every wheel in space, in the pose in which all angles are zero.
+"""Layout of a train: every axis and every wheel in space, in the pose in which all angles are zero.
 
-Wheels are turned on their arbors so that teeth of one meet spaces of the other, breadth first over the gear pairs: the
-first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches by which a tooth is past
-the pitch point, positive as the wheel turns, teeth and spaces meet where s_1 + s_2 = 1/2 (mod 1) if positive angles
-turn the pitch point against each other, and s_1 - s_2 = 1/2 if not. What a layout could not meet is reported in words.
+Wheels are rotated on their arbors so that teeth of one mesh with tooth spaces of the other, in a breadth-first search
+over the gear pairs: the first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches
+by which a tooth is past the pitch point, positive as the wheel turns, teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1)
+when positive angles move the pitch point in opposite senses, and s_1 - s_2 = 1/2 otherwise. Conditions that a layout
+could not satisfy are reported as notices.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ _SHOWN = 6
 
 
 def pitch_gaps(found: Arrangement) -> dict[str, float]:
-    """Pairs whose pitch circles do not touch, and how far (mm) they are apart, negative into each other."""
+    """Return pairs whose pitch circles do not touch, with their gap (mm), negative for an overlap."""
     sizes = found.geometry.sizes
     gaps = {}
     for contact in found.geometry.declared.contacts:
@@ -69,10 +70,10 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
 def notices(
     train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
 ) -> Iterator[Problem]:
-    """All that a reader of a picture must know: what cannot be built first.
+    """Yield all notices on a layout, those that prevent a build first.
 
-    gaps     of pairs whose pitch circles do not touch (mm)
-    misses   of pairs whose teeth do not meet (pitches)
+    gaps     gaps of pairs whose pitch circles do not touch (mm)
+    misses   phase errors of pairs whose teeth do not mesh (pitches)
     """
     yield from (each.problem for each in train.build_findings)
     declared = found.geometry.declared
@@ -106,7 +107,7 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
 
 
 def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
-    """Wheels that are not drawn as they are declared."""
+    """Yield notices on wheels that are not drawn as they are declared."""
     for stray in declared.strays:
         yield Problem(
             f"wheel '{stray.wheel}' is drawn on axis '{declared.axis[stray.wheel]}' only",
@@ -117,7 +118,7 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
 
 
 def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
-    """Wheels that share a height and a place, and arbors that go through wheels."""
+    """Yield notices on wheels that collide, and on arbors that pass through wheels."""
     mates = {frozenset(contact.wheels) for contact in found.geometry.declared.contacts}
     height = {block.wheel: dot(found.centres[block.wheel], stack.up) for block in stack.upright}
     collide = [pair for pair in stack.collisions(height) if frozenset(pair) not in mates]
@@ -149,44 +150,46 @@ _TEETH_MEET = 1e-6  # of a pitch: nearer, teeth meet
 
 @dataclass(frozen=True, slots=True)
 class PitchSide:
-    """The pitch point of a pair as one of its wheels sees it."""
+    """Pitch point of a pair from the side of one of its wheels."""
 
     wheel: str
     teeth: int
     angle: float
-    """Of the pitch point about the wheel's axis, from the axis' reference (rad)."""
+    """Angle of the pitch point about the wheel's axis, from the reference of the axis (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
 class PitchPoint:
-    """The pitch point of a pair."""
+    """Pitch point of a pair."""
 
     name: str
     first: PitchSide
     second: PitchSide
     sense: int
-    """1 where positive angles about both axes turn the pitch point the same way, -1 where against each other."""
+    """1 if positive angles about both axes move the pitch point the same way, -1 if opposite ways."""
 
     def seen_from(self, wheel: str) -> tuple[PitchSide, PitchSide]:
-        """A wheel of the pair, and its mate."""
+        """Return the side of a wheel of the pair, and that of its mate."""
         return (self.first, self.second) if self.first.wheel == wheel else (self.second, self.first)
 
 
 @dataclass(frozen=True, slots=True)
 class MeshAlignment:
-    """Angles of the first tooth of each wheel (rad, from 0 to a pitch); misses (pitches) of pairs that close a loop."""
+    """Angle of the first tooth of each wheel (rad, from 0 to a pitch), and phase errors (pitches) of pairs that close a
+    loop.
+    """
 
     turns: Mapping[str, float]
     misses: Mapping[str, float]
 
 
 def reference(direction: Vector) -> Vector:
-    """Unit vector across an axis from which angles are counted: x where the axis is z."""
+    """Return the unit vector across an axis from which angles are measured: x if the axis is z."""
     return frame(direction)[0]
 
 
 def align_meshes(found: Arrangement) -> MeshAlignment:
-    """Angles at which the wheels of a train mesh, as they stand."""
+    """Return the angles at which the wheels of a train mesh, as placed."""
     return _aligned([_pitch_point(found, contact) for contact in found.geometry.declared.contacts])
 
 
@@ -203,13 +206,15 @@ def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
 
 
 def _seated(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
-    """Where wheels of axes that are not parallel touch, as each wheel sees it."""
+    """Return directions to the pitch point for axes that are not parallel, one for each wheel."""
     first, second = (found.geometry.seats[contact.name, wheel] for wheel in contact.wheels)
     return first.out, second.out
 
 
 def _side_by_side(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
-    """Towards each other, but away from the axis of a wheel that runs in a ring."""
+    """Return directions to the pitch point for parallel axes: towards each other, or for a pair with a ring both
+    outwards.
+    """
     declared = found.geometry.declared
     direction = declared.lines[contact.axes[0]].direction
     apart = across(minus(found.points[contact.axes[1]], found.points[contact.axes[0]]), direction)
@@ -243,12 +248,12 @@ def _aligned(points: Iterable[PitchPoint]) -> MeshAlignment:
 
 
 def _past(side: PitchSide, turn: float) -> float:
-    """Pitches by which the first tooth is past the pitch point."""
+    """Return the pitches by which the first tooth is past the pitch point."""
     return (turn - side.angle) * side.teeth / (2 * pi)
 
 
 def _turn_of_mate(own: PitchSide, mate: PitchSide, sense: int, turn: float) -> float:
-    """The angle of the mate of a wheel whose angle is known."""
+    """Return the angle (rad) of the mate of a wheel whose angle is known."""
     pitch = 2 * pi / mate.teeth
     # s_2 = 1/2 - s_1 where against each other, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
     return (mate.angle + (0.5 + sense * _past(own, turn)) * pitch) % pitch
@@ -277,15 +282,15 @@ class AxisPlace:
     """
 
     label: str
-    """Its name in the declaration."""
+    """Label in the declaration."""
     point: Vector
-    """A point of it [mm]."""
+    """Point of the axis [mm]."""
     direction: Vector
-    """Unit vector as declared: speeds of its links are positive about it."""
+    """Declared unit vector, about which speeds of its links are positive."""
     how: How
-    """Given in the declaration, found from wheels that mesh, or free: put where there is room."""
+    """`given` in the declaration, `found` from wheels that mesh, or `free`: placed without overlap."""
     carrier: str
-    """The link that bears it, the frame or a carrier."""
+    """Link that carries it: the frame or a carrier."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -298,35 +303,36 @@ class WheelPlace:
     """
 
     wheel: str
-    """Its name."""
+    """Name of the wheel."""
     link: str
-    """The link that carries it."""
+    """Link that carries it."""
     axis: str
-    """The axis about which it turns."""
+    """Axis about which it turns."""
     centre: Vector
-    """Middle of its pitch circle, on its axis [mm]."""
+    """Centre of its pitch circle, on its axis [mm]."""
     radius: float
-    """Of its pitch circle [mm]; at the wide end of a bevel wheel."""
+    """Pitch radius [mm], of a bevel wheel at its wide end."""
     module: float
-    """Pitch diameter over tooth count [mm]."""
+    """Pitch diameter divided by the tooth count [mm]."""
     thickness: float
-    """Of its rim along the axis [mm]."""
+    """Thickness of its rim along the axis [mm]."""
     given: bool = False
     """True if the declaration gives the module of this wheel, or of one that it meshes with."""
     cone: float = 0.0
-    """Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel."""
+    """Half angle of its pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
-    """Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 of a cylinder."""
+    """Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
-    """Number of the level it stands in, 0 nearest the origin, growing along the axis; None off the main axes."""
+    """Number of its level, from 0 for the level nearest the origin, increasing along the axis; None off the main axes.
+    """
     turn: float = 0.0
-    """Angle of its first tooth about its axis' direction from `reference`, so that teeth mesh [rad]."""
+    """Angle of its first tooth about the direction of its axis from `reference`, at which teeth mesh [rad]."""
     reference: Vector = (1.0, 0.0, 0.0)
-    """Unit vector across the axis from which `turn` is counted."""
+    """Unit vector across the axis from which `turn` is measured."""
 
     @property
     def span(self) -> tuple[float, float]:
-        """Between which places of its axis its body stands, from its centre along the axis' direction [mm]."""
+        """Lower and upper end of its body along the direction of the axis, from its centre [mm]."""
         return span(self.facing, *bare_reach(self.cone, self.radius, self.thickness, self.module))
 
 
@@ -340,29 +346,30 @@ class Layout:
     """
 
     axes: Mapping[str, AxisPlace]
-    """By label."""
+    """Axes by label."""
     wheels: Mapping[str, WheelPlace]
-    """By name."""
+    """Wheels by name."""
     notices: tuple[Problem, ...] = ()
-    """What could not be placed as declared, or collides: what, why and what to do."""
+    """Wheels and axes that could not be placed as declared, or that collide, with reasons and remedies."""
     front: int = 1
-    """The side of z from which the train is looked at: 1 or -1."""
+    """Side of z from which the train is viewed: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
-    """Gear pairs whose wheels do not touch as placed: how far their pitch circles are apart [mm], negative into each
-    other."""
+    """Gap of the pitch circles [mm] of gear pairs whose wheels do not touch as placed, negative for an overlap."""
 
     def axis_distance(self, first: str, second: str) -> float | None:
-        """How far apart the axes of two wheels are, where they are parallel.
+        """Return the distance of the axes of two wheels, if they are parallel.
 
         Parameters
         ----------
-        first, second : str
-            Names of wheels.
+        first : str
+            Name of a wheel.
+        second : str
+            Name of another wheel.
 
         Returns
         -------
         float or None
-            In mm; None where the axes are not parallel.
+            Distance [mm]; None if the axes are not parallel.
         """
         one, other = self.wheels[first], self.wheels[second]
         directions = [self.axes[each.axis].direction if each.axis in self.axes else _Z for each in (one, other)]
@@ -372,31 +379,31 @@ class Layout:
 
 
 def lay_out(train: GearTrain) -> Layout:
-    """Places of all axes and wheels of a train by beam search and local search; the same for the same declaration.
+    """Return places of all axes and wheels of a train, by beam search and local search; the result is deterministic.
 
-    Declared positions, modules and offsets of pins always hold. What is left open is found so that pitch circles
-    touch, wheels of one level keep apart and the plan is compact. Every train that loads has a layout. The time grows
-    with the square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
+    Declared positions, modules and offsets of pins are always kept. All other sizes are chosen so that pitch circles touch,
+    wheels of one level do not overlap and the plan is compact. Every train that loads has a layout. The time grows with the
+    square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
 
     Parameters
     ----------
     train : GearTrain
-        Loaded or declared; it need not be able to turn.
+        Loaded or declared train; it need not be able to turn.
 
     Returns
     -------
     Layout
-        Lengths in mm, in the pose in which all angles are zero; its `notices` tell what could not be met.
+        Lengths in mm, in the pose in which all angles are zero. Its `notices` report conditions that are not satisfied.
 
     Notes
     -----
-    In this order: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), of each group
-    the plan (`plan_search`) and the heights of its wheels (`wheel_stacks`), then the angles at which
-    teeth mesh (`mesh_alignment`).
+    The steps are: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), for each group the
+    plan (`plan_search`) and the heights of its wheels (`wheel_stacks`), then the angles at which teeth mesh
+    (`align_meshes`).
 
     Examples
     --------
-    A sun of 24, a planet of 18 and a ring of 60 teeth, where nothing gives a size, have a module of 1 mm.
+    A sun of 24, a planet of 18 and a ring of 60 teeth have a module of 1 mm if no size is declared.
 
     >>> import geartrain
     >>> layout = lay_out(geartrain.load("planetary-24-18-60"))
@@ -456,14 +463,14 @@ def _wheel_places(found: Arrangement, turns: Mapping[str, float]) -> dict[str, W
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """The seat of each wheel that has a cone; a wheel that also meshes about a parallel axis has none."""
+    """Return the seat of each wheel that has a cone; a wheel that also meshes about a parallel axis has none."""
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Numbers of levels of the wheels on the main axes, from below; a broad wheel counts where it begins."""
+    """Return level numbers of the wheels on the main axes, from the lowest; a broad wheel counts at its lower end."""
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

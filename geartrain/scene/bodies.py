@@ -108,8 +108,8 @@ def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of a ring, the tooth space of an external wheel, at most `height` (modules) within the pitch
-    circle.
+    """Return a nominal tooth of a ring, the tooth space of an external wheel, at most `height` (modules) within the
+    pitch circle.
     """
     most = 1 + 2 * DEDENDUM / z
     # the space of the ring is the tooth of a wheel, higher and a little wider
@@ -203,9 +203,9 @@ def _half(z: float, r: float) -> float:
 def _swept(z: float, r: float) -> float:
     """Return half the angle (rad) of the tooth space that the tips of a rack cut out at relative radius r.
 
-    The rack's tip corner is at the distance `b` from the middle of its tooth and at the height `c` above the axis. After a
-    rotation of the wheel by u - b it is displaced by u, and then at the angle atan(u / c) - (u - b) from the middle of the
-    space.
+    The rack's tip corner is at the distance `b` from the middle of its tooth and at the height `c` above the axis.
+    After a rotation of the wheel by u - b it is displaced by u, and then at the angle atan(u / c) - (u - b) from the
+    middle of the space.
     """
     c = 1 - 2 * ADDENDUM / z
     b = pi / 2 / z - (1 - c) * tan(_PRESSURE)

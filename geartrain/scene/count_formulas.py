@@ -14,7 +14,7 @@ class CountFormula:
 
     See Also
     --------
-    SceneFormulas : holds them
+    SceneFormulas : contains them.
     """
 
     wheels: Sequence[int]
@@ -33,7 +33,7 @@ class CountCondition:
 
     See Also
     --------
-    SceneFormulas : holds them
+    SceneFormulas : contains them.
     """
 
     formula: CountFormula
@@ -52,7 +52,7 @@ class SceneFormulas:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.formulas`.
+    make_scene : returns it in `Scene.formulas`.
     """
 
     wheels: Sequence[str]

@@ -1,4 +1,5 @@
-"""Dials, with the place and direction of their scales; pointers, with their readings and the pairs on which they depend.
+"""Dials, with the place and direction of their scales; pointers, with their readings and the pairs on which they
+depend.
 
 An output depends on the pairs whose errors would change it; this is computed exactly. An error in one pair is a
 right-hand side in its row. Its effect on an output is the weight of that row in the only combination of rows that gives

@@ -18,11 +18,12 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 @dataclass(frozen=True, slots=True)
 class ScenePart:
-    """A structural part as manufactured, turned or flat. Its own z axis passes through `place`, at mid-height if it is flat.
+    """A structural part as manufactured, turned or flat. Its own z axis passes through `place`, at mid-height if it is
+    flat.
 
     See Also
     --------
-    build_scene : gives it, in `Scene.parts`.
+    build_scene : returns it in `Scene.parts`.
     """
 
     body: int
@@ -30,8 +31,8 @@ class ScenePart:
     name: str
     """Name in the list of parts."""
     kind: str
-    """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate. A plate
-    of the frame is `frame`, one that turns with a carrier or a ring is `carrier`, one of dials is `dial`.
+    """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate. A
+    plate of the frame is `frame`, one that turns with a carrier or a ring is `carrier`, one of dials is `dial`.
     """
     place: Vector
     """Position of its origin in the zero pose [mm]."""
@@ -53,12 +54,12 @@ class SceneHanger:
 
     See Also
     --------
-    build_scene : gives it, in `Scene.hangers`.
+    build_scene : returns it in `Scene.hangers`.
     """
 
     kind: Literal["pendulum", "line", "weight"]
-    """Kind of part. A pendulum swings in step with its escape wheel; a weight falls and its line lengthens as the barrel
-    turns.
+    """Kind of part. A pendulum swings in step with its escape wheel; a weight falls and its line lengthens as the
+    barrel turns.
     """
     body: int
     """Index of the body whose angle moves it."""
@@ -91,7 +92,7 @@ class SceneBody:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.bodies`.
+    make_scene : returns it in `Scene.bodies`.
     """
 
     id: str
@@ -126,20 +127,22 @@ class SceneBody:
 
 @dataclass(frozen=True, slots=True)
 class ToothProfile:
-    """One tooth of a wheel, from the middle of a tooth space to the middle of the next; the tooth's middle is at angle 0.
+    """One tooth of a wheel, from the middle of a tooth space to the middle of the next; the tooth's middle is at angle
+    0.
 
     See Also
     --------
-    make_scene : gives it, in `Scene.profiles`.
+    make_scene : returns it in `Scene.profiles`.
     """
 
     form: str
-    """Tooth form: triangular, involute, cycloidal, ...; `standard` if none is declared, `likeness` for nominal teeth of a
-    wheel without a flat outline.
+    """Tooth form: triangular, involute, cycloidal, ...; `standard` if none is declared, `likeness` for nominal teeth of
+    a wheel without a flat outline.
     """
     points: Sequence[tuple[float, float]]
-    """Radius (relative to the pitch radius) and angle [rad] of each point, by increasing angle from -pi/z to pi/z, both ends
-    included. For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back cone.
+    """Radius (relative to the pitch radius) and angle [rad] of each point, by increasing angle from -pi/z to pi/z, both
+    ends included. For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back
+    cone.
     """
     hole: bool = False
     """True for the pin of a lantern or another closed curve; its points then go round it."""
@@ -151,7 +154,7 @@ class SceneWheel:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.wheels`.
+    make_scene : returns it in `Scene.wheels`.
     """
 
     id: str
@@ -225,7 +228,7 @@ class ScenePair:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.pairs`.
+    make_scene : returns it in `Scene.pairs`.
     """
 
     id: str
@@ -252,7 +255,7 @@ class SceneCoupling:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.couplings`.
+    make_scene : returns it in `Scene.couplings`.
     """
 
     id: str
@@ -278,8 +281,8 @@ class SceneCoupling:
     text: str
     """Equation of the fundamental circuit as text."""
     slot_turn: float = 0.0
-    """Angle about the slot's direction from the line through `slot_at` and `pin_at` to the slot, in the zero pose [rad]; 0
-    unless starting angles are declared.
+    """Angle about the slot's direction from the line through `slot_at` and `pin_at` to the slot, in the zero pose
+    [rad]; 0 unless starting angles are declared.
     """
     pins_at: Sequence[Vector] = ()
     """Centres of all pins in round holes in the zero pose [mm]; empty for a pin in a slot."""
@@ -297,7 +300,7 @@ class SceneShiftElement:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.elements`.
+    make_scene : returns it in `Scene.elements`.
     """
 
     id: str
@@ -318,7 +321,7 @@ class SceneWave:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.waves`.
+    make_scene : returns it in `Scene.waves`.
     """
 
     wheel: int

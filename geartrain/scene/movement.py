@@ -35,7 +35,7 @@ class ErrorTable(Result):
 
     See Also
     --------
-    Movement : holds it.
+    Movement : contains it.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
@@ -53,8 +53,8 @@ class ErrorTable(Result):
     breaks: Floats
     """Breakpoints in the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
-    """Coefficients of the driven side's error [rad], in powers of the driver's angle minus the middle of its cell. Shape (n,
-    degree + 1).
+    """Coefficients of the driven side's error [rad], in powers of the driver's angle minus the middle of its cell.
+    Shape (n, degree + 1).
     """
     uncertainty: float
     """Maximum error of the table [rad]."""
@@ -82,7 +82,7 @@ class ErrorSource:
 
     See Also
     --------
-    Movement : holds it.
+    Movement : contains it.
     """
 
     pair: str
@@ -113,7 +113,7 @@ class ErrorStep:
 
     See Also
     --------
-    Movement : holds it.
+    Movement : contains it.
     """
 
     bodies: Sequence[int]
@@ -136,12 +136,12 @@ class Movement:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.movement`.
+    make_scene : returns it in `Scene.movement`.
     """
 
     kind: str
-    """`exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: these errors cannot be followed.
-    `still`: no speed is determined.
+    """`exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: these errors cannot be
+    followed. `still`: no speed is determined.
     """
     why: str = ""
     """Reason for `mean` or `still`."""
@@ -252,8 +252,8 @@ class InitialPosition:
     """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error (rad) of the driven side at which a driver whose teeth are `shift` (rad) ahead of their phase
-        does not cut into driven teeth.
+        """Return the minimum error (rad) of the driven side at which a driver whose teeth are `shift` (rad) ahead of
+        their phase does not cut into driven teeth.
 
         The driven side follows e(S) + c and its mate requires e(S + shift), so c is the maximum of their difference.
         """

@@ -27,8 +27,8 @@ class ScenePose:
 
     angles: Floats
     turned: Floats
-    """Rotations, shape (bodies, 3, 3). With the displacements `moved`, shape (bodies, 3), in mm, a point p of the zero pose
-    moves to turned p + moved.
+    """Rotations, shape (bodies, 3, 3). With the displacements `moved`, shape (bodies, 3), in mm, a point p of the zero
+    pose moves to turned p + moved.
     """
     moved: Floats
 
@@ -49,7 +49,8 @@ def turns_of(speed: str | None, turns: Fraction) -> Fraction:
 
 
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
-    """Return the pose after `turns` of the driving link: mean angles exact, errors of teeth and pins from the scene's tables.
+    """Return the pose after `turns` of the driving link: mean angles exact, errors of teeth and pins from the scene's
+    tables.
 
     Raise `RangeError` if the iteration of pairs that depend on each other does not converge.
     """

@@ -40,7 +40,7 @@ class LinkCourse(Result):
 
     See Also
     --------
-    SceneRun : holds one for each body.
+    SceneRun : contains one for each body.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))
@@ -69,7 +69,7 @@ class SceneContact(Result):
 
     See Also
     --------
-    SceneRun : holds these.
+    SceneRun : contains these.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
@@ -134,7 +134,7 @@ class SceneRun(Result):
 
     See Also
     --------
-    make_scene : gives it, in `Scene.run`.
+    make_scene : returns it in `Scene.run`.
     """
 
     driven: str

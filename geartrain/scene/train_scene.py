@@ -43,7 +43,7 @@ class DialFace:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.dials`.
+    make_scene : returns it in `Scene.dials`.
     """
 
     id: str
@@ -63,8 +63,8 @@ class DialFace:
     scale: DialScale
     """Divisions of the scale; its radii are relative to `radius`."""
     look: Literal["scale", "ball"] = "scale"
-    """A scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball, `radius` is that of the
-    ball and `normal` the direction of its axis of rotation, which passes through its centre.
+    """A scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball, `radius` is that
+    of the ball and `normal` the direction of its axis of rotation, which passes through its centre.
     """
     note: str = ""
     """Note as declared."""
@@ -75,9 +75,9 @@ class DialFace:
     title: str = ""
     """Caption: the name, followed in brackets by the outputs read on it if the dial exists about several axes."""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
-    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and lines in 1/4,000 of the radius. Of
-    each line, x is to the reader's right and y towards the zero mark; the first point is relative to the centre, each
-    further one to the point before it.
+    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and lines in 1/4,000 of the
+    radius. Of each line, x is to the reader's right and y towards the zero mark; the first point is relative to the
+    centre, each further one to the point before it.
     """
 
 
@@ -87,7 +87,7 @@ class PointerTarget:
 
     See Also
     --------
-    make_scene : gives it, in `Pointer.targets`.
+    make_scene : returns it in `Pointer.targets`.
     """
 
     label: str
@@ -104,7 +104,7 @@ class SceneEpoch:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.epoch`.
+    make_scene : returns it in `Scene.epoch`.
     """
 
     julian_day: str
@@ -127,7 +127,7 @@ class Pointer:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.pointers`.
+    make_scene : returns it in `Scene.pointers`.
     """
 
     output: str
@@ -176,7 +176,7 @@ class Scene:
 
     See Also
     --------
-    make_scene : gives it.
+    make_scene : returns it.
     """
 
     name: str
@@ -200,8 +200,8 @@ class Scene:
     step: str
     """Turns of the driving link in one unit of the input, exact."""
     verdict: Mapping[str, Any]
-    """Kind, text, faulty loops ({"pairs": [...], "links": [...], "text": ...}), and "advice", a list of sentences that propose
-    a remedy.
+    """Kind, text, faulty loops ({"pairs": [...], "links": [...], "text": ...}), and "advice", a list of sentences that
+    propose a remedy.
     """
     bodies: Sequence[SceneBody]
     """Links, in the order declared, which is that of their indices."""
@@ -224,8 +224,8 @@ class Scene:
     notices: Sequence[Mapping[str, str]]
     """Problems of placement or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
-    """Movement while the driving link turns against its declared sense, in contact on the other flanks; None if it is the
-    same.
+    """Movement while the driving link turns against its declared sense, in contact on the other flanks; None if it is
+    the same.
     """
     unit_days: str | None = None
     """Length of the unit in days, exact, if it is a time; else None."""

@@ -107,8 +107,8 @@ class PitchContact:
     wheels: tuple[str, str]
     axes: tuple[str, str]
     kind: ContactKind
-    """Kind of contact. `side` and `ring` have parallel axes. `bevel`, `crown` (its first wheel is the crown) and `screw` (its
-    first wheel is the worm) have other axes.
+    """Kind of contact. `side` and `ring` have parallel axes. `bevel`, `crown` (its first wheel is the crown) and
+    `screw` (its first wheel is the worm) have other axes.
     """
     stretch: Fraction = Fraction(1)
     """Centre distance that declared teeth require, as a factor of that of touching pitch circles."""

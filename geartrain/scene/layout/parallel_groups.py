@@ -300,7 +300,8 @@ class _SlotSearch:
         return {}
 
     def _try(self, count: int) -> dict[str, AxialSlots] | None:
-        """Assign `count` slots to the meshes in order, by depth-first search with backtracking; None without a solution.
+        """Assign `count` slots to the meshes in order, by depth-first search with backtracking; None without a
+        solution.
 
         The search has an explicit stack, because a chain of meshes may exceed Python's recursion limit.
         """
@@ -463,7 +464,8 @@ class _Placing:
         return dict.fromkeys(self._in_line(parallels) or driven or labels[:1], (0.0, 0.0))
 
     def _in_line(self, parallels: Parallels) -> list[str]:
-        """Return parallel axes that must be collinear: each intersects the same two crossing axes of different directions.
+        """Return parallel axes that must be collinear: each intersects the same two crossing axes of different
+        directions.
 
         One crossing wheel also makes its mates collinear, because the cones of all its mates have one apex.
         """

@@ -37,7 +37,8 @@ _MOST_AXES = 1500  # axes up to which wheels of one level are told from others
 
 
 class PlanClearance:
-    """Overlap cost of axes at fixed distances, that is on one carrier or about it. Axes moved by carriers are left to levels.
+    """Overlap cost of axes at fixed distances, that is on one carrier or about it. Axes moved by carriers are left to
+    levels.
 
     still    (axes, axes): True if the distance of two is constant
     radius   radius of the widest wheel of each axis (mm), without rings
@@ -140,8 +141,8 @@ class DistanceBound(NamedTuple):
 class _Rank(NamedTuple):
     """Priority of an axis: the minimum is placed first.
 
-    An axis comes after that of its carrier; then those with most placed neighbours, the largest radius or most bars come
-    first. The two counts are negative, so that the maximum comes first.
+    An axis comes after that of its carrier; then those with most placed neighbours, the largest radius or most bars
+    come first. The two counts are negative, so that the maximum comes first.
     """
 
     before_pivot: bool
@@ -282,7 +283,8 @@ _ROW = 1.2  # of the radii of two axes in a row: their distance where nothing el
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
-    """Return the intersections of two circles; if there are none the nearest point between them, for concentric ones nothing.
+    """Return the intersections of two circles; if there are none the nearest point between them, for concentric ones
+    nothing.
 
     With the distance d of the centres they intersect at x = (d^2 + r^2 - s^2) / 2d along it, sqrt(r^2 - x^2) aside.
     """
@@ -302,8 +304,8 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the intersections of a line, given by a point and a unit vector, with a circle, else the nearest point of the
-    line.
+    """Return the intersections of a line, given by a point and a unit vector, with a circle, else the nearest point of
+    the line.
     """
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]
@@ -468,8 +470,8 @@ class _BeamSearch:
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
         """Return points of the circle about the first axis it is tied to.
 
-        They are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are evenly spaced
-        from the first of them.
+        They are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are evenly
+        spaced from the first of them.
         """
         pivot, far = step.tied[0].axis, step.tied[0].most
         x, y = points[pivot].tolist()

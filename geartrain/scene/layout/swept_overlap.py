@@ -153,7 +153,8 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> PlanOverlap:
-    """Return the blocks that overlap in plan, and those that an arbor, or a pin from wheel to wheel, would pass through.
+    """Return the blocks that overlap in plan, and those that an arbor, or a pin from wheel to wheel, would pass
+    through.
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
     """

@@ -342,7 +342,7 @@ class Layout:
 
     See Also
     --------
-    lay_out : gives it.
+    lay_out : returns it.
     """
 
     axes: Mapping[str, AxisPlace]
@@ -381,9 +381,9 @@ class Layout:
 def lay_out(train: GearTrain) -> Layout:
     """Return places of all axes and wheels of a train, by beam search and local search; the result is deterministic.
 
-    Declared positions, modules and offsets of pins are always kept. All other sizes are chosen so that pitch circles touch,
-    wheels of one level do not overlap and the plan is compact. Every train that loads has a layout. The time grows with the
-    square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
+    Declared positions, modules and offsets of pins are always kept. All other sizes are chosen so that pitch circles
+    touch, wheels of one level do not overlap and the plan is compact. Every train that loads has a layout. The time
+    grows with the square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
 
     Parameters
     ----------

@@ -168,8 +168,8 @@ class WheelModules:
 def find_wheel_modules(geometry: DeclaredGeometry) -> WheelModules:
     """Return modules of all wheels, exact if the declaration is, and the resulting distances of axes.
 
-    A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force. A
-    free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
+    A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force.
+    A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
     """
     return _ModuleSearch(geometry).found()
 
@@ -337,8 +337,8 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
     """Return the seats of the first and second wheel of a pair, from the declared directions and sides.
 
     The pitch point is on the side to which both wheels face. Bevel: tan d_1 = sin S / (z_2/z_1 + cos S) with the shaft
-    angle S between the directions n_i = f_i u_i from the apex to the wheels. Crown: the pinion's pitch cylinder rolls on a
-    cone of half angle S, which is a plane if S is a right angle.
+    angle S between the directions n_i = f_i u_i from the apex to the wheels. Crown: the pinion's pitch cylinder rolls
+    on a cone of half angle S, which is a plane if S is a right angle.
     """
     if contact.kind == "screw":
         out = _from_worm(geometry, contact)

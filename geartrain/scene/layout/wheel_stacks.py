@@ -206,10 +206,11 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _unheld(self, keys: NDArray[np.float32]) -> Floats:
-        """Return how often arbors interleave with fixed wheels on their axis, which prevents these from being one piece.
+        """Return how often arbors interleave with fixed wheels on their axis, which prevents these from being one
+        piece.
 
-        Going upwards, wheels of the two alternate. One alternation means an arbor beside the fixed wheels; each further one
-        counts as half.
+        Going upwards, wheels of the two alternate. One alternation means an arbor beside the fixed wheels; each further
+        one counts as half.
         """
         found = np.zeros(keys.shape[1])
         below, above = (frozenset(each.tolist()) for each in self._running_out)

@@ -1,4 +1,4 @@
-"""Outlines of plates: those of the frame with pillars between them, those that turn, and posts that hold rings."""
+"""Outlines of plates: those of the frame with pillars between them, turning ones, and posts that hold rings."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _BLADE = 0.05  # mm: holes nearer to each other are one
 
 @dataclass(frozen=True, slots=True)
 class Hole:
-    """A round hole: what it is for, its middle across the stack, its diameter (mm)."""
+    """A round hole: its purpose, its centre in the stack, its diameter (mm)."""
 
     name: str
     at: Point
@@ -38,35 +38,35 @@ class Hole:
 
 @dataclass(frozen=True, slots=True)
 class FlatPlate:
-    """A plate across the stack."""
+    """A plate perpendicular to the axis of the stack."""
 
     link: str
-    """The link it belongs to and its name."""
+    """Link to which it belongs."""
     name: str
-    """The link it belongs to and its name."""
+    """Name of the plate."""
     outline: Contour
-    """Its edge, in the coordinates of the stack [mm]."""
+    """Edge, in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
-    """All of them."""
+    """Round holes."""
     low: float
-    """Its faces along the normal [mm]."""
+    """Height of its lower face along the normal [mm]."""
     high: float
-    """Its faces along the normal [mm]."""
+    """Height of its upper face along the normal [mm]."""
     at: Point = (0.0, 0.0)
-    """What its own coordinates are counted from [mm]."""
+    """Origin of its own coordinates [mm]."""
     windows: tuple[Contour, ...] = ()
-    """For wheels across that go through it, and for brackets [mm]."""
+    """Windows for crossing wheels and for brackets [mm]."""
 
     @property
     def contours(self) -> tuple[Contour, ...]:
-        """Its edge and its holes, counted from `at`."""
+        """Edge and holes, relative to `at`."""
         circles = (Contour.circle(each.diameter / 2, each.at) for each in self.holes)
         every = (self.outline, *circles, *self.windows)
         return tuple(Contour(each.points - np.array(self.at), each.bulges) for each in every)
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """What a wide wave is lightened by: holes between its lobes, at the least six, of bores of some size (mm)."""
+    """Yield holes that lighten a wide wave generator, between its lobes, at least six; `bore` is its hole (mm)."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -85,13 +85,13 @@ class FramePlates:
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
-    """Of dials, and the cock of a pendulum, each in one of the plates."""
+    """Feet of dials, and the cock of a pendulum, each in one of the plates."""
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
-    """Of brackets, round which a plate reaches, by the name of its side."""
+    """Mortises of brackets, within the outline of a plate, by the name of its side."""
     standing: tuple[StandingPins, ...] = ()
-    """Pins that plates bear."""
+    """Pins fixed in plates."""
     barrel: Barrel | None = None
-    """From which a weight hangs."""
+    """Barrel from which a weight hangs."""
 
     @cached_property
     def pillar(self) -> float:
@@ -108,17 +108,17 @@ class FramePlates:
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
-        """What turns between the plates, as circles that hold it wherever it is carried."""
+        """Circles that contain the parts that turn between the plates, in all positions of carriers."""
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
     def _passages(self, faces: tuple[float, float]) -> Iterator[Passage]:
-        """Their ways through a plate."""
+        """Yield the passages of crossing wheels through a plate."""
         return filter(None, (wheel.passage(faces) for wheel in self.plan.wheels_across))
 
     @cached_property
     def pillars(self) -> list[Point]:
-        """Middles of the pillars."""
+        """Centres of the pillars."""
         places = self.plan.places
         across = self.plan.across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
@@ -132,7 +132,7 @@ class FramePlates:
 
     @cached_property
     def bridge_pillars(self) -> list[Point]:
-        """Middles of the pillars of a bridge: round all axes that go into it."""
+        """Centres of the pillars of a bridge, around all axes that extend into it."""
         bridge = self.plan.bridge
         if bridge is None:
             return []
@@ -145,7 +145,7 @@ class FramePlates:
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)
 
     def plates(self) -> Iterator[FlatPlate]:
-        """Both plates of the frame, then those that turn."""
+        """Yield both plates of the frame, then the turning ones."""
         for side, faces in self.sides.items():
             holes = tuple(self._frame_holes(faces))
             mortises = self.mortises.get(side, ())
@@ -177,7 +177,7 @@ class FramePlates:
 
     @cached_property
     def sides(self) -> Mapping[str, tuple[float, float]]:
-        """Faces of the plates by their names: before the front plate are the dials, or the reader."""
+        """Faces of the plates by their names. The front plate is the one towards the dials, or the viewer."""
         places, outside = self.plan.places, self.plan.choice.outside or self.plan.stack.layout.front
         names = ("back", "front") if outside > 0 else ("front", "back")
         return dict(zip(names, (places.back, places.front), strict=True))
@@ -187,7 +187,7 @@ class FramePlates:
         return [*own, *self._apart(self._bearings(faces), own)]
 
     def _tenon_holes(self, faces: tuple[float, float]) -> list[Hole]:
-        """Holes of pillars and posts."""
+        """Return the holes of pillars and posts."""
         press = self.plan.process.press
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
@@ -205,7 +205,7 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """The hole in which an axis is borne, or through which it passes."""
+        """Return the hole in which an axis is borne, or through which it passes."""
         process = self.plan.process
         passing = [each for each in column.members if crosses(each, faces) or (each.fixed and _enters(each, faces))]
         if passing:
@@ -220,11 +220,11 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Holes in a wheel or a plate beside its hub: for studs of the axes that it bears, and for posts."""
+        """Return the holes beside the hub in a wheel or plate, for studs of the axes that it bears, and for posts."""
         return [*self._apart(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
     def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:
-        """Of a wheel that turns on several eccentrics."""
+        """Yield the holes of a wheel that turns on several eccentrics."""
         for each in self.plan.stack.eccentrics:
             if each.middle and wheel in each.wheels:
                 yield Hole("eccentric", each.centre, running_hole(each, self.plan.process))
@@ -235,7 +235,7 @@ class FramePlates:
         return [] if member is None else [Hole("hub", next(at), self.plan.bores[seat])]
 
     def _apart(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
-        """Those that run into none before them."""
+        """Return the holes that intersect none before them."""
         found: list[Hole] = []
         for hole in holes:
             if not any(_meet(hole, other) for other in (*taken, *found)):
@@ -255,7 +255,7 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """What stands on every axis, spacers and collets, pillars between the plates, and posts of rings."""
+        """Yield the parts of every axis, spacers and collets, pillars between the plates, and posts of rings."""
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None
@@ -303,7 +303,7 @@ class FramePlates:
         return ring_posts(self.plan)
 
     def problems(self) -> Iterator[Problem]:
-        """Holes that run into each other, and posts in the way of wheels."""
+        """Yield problems for holes that intersect each other, and for posts that collide with wheels."""
         for side, faces in self.sides.items():
             yield from self._lost(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
         for seat in self.plan.choice.seats:

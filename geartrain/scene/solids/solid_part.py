@@ -24,7 +24,7 @@ class SolidPart:
 
     See Also
     --------
-    SolidModel : gives it, in `parts`.
+    SolidModel : contains it in `parts`.
     """
 
     body: int

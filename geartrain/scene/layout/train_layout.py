@@ -278,7 +278,7 @@ class AxisPlace:
 
     See Also
     --------
-    lay_out : gives it, in `Layout.axes`.
+    lay_out : returns it in `Layout.axes`.
     """
 
     label: str
@@ -299,7 +299,7 @@ class WheelPlace:
 
     See Also
     --------
-    lay_out : gives it, in `Layout.wheels`.
+    lay_out : returns it in `Layout.wheels`.
     """
 
     wheel: str

@@ -335,7 +335,7 @@ class CoaxialLink:
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on it."""
+    """Discs on it. `ends` states whether it extends beyond the stack, below and above."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:

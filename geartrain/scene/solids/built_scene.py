@@ -1,4 +1,4 @@
-"""The scene of a train as it is built: with its plates, arbors and dials, and with its hands on the ends of arbors."""
+"""Scene of a train as built, with its plates, arbors and dials, and with its hands on the ends of arbors."""
 
 from __future__ import annotations
 
@@ -40,29 +40,29 @@ _SAME = 1e-6
 def build_scene(
     train: GearTrain, state: str | None = None, run: TimeRun | None = None, formulas: bool = False
 ) -> Scene:
-    """The scene of a train with what holds its wheels: the parts that exports make, in the same places.
+    """Return the scene of a train with its structural parts, at the same places as in exports.
 
     Parameters
     ----------
     train : GearTrain
-        Loaded or declared.
+        Loaded or declared train.
     state : str, optional
-        One of its states; by default the first, or that of the run.
+        State of the train; by default the first, or that of the run.
     run : geartrain.simulation.TimeRun, optional
-        What `train.dynamics(...)` gave in that state: then this is what moves.
+        Result of `train.dynamics(...)` in that state, which is then the motion of the scene.
     formulas : bool
-        As `make_scene` has it.
+        Same as in `make_scene`.
 
     Returns
     -------
     Scene
-        As `make_scene` gives it, wheels moved along their axes so that plates have room, with `parts`. Where nothing
-        can be built, as `make_scene` gives it.
+        Same as from `make_scene`, with `parts`, and with wheels moved along their axes to make space for plates. If nothing
+        can be built, the scene of `make_scene` is returned.
 
     Raises
     ------
     GearTrainError
-        If there is no such state, or the run is of another train or state.
+        If the state does not exist, or the run is of another train or state.
 
     Examples
     --------
@@ -94,13 +94,13 @@ def build_scene(
 
 
 def _hanging(model: SolidModel, hanging: HangingParts) -> Iterator[SceneHanger]:
-    """What hangs, with its parts."""
+    """Yield the hanging parts with their solids."""
     for each in hanging.found():
         yield replace(each, parts=tuple(_told(part, model) for part in hanging_solids(each, hanging.frame)))
 
 
 def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
-    """A wheel with its slots, and with its hole for an eccentric: what turns in other holes fills them."""
+    """Return a wheel with its slots, and with its hole for an eccentric; other holes are filled by parts."""
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
     if model.plan is not None:
@@ -114,7 +114,7 @@ def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
 
 
 def _told(part: SolidPart, model: SolidModel) -> ScenePart:
-    """A part without its triangles."""
+    """Return a part without its triangles."""
     kind = part.kind
     if kind == "plate" and model.frame is not None:
         turning = {plate.disc.name for plate in model.frame.plan.turning}
@@ -155,7 +155,7 @@ def _numbers(points: Floats) -> Iterator[float]:
 
 
 def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
-    """Dials as large as they are on their plates, on the face that is read."""
+    """Return dials in the size of their plates, on the face that is read."""
     faces = list(scene.dials)
     if model.plan is None:
         return tuple(faces)
@@ -177,7 +177,7 @@ def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
 
 
 def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """The dials; those that turn with a hand of the dial below them are where that hand is, under the others."""
+    """Return the dials, with those that turn with a hand of another dial moved to the place of that hand."""
     found = list(dials)
     for at, face in enumerate(dials):
         for each in pointers:
@@ -194,7 +194,10 @@ def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """A dial across which no plate stands is laid on the bracket of its pointers' arbor, clear of arbors beside it."""
+    """Return the dials and pointers with a dial without a plate laid on the bracket of its pointers' arbor.
+
+    Its radius is limited by neighbouring arbors.
+    """
     face = dials[at]
     own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]
     along = [part for part in parts if abs(dot(part.direction, face.normal)) > 1 - _SAME]
@@ -212,7 +215,7 @@ def _on_bracket(
 
 
 def _room_beside(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
-    """How large a dial can be beside turned parts along its axis, those about the axis itself left out (mm)."""
+    """Yield limits of the radius of a dial (mm) from turned parts parallel to its axis, except coaxial ones."""
     for part in parts:
         off = minus(part.place, face.centre)
         apart = float(np.sqrt(max(dot(off, off) - dot(off, face.normal) ** 2, 0.0)))
@@ -221,12 +224,12 @@ def _room_beside(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
 
 
 def _widest(body: int, parts: Sequence[ScenePart]) -> float:
-    """Diameter of a body's widest turned part (mm)."""
+    """Return the diameter of a body's widest turned part (mm)."""
     return 2 * max((band[2] for part in parts if part.body == body for band in part.bands), default=0.0)
 
 
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:
-    """A pointer whose hand sits on the end of its arbor or pipe."""
+    """Return a pointer whose hand is on the end of its arbor or pipe."""
     face = None if pointer.dial is None else dials[pointer.dial]
     if face is None or not (face.plate or face.seated):
         return pointer

@@ -1,6 +1,6 @@
-"""The flat shape of every wheel: its teeth as cut for all its mates, the hole for its arbor, and its crossings-out.
+"""Flat shape of every wheel: its teeth as cut for all its mates, the hole for its arbor, and its crossings.
 
-Crossings-out are windows that leave a wheel a rim, arms and a hub, with all inner corners rounded.
+Crossings are windows that leave a rim, spokes and a hub, with all inner corners rounded.
 """
 
 from __future__ import annotations
@@ -38,22 +38,22 @@ Point = tuple[float, float]
 
 
 def arm_windows(root: float, module: float, bore: float, arms: int, corner: float | None = None) -> tuple[Contour, ...]:
-    """The windows between the arms of a wheel, one hole each; none where there is no room.
+    """Return the windows between the spokes of a wheel, one hole each; empty if there is not enough space.
 
-    An arm is as wide all along as the rim is deep. A window is bounded by two arms, the rim and the hub.
+    A spoke has a uniform width equal to the depth of the rim. A window is bounded by two spokes, the rim and the hub.
 
     Parameters
     ----------
     root : float
-        Radius of the root circle (mm).
+        Root radius [mm].
     module : float
-        Of the wheel (mm).
+        Module of the wheel [mm].
     bore : float
-        Diameter of the hole for its arbor (mm).
+        Diameter of the hole for its arbor [mm].
     arms : int
-        How many, 3 or more; fewer leave the wheel whole.
+        Number of spokes, 3 or more; fewer give no windows.
     corner : float, optional
-        Radius of inner corners (mm): that of the tool, or more.
+        Radius of inner corners [mm], at least that of the tool.
     """
     if arms < 3:
         return ()
@@ -71,9 +71,9 @@ def arm_windows(root: float, module: float, bore: float, arms: int, corner: floa
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
-    """The window about the x axis, its arms half as wide as `half` says on either side of +-pitch/2; None if too small.
+    """Return the window about the x axis between spokes at +-pitch/2 of half width `half`; None if it is too small.
 
-    Corners are arcs about centres that are `corner` from an arm, and from the rim or the hub.
+    Corners are arcs about centres at the distance `corner` from a spoke, and from the rim or the hub.
     """
     ends = []
     for circle, centre in ((outer, outer - corner), (inner, inner + corner)):
@@ -104,7 +104,7 @@ def _at(radius: float, angle: float) -> Point:
 
 
 def _beside(along: float, half: float, pitch: float) -> Point:
-    """A point on the edge of the arm at +pitch/2 that looks at the window."""
+    """Return a point on the edge of the spoke at +pitch/2 that faces the window."""
     c, s = cos(pitch / 2), sin(pitch / 2)
     return along * c + half * s, along * s - half * c
 
@@ -114,7 +114,7 @@ def _mirrored(point: Point) -> Point:
 
 
 def _turned(contour: Contour, angle: float) -> Contour:
-    """The same, turned about the origin; holes turn left as outlines do."""
+    """Return the contour rotated about the origin; holes are counter-clockwise, as outlines are."""
     c, s = cos(angle), sin(angle)
     x, y = contour.points.T
     points = contour.points.copy()
@@ -131,17 +131,17 @@ _THIN = 0.4  # mm that a wheel has beside its bore at least, if it is more than 
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """A wheel to cut: its axle at the origin, its first tooth on the x axis; lengths in mm."""
+    """A wheel to cut, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
 
     wheel: str
     link: str
     teeth: int
     kind: str
-    """External, ring or pins."""
+    """Kind of wheel: external, ring or pins."""
     form: str
-    """Of its teeth, in words."""
+    """Description of its tooth form."""
     contours: tuple[Contour, ...]
-    """The outer one first, then holes."""
+    """Contours, the outer one first, then holes."""
     module: float
     pitch_radius: float
     tip_radius: float
@@ -149,32 +149,33 @@ class Blank:
     thickness: float
     bore: float
     helix: float = 0.0
-    """Angle of its teeth from the axis (rad), of a right hand above 0."""
+    """Helix angle of its teeth (rad), positive for a right hand."""
     arms: int = 0
-    """That windows leave; 0 where its web is whole."""
+    """Number of spokes; 0 for a solid web."""
     pins: LanternPins | None = None
-    """Of a ring whose teeth are pins, parts of their own: they lie in its inside (modules)."""
+    """Pins of a ring, which are separate parts in seats on its inside (modules); None for other wheels."""
 
     @property
     def twist(self) -> float:
-        """By how much its upper face is turned against the lower one (rad)."""
+        """Angle of its upper face relative to the lower one (rad)."""
         return self.thickness * tan(self.helix) / self.pitch_radius
 
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Every wheel that can be cut flat, by id, why the others cannot, and the play of every pair that is cut."""
+    """Wheels that can be cut flat, by name, notices on the others, and the backlash of every pair that is cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
-    """Why by wheel; `flat`, the wheels whose teeth stand straight in a plane, cut or not."""
+    """Reasons by wheel why it cannot be cut. `flat` are the wheels with planar teeth parallel to the axis, cut or not.
+    """
     flat: frozenset[str]
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
-    """The flat shapes of all wheels of a train without holes, at the sizes of a layout."""
+    """Return the flat shapes of all wheels of a train without holes, at the sizes of a layout."""
     toothed = find_train_teeth(train.mechanics, layout.wheels, making.backlash, layout.apart)
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
@@ -210,7 +211,9 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """A wheel that meshes nothing: an escape wheel as it is, any other as a disc of its pitch circle."""
+    """Return a wheel without mates, an escape wheel with its teeth, any other as a disc of its pitch circle, with a
+    notice.
+    """
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
         fix = "make the anchor to it, and recut its teeth for another escapement"
@@ -223,7 +226,7 @@ def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
 
 
 def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
-    """A flat file cannot show that teeth lean."""
+    """Yield a notice on helical teeth, which a flat file cannot show."""
     if wheel.is_helical:
         what = f"wheel '{name}' is drawn flat: its teeth lean by {abs(degrees(wheel.helix)):.6g} deg"
         fix = "print it from the .stl, or have it hobbed"
@@ -232,7 +235,7 @@ def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
 
 
 def with_seats(blank: Blank, wider: float) -> Blank:
-    """A ring whose seats for pins are so much wider (mm) than these; any other wheel as it is."""
+    """Return a ring with seats for pins widened by `wider` (mm); any other wheel unchanged."""
     if blank.pins is None or not wider:
         return blank
     root = blank.contours[1].points  # corners of the seats stand on the circle inside
@@ -242,7 +245,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """With windows between its arms, if it has the room; a wheel that bears studs keeps its web."""
+    """Return the blank with windows between its spokes, if there is space; a wheel that bears studs keeps its web."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
@@ -254,7 +257,7 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """With the hole for its arbor, if it has the room, and holes for what else it bears."""
+    """Return the blank with the hole for its arbor, if there is space, and holes for other parts that it bears."""
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":

@@ -108,8 +108,8 @@ def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of a ring, the tooth space of an external wheel, at most `height` (modules) within the
-    pitch circle.
+    """Return a nominal tooth of a ring, in the shape of a tooth space of an external wheel, at most `height` (modules)
+    within the pitch circle.
     """
     most = 1 + 2 * DEDENDUM / z
     # the space of the ring is the tooth of a wheel, higher and a little wider
@@ -268,7 +268,9 @@ class ToothProfiles:
 
 
 def find_profiles(stage: SceneContext) -> ToothProfiles:
-    """Return the tooth profile of every wheel: as cut with the declared backlash, else of nominal shape."""
+    """Return the tooth profile of every wheel, as cut with the declared backlash; wheels that cannot be cut get nominal
+    teeth.
+    """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
     return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
@@ -292,14 +294,14 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
             told.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
     for (what, why, fix, of_first), wheels in told.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
-        drawn = "drawn as their first pairs have them" if of_first else "drawn as a likeness"
+        drawn = "drawn as for their first pairs" if of_first else "drawn approximately"
         yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)
     bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
         if own.flexible and name not in bent:
-            why = "no link carries its axis round within a ring of more teeth, and so no wave bends it"
-            fix = "declare it as trains/engineering/strain-wave.yaml does"
-            yield Problem(f"'{name}' is flexible, and drawn round", why, fix)
+            why = "no generator carries its axis within a ring of more teeth, so that no wave deforms it"
+            fix = "declare it as in trains/engineering/strain-wave.yaml"
+            yield Problem(f"flexible wheel '{name}' is drawn undeformed", why, fix)
 
 
 def _likeness(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfile:

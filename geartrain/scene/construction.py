@@ -140,8 +140,7 @@ class _Mounting:
         return [circuit for circuit in self.stage.train.circuits if circuit.id in self.meetings]
 
     def spread(self, first: Circuit) -> None:
-        """Mount all wheels connected with a pair by meshes, by breadth-first search, unless they are mounted already.
-        """
+        """Place all wheels connected with a pair by meshes, by breadth-first search, unless they are placed already."""
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -163,37 +162,37 @@ class _Mounting:
                     queue.append(mate)
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
-        """Mount the mate of a mounted wheel."""
-        stands = self._stands(circuit, own)
+        """Place the mate of a wheel that is placed already."""
+        position = self._position(circuit, own)
         if own == self._driver(circuit):
-            self._set(circuit, 1 - own, stands + self._ahead(circuit, stands))
-            self._note_phase(circuit, stands)
+            self._set(circuit, 1 - own, position + self._ahead(circuit, position))
+            self._note_phase(circuit, position)
             return
-        at = stands - self._ahead(circuit)
-        for _ in range(_ROUNDS):  # how far ahead depends on where the driver stands, and that on how far ahead
-            at = stands - self._ahead(circuit, at)
+        at = position - self._ahead(circuit)
+        for _ in range(_ROUNDS):  # how far ahead depends on where the driver position, and that on how far ahead
+            at = position - self._ahead(circuit, at)
         self._set(circuit, 1 - own, at)
         self._note_phase(circuit, at)
 
-    def _shift(self, circuit: Circuit, stands: float) -> float:
+    def _shift(self, circuit: Circuit, position: float) -> float:
         """Return the pitches by which a driver's tooth is ahead of the phase of its transmission function, from -1/2 to
         1/2.
         """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
-        shift = (stands - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
+        shift = (position - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
         return shift if abs(shift) > _NEAR else 0.0
 
-    def _note_phase(self, circuit: Circuit, stands: float) -> None:
-        if self._shift(circuit, stands):
+    def _note_phase(self, circuit: Circuit, position: float) -> None:
+        if self._shift(circuit, position):
             self.off.append(circuit.id)
 
-    def _ahead(self, circuit: Circuit, stands: float | None = None) -> float:
+    def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
         """Return how far (pitches, in the sense of rotation) the driven wheel's tooth is ahead of the driver's.
 
-        stands   position of the driver's tooth (pitches); off the phase of its transmission function, the driven tooth is
-                 advanced until the driver does not interfere with it at any position
+        position   position of the driver's tooth (pitches); off the phase of its transmission function, the driven tooth
+                   is advanced until the driver does not interfere with it at any position
         """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
@@ -206,7 +205,7 @@ class _Mounting:
             # no law knows the likeness of a crown: its teeth stand in the middle of spaces, in the mean
             middle = sum(setting.transmission.error_range()) / 2
             return 0.5 + (setting.error - middle) / self._pitch(circuit.wheels[1 - driver])
-        shift = 0.0 if stands is None else self._shift(circuit, stands)
+        shift = 0.0 if position is None else self._shift(circuit, position)
         error = setting.error_past(shift * self._pitch(circuit.wheels[driver])) if shift else setting.error
         return mesh.stands + error / self._pitch(circuit.wheels[1 - driver])
 
@@ -218,16 +217,16 @@ class _Mounting:
         mesh = self.meshes.get(circuit.id)
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
-    def _stands(self, circuit: Circuit, at: int) -> float:
-        """Return the initial position of the first tooth of a mounted wheel, in pitches past the contact, forwards."""
+    def _position(self, circuit: Circuit, at: int) -> float:
+        """Return the initial position of the first tooth of a placed wheel, in pitches past the contact, forwards."""
         wheel = circuit.wheels[at]
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
-    def _set(self, circuit: Circuit, at: int, stands: float) -> None:
-        """Mount a wheel with a tooth at a given position (pitches)."""
+    def _set(self, circuit: Circuit, at: int, position: float) -> None:
+        """Place a wheel with a tooth at a given position (pitches)."""
         wheel = circuit.wheels[at]
         pitch = self._pitch(wheel)
-        self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (stands % 1) * pitch) % (2 * pi)
+        self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (position % 1) * pitch) % (2 * pi)
 
     def _zero(self, circuit: Circuit, at: int) -> float:
         """Return the angle at which the first tooth of a wheel is initially on the line of centres."""
@@ -254,9 +253,9 @@ class _Mounting:
         """Yield notices on teeth that are drawn out of phase."""
         if self.off:
             yield Problem(
-                f"the teeth of {', '.join(self.off)} are drawn off the phase of their law",
-                "their driver meshes with several wheels, and stands as the first of them has it; the motion is exact, "
-                "and the driven teeth are set on until nothing cuts into them, so that they touch but once a pitch",
+                f"the teeth of {', '.join(self.off)} are drawn out of phase",
+                "their driver meshes with several wheels, and its angle follows from the first of them; the motion is exact, "
+                "and the driven teeth are advanced until nothing cuts into them, so that they touch only once per pitch",
                 "",
             )
 

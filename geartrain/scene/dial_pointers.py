@@ -374,7 +374,7 @@ def _exact(speed: SpeedValue | None) -> Fraction | None:
 
 def _as_read(sense: int, speed: Fraction | None) -> str:
     if not speed:
-        return "stands still" if speed is not None else ""
+        return "at rest" if speed is not None else ""
     return f"{'clockwise' if (speed > 0) == (sense > 0) else 'counter-clockwise'} as read"
 
 

@@ -131,9 +131,9 @@ def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas:
             return
     raise RangeError(
         Problem(
-            f"'{scene.name}' has pairs that depend on each other and do not settle",
-            "repeated substitution runs away from a pose",
-            "ask for the motion in place of the picture, or for another number of turns",
+            f"the pose of '{scene.name}' does not converge",
+            "fixed-point iteration diverges for pairs that depend on each other",
+            "request the motion instead of the picture, or another number of turns",
         )
     )
 

@@ -254,9 +254,9 @@ def find_run(
     moves   link -> the link of the run that has the same motion
     """
     if (run.train, run.state) != (stage.train.name, stage.answer.state):
-        what = f"a run of {run.train}{f', state {run.state}' if run.state else ''}"
+        what = f"the run is of {run.train}{f', state {run.state}' if run.state else ''}"
         why = f"the scene is of {stage.train.name}{f', state {stage.answer.state}' if stage.answer.state else ''}"
-        raise QuestionError(Problem(what, why, "give the run of the same train in the same state"))
+        raise QuestionError(Problem(what, why, "pass the run of the same train in the same state"))
     samples = ShownSamples(run)
     places = dict(_places(stage, wheels, pairs, couplings))
     contacts = tuple(
@@ -311,7 +311,7 @@ def _tolerance(stage: SceneContext, link: str) -> float:
 
 def _left_out(run: TimeRun, movement: Movement) -> Iterator[str]:
     if movement.kind == "mean":
-        yield f"wheels start where mean speeds have them, to within what their teeth ripple; {movement.why}"
+        yield f"initial angles are those of the mean motion, without transmission errors; {movement.why}"
     kept = len(run.impacts.time)
     if run.impacts.total > kept:
         last = run.impacts.time[-1] - run.skip

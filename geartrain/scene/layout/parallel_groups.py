@@ -119,7 +119,8 @@ class _BlockBuilder:
     """Builder of the blocks of one group of parallels.
 
     crossing   pairs with one of these axes, from the side of the wheel on it
-    met        crossing axis -> point in plan from which its height is counted: its given point, or that of its first pair
+    met        crossing axis -> point in plan from which its height is counted: its given point, or that of its first
+               pair
     number     numbers of stacks, in the order of their first use
     """
 
@@ -292,7 +293,7 @@ class _SlotSearch:
         self.tries = _TRIES
 
     def found(self) -> dict[str, AxialSlots]:
-        """Return slots by wheel; empty if there is no solution, or none was found within the limit."""
+        """Return slots by wheel; empty if there are not any, or none were found within the limit."""
         for count in range(2, len(self.meshes) + 1):
             spans = self._try(count)
             if spans is not None:
@@ -482,7 +483,7 @@ class _Placing:
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
     def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
-        """Broaden wheels that have mates one above the other."""
+        """Widen wheels that have mates one above the other."""
         axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
         def run_into(wheel: str, other: str) -> bool:

@@ -87,9 +87,9 @@ def notices(
     for name, miss in misses.items():
         if name not in gaps:
             yield Problem(
-                f"the teeth of '{name}' do not meet: they are off by {abs(miss):.3g} of a pitch",
-                "it closes a loop of wheels whose places leave no other choice",
-                "give the axes places where teeth meet, or other tooth numbers",
+                f"the teeth of '{name}' do not mesh: their phase is wrong by {abs(miss):.3g} of a pitch",
+                "the pair closes a loop of wheels, whose places determine the phases of all teeth",
+                "declare positions of the axes at which teeth mesh, or change tooth counts",
                 place[name],
             )
 
@@ -99,9 +99,9 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
     return Problem(
         f"the pitch circles of '{first}' and '{second}' "
         + (f"are {gap:.3g} mm apart" if gap > 0 else f"overlap by {-gap:.3g} mm"),
-        f"pair '{contact.name}' wants another distance of axes '{axis}' and '{other}' than other pairs, declared "
-        "positions, modules or offsets leave it",
-        "change a tooth number, a position or a module; the motion does not depend on it",
+        f"pair '{contact.name}' requires a distance of axes '{axis}' and '{other}' that other pairs, declared "
+        "positions, modules or offsets do not allow",
+        "change a tooth count, a position or a module; the motion does not depend on the distance",
         place,
     )
 
@@ -110,9 +110,9 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
     """Yield notices on wheels that are not drawn as they are declared."""
     for stray in declared.strays:
         yield Problem(
-            f"wheel '{stray.wheel}' is drawn on axis '{declared.axis[stray.wheel]}' only",
-            f"pair '{stray.pair}' has it on axis '{stray.axis}' too",
-            "give each of its meshes a wheel of its own",
+            f"wheel '{stray.wheel}' is drawn only on axis '{declared.axis[stray.wheel]}'",
+            f"pair '{stray.pair}' has it on axis '{stray.axis}' as well",
+            "declare a separate wheel for each of its meshes",
             place[stray.pair],
         )
 
@@ -125,15 +125,15 @@ def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
-            "they lie in one level, as their mates do, and their places leave no room between them",
-            "give their axes positions, or their pairs another order",
+            "they are in one level, like their mates, and their axes are too close together",
+            "declare positions of their axes, or change the order of their pairs",
         )
     pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
     if pierced:
         yield Problem(
-            f"arbors go through wheels: {_listed(pierced)}",
+            f"arbors pass through wheels: {_listed(pierced)}",
             "no order of the levels was found that keeps all arbors clear",
-            "give the axes positions that leave them room",
+            "declare positions of the axes at which the arbors are clear of wheels",
         )
 
 
@@ -397,8 +397,8 @@ def lay_out(train: GearTrain) -> Layout:
 
     Notes
     -----
-    The steps are: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), for each group the
-    plan (`plan_search`) and the heights of its wheels (`wheel_stacks`), then the angles at which teeth mesh
+    The steps are: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), for each group
+    the plan (`plan_search`) and the heights of its wheels (`wheel_stacks`), then the angles at which teeth mesh
     (`align_meshes`).
 
     Examples

@@ -57,9 +57,9 @@ class FlexibleCup:
 
     def told(self) -> Iterator[Problem]:
         """Yield a notice on the properties that no drawing can show."""
-        what = f"'{self.wheel}' and the wall of '{self.link}' are one thin piece, which no sheet gives"
-        why = f"a wave bends it: its wall is {self.wall:.3g} mm thick"
-        fix = f"turn it, or print it of what bends, from wheels/{self.wheel}.stl and {self.link} wall in assembly.stl"
+        what = f"'{self.wheel}' and the wall of '{self.link}' are one thin part, which cannot be cut from sheet"
+        why = f"a wave generator deforms it, and its wall is {self.wall:.3g} mm thick"
+        fix = f"turn it, or print it in a flexible material, from wheels/{self.wheel}.stl and {self.link} wall in assembly.stl"
         yield Problem(what, why, fix)
 
 
@@ -188,9 +188,9 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
     beside = eccentric.wall - arbor / 2
     if beside >= _THIN:
         return None
-    what = f"'{eccentric.name}' has {beside:.3g} mm beside its arbor"
-    why = f"its radius is {eccentric.radius:g} mm, its arbor {arbor:g} mm thick and {eccentric.offset:g} mm aside"
-    return Problem(what, why, "give a thinner --bore, a larger module, or pins farther from the middle")
+    what = f"'{eccentric.name}' leaves a wall of only {beside:.3g} mm beside its arbor"
+    why = f"its radius is {eccentric.radius:g} mm, and its arbor has a diameter of {arbor:g} mm and is {eccentric.offset:g} mm off centre"
+    return Problem(what, why, "use a smaller --bore, a larger module, or pins farther from the centre")
 
 
 def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -> Iterator[StackDisc]:

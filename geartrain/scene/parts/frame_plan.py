@@ -442,13 +442,13 @@ class FramePlan:
             if column.tangled:
                 one, other = column.tangled
                 why = f"each has a wheel between two of the other, on axis '{column.axis}'"
-                fix = "give one of them another axis, or do without one of these wheels"
-                yield Problem(f"arbors '{one}' and '{other}' cannot run in each other", why, fix)
+                fix = "move one of them to another axis, or remove one of these wheels"
+                yield Problem(f"arbors '{one}' and '{other}' cannot be nested", why, fix)
             for disc, room in column.hit:
                 who = f"arbor on axis '{column.axis}'"
-                what = f"the {who} {'passes through' if room < 0 else 'has no room beside'} '{disc.name}'"
-                why = f"the gap is {room:.3f} mm where {APART:g} mm is asked for"
-                yield Problem(what, why, "move the axis, change the order of the wheels, or give a thinner --bore")
+                what = f"the {who} {'passes through' if room < 0 else 'is too close to'} '{disc.name}'"
+                why = f"the gap is {room:.3f} mm, and at least {APART:g} mm is required"
+                yield Problem(what, why, "move the axis, change the order of the wheels, or use a smaller --bore")
         yield from self._thin_roots()
         for each in self.stack.eccentrics:
             if each.name in self.members and (told := too_thin(each, self.members[each.name].outer)):
@@ -460,8 +460,8 @@ class FramePlan:
             root = next(disc.root for disc in member.discs if disc.name == name)
             if place is not None and root < member.outer / 2 - 1e-9:
                 what = f"wheel '{name}' is too small for its {'pipe' if member.inner else 'arbor'}"
-                why = f"its roots stand at {root:.3f} mm, the {member.outer:g} mm of '{member.link}' go on beside it"
-                yield Problem(what, why, "give a thinner --bore, or a larger module")
+                why = f"its root radius is {root:.3f} mm, and '{member.link}' has a diameter of {member.outer:g} mm next to it"
+                yield Problem(what, why, "use a smaller --bore, or a larger module")
 
 
 # ------------------------------------------------------------------------------------------------------ seats of shafts

@@ -316,8 +316,8 @@ class FramePlates:
             if hole not in kept:
                 other = next(each for each in (*taken, *kept) if _meet(hole, each))
                 what = f"{where} has no hole for axis '{hole.name}'"
-                why = f"that of '{other.name}', {dist(hole.at, other.at):.3g} mm away, takes its place"
-                yield Problem(what, why, "give a thinner --bore, or turn one stud with a step that bears both")
+                why = f"it would overlap the hole of '{other.name}', {dist(hole.at, other.at):.3g} mm away"
+                yield Problem(what, why, "use a smaller --bore, or turn one stepped stud for both")
 
 
 def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:

@@ -316,12 +316,12 @@ class FrameStack:
             if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:
                 upright = self.is_upright(axis)
                 why = (
-                    f"'{axis.carrier}', which bears it, is itself carried round"
+                    f"its carrier '{axis.carrier}' is itself carried"
                     if upright
-                    else "it is not at right angles to the plates"
+                    else "it is not perpendicular to the plates"
                 )
                 what = f"axis '{label}' has no bearings"
-                yield Problem(what, why, f"bear it in a bracket on '{axis.carrier}', made by hand")
+                yield Problem(what, why, f"make a bracket for it on '{axis.carrier}' by hand")
 
 
 def rim(blank: Blank) -> float:

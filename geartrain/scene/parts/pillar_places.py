@@ -175,8 +175,8 @@ def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Prob
         inside = [disc for disc in plan.discs if post.ends[0] < disc.low and disc.high < post.ends[1]]
         for disc in (each for each in inside if low < each.middle < high and each.hub):
             if (room := clear_of(post.at, [swept_circle(disc)]) - post.diameter / 2) < 0:
-                what = f"{post.name} has no way past '{disc.name}'"
-                yield Problem(what, f"they overlap by {-room:.3f} mm", "hold the ring by a bracket from its side")
+                what = f"{post.name} collides with '{disc.name}'"
+                yield Problem(what, f"they overlap by {-room:.3f} mm", "support the ring by a bracket at its side")
 
 
 def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:

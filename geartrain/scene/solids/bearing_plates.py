@@ -141,7 +141,7 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 
 def _hull(points: Sequence[Point]) -> list[Point]:
-    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
     # rounded, so that axes at one place are one point
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
     if len(ordered) < 3:
@@ -180,19 +180,19 @@ def _discs(
 ) -> Iterator[Plate]:
     for coupling in couplings:
         if isinstance(coupling, Parallel):
-            what, why = f"'{coupling.name}' is in no part", "what keeps its two links parallel is not declared"
+            what, why = f"'{coupling.name}' is not made", "the mechanism that keeps its two links parallel is not declared"
             notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
             continue
         if isinstance(coupling, PinsInHoles):
             lacking = "pins" if coupling.name in holed else "pins and holes"
-            what = f"the {lacking} of '{coupling.name}' are in no part"
-            why = "they are cut into wheels of both links, wide enough for them, where sizes are declared"
-            fix = "give pin_radius, offset and pin_diameter, and both links a wheel; else add them by hand"
+            what = f"the {lacking} of '{coupling.name}' are not made"
+            why = "they are cut into sufficiently wide wheels of both links if sizes are declared"
+            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; else add them by hand"
             notices.append(Problem(what, why, fix))
             continue
         if coupling.pin_radius is None or coupling.offset is None:
-            what = f"'{coupling.name}' has no drawing of pin and slot"
-            notices.append(Problem(what, "its dimensions are not declared", "give pin_radius and offset"))
+            what = f"pin and slot of '{coupling.name}' are not drawn"
+            notices.append(Problem(what, "its dimensions are not declared", "declare pin_radius and offset"))
             continue
         yield _disc(coupling, coupling.pin, diameters, slotted=False)
         yield _disc(coupling, coupling.slot, diameters, slotted=True)
@@ -213,8 +213,8 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
     """Return a bar from its axis at the origin along x, with a round hole in which a pin revolves (mm).
 
     A pin without declared sizes moves its slot uniformly, at the mean of the transmission function. If this mean ratio
-    is 1 the pin's circle is centred on the pin's axis, if it is 0 outside of it. Relative to the bar the pin then moves
-    on a circle.
+    is 1 (r > e), the pin moves relative to the bar on a circle of radius e about (r, 0); if it is 0, on a circle of
+    radius r about (e, 0).
     """
     wide, hole = 1.2 * pin, min(r, e) + 0.55 * pin
     middle, rim = max(r, e), hole + 0.65 * pin

@@ -56,8 +56,8 @@ def build_scene(
     Returns
     -------
     Scene
-        Same as from `make_scene`, with `parts`, and with wheels moved along their axes to make space for plates. If nothing
-        can be built, the scene of `make_scene` is returned.
+        Same as from `make_scene`, with `parts`, and with wheels moved along their axes to make space for plates. If
+        nothing can be built, the scene of `make_scene` is returned.
 
     Raises
     ------

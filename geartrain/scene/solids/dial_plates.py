@@ -124,7 +124,7 @@ class DialPlate:
 
     def drawing(self) -> FlatDrawing:
         """Return the drawing for its reader, zero marks at the top, with scales, numbers and names engraved."""
-        title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, as its reader sees it; "
+        title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, front view; "
         scales = {name: scale for circle in self.circles for name, scale in circle.scales.items()}
         title += ", ".join(f"{name} {scale.divisions} cells" for name, scale in scales.items())
         marks: list[EngravedText] = []

@@ -68,8 +68,8 @@ class ManufacturingSizes:
         process_named(self.process)
         problems = []
         if self.arms is not None and self.arms < 3:
-            what = f"a wheel of {self.arms} arms is none"
-            problems.append(Problem(what, "", "give 3 or more, or leave --arms out for whole webs", "--arms"))
+            what = f"a wheel cannot have {self.arms} spokes"
+            problems.append(Problem(what, "a web with windows has at least 3 spokes", "pass 3 or more, or omit --arms for solid webs", "--arms"))
         for name, bounds in _MADE.items():
             value = getattr(self, name)
             if value is not None and not (value == 0 and name in ("bore", "backlash")):
@@ -85,7 +85,7 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
     low, high = bounds
     if low <= value <= high:
         return []
-    why = "drawings are exact to 0.001 mm, and arbors and plates have a few millimetres"
+    why = "drawings are accurate to 0.001 mm, and arbors and plates are a few millimetres thick"
     return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 
@@ -128,9 +128,9 @@ def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
     placed = [label for label, axis in layout.axes.items() if axis.how == "given"]
     if given or placed:
         named = f"the module of '{given[0]}'" if given else f"the position of axis '{placed[0]}'"
-        why = f"it gives {named}, and what is declared wins"
-        fix = "leave --module out, or take the sizes out of the file"
-        raise QuestionError(Problem("the declaration has sizes of its own", why, fix, "--module"))
+        why = f"it gives {named}, and declared sizes take precedence"
+        fix = "omit --module, or remove the sizes from the file"
+        raise QuestionError(Problem("the declaration already has sizes", why, fix, "--module"))
     return making.module / usual_module(layout)
 
 

@@ -74,7 +74,7 @@ def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
         cross = (_turn(start, end, a) * _turn(start, end, b) <= 0) & (_turn(a, b, start) * _turn(a, b, end) <= 0)
         if not (cross & away).any():
             return [*loop[: k + 1], *hole, hole[0], *loop[k:]]
-    raise ValueError("a hole does not lie inside its polygon")
+    raise ValueError("a hole is not inside its polygon")
 
 
 def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:

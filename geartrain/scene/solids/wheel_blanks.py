@@ -216,21 +216,21 @@ def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     """
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
-        fix = "make the anchor to it, and recut its teeth for another escapement"
+        fix = "make an anchor to match it, or recut its teeth for another escapement"
         return blank, Problem(what, "no anchor is declared", fix)
     r = blank.pitch_radius
-    form = "a disc of its pitch circle, its teeth are not known"
+    form = "a disc of its pitch circle, because its teeth are not known"
     what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
-    told = Problem(what, "it meshes nothing, so no form of its teeth is known", "cut its teeth for what it works with")
+    told = Problem(what, "it has no mate, so its tooth form is not known", "cut its teeth to match the part it works with")
     return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), told
 
 
 def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
     """Yield a notice on helical teeth, which a flat file cannot show."""
     if wheel.is_helical:
-        what = f"wheel '{name}' is drawn flat: its teeth lean by {abs(degrees(wheel.helix)):.6g} deg"
+        what = f"wheel '{name}' is drawn flat: it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
         fix = "print it from the .stl, or have it hobbed"
-        why = "a flat drawing is their section across the axis, and the .step has it raised straight"
+        why = "a flat drawing shows the transverse section, and the .step file extrudes it without twist"
         yield Problem(what, why, fix)
 
 
@@ -252,7 +252,7 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
     windows = arm_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
     if windows and len(blank.contours) > own:
         what = f"wheel '{blank.wheel}' keeps its web"
-        return blank, [Problem(what, "it has holes for what it bears", "file its windows by hand", "--arms")]
+        return blank, [Problem(what, "it has holes for other parts", "cut its windows by hand", "--arms")]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []
 
 
@@ -265,5 +265,5 @@ def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Bla
     if bore / 2 >= _LAND * inner and bore / 2 >= inner - _THIN:
         what = f"wheel '{blank.wheel}': a bore of {bore:g} mm does not fit"
         why = f"its root circle has a diameter of {2 * inner:.4g} mm, so it is cut without a hole"
-        return blank, [Problem(what, why, f"give less than {2 * _LAND * inner:.4g} mm", "--bore")]
+        return blank, [Problem(what, why, f"pass less than {2 * _LAND * inner:.4g} mm", "--bore")]
     return replace(blank, contours=(*blank.contours, Contour.circle(bore / 2)), bore=bore), []

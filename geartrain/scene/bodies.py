@@ -69,8 +69,7 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Return bodies and wheels with flexible ones moved to the axes of their generators, and the waves that bend them.
-    """
+    """Return bodies and wheels with flexible ones moved to the axes of their generators, and the strain waves."""
     told, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
@@ -90,16 +89,14 @@ Points = tuple[tuple[float, float], ...]
 
 FORM = "likeness"
 _PRESSURE = pi / 9
-_BACKLASH = 0.02  # of a pitch: what each tooth is thinner
-_MINIMUM_ROOT = 0.2  # of the pitch radius: few teeth leave little
-_ROOM = 0.92  # of half a pitch: where at most a flank ends at the root
-_POINTS = 10  # on a flank
-_PASSING = 0.12  # modules for each tooth that a ring has more than its wheel
-_CROWN_BACKLASH = (
-    0.06  # of a pitch: what a crown's teeth are thinner than a mate's spaces, whose flanks no rack runs with
-)
-_STEP = pi / 18  # between points of a thread's section, of which a few go round a worm
-_LAND = 0.08  # of a pitch: least half width of a tip
+_BACKLASH = 0.02  # circumferential backlash per tooth, in pitches
+_MINIMUM_ROOT = 0.2  # minimum root radius over the pitch radius: with few teeth little is left
+_ROOM = 0.92  # maximum half width of a tooth at the root, over half a pitch
+_POINTS = 10  # points of a flank
+_PASSING = 0.12  # height (modules) per tooth of difference between ring and wheel
+_CROWN_BACKLASH = 0.06  # pitches: no rack meshes with a crown's flanks, so its teeth are thinner
+_STEP = pi / 18  # rad between points of a thread's section, as a worm has few threads
+_LAND = 0.08  # minimum half width of a tip, over half a pitch
 
 
 def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
@@ -112,7 +109,7 @@ def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
     within the pitch circle.
     """
     most = 1 + 2 * DEDENDUM / z
-    # the space of the ring is the tooth of a wheel, higher and a little wider
+    # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
     tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
     half = pi / z
     flank = [(r, half - _half(z, r) - 2 * _BACKLASH * pi / z) for r in _spread(tip, most)]
@@ -140,7 +137,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
     Its radii contain heights above the pitch cone along the back cone; cone is the half angle of the pitch cone (rad).
     """
-    # the back cone of a crown wheel never closes: its teeth are nearly those of a rack
+    # the back cone of a crown wheel is a cylinder: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
     virtual = z / narrow
     points = _tooth(virtual)
@@ -156,7 +153,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
     r, angle = np.array([point for point in section if point[1] >= 0]).T
     heights, halves = (1 - r) * mate / 2, 0.5 - angle * mate / (2 * pi) - _CROWN_BACKLASH
-    # short of the roots of its mate; the tips of that come as far short of its own
+    # the same bottom clearance at the roots of its mate and at its own
     low, high = heights[0] - (DEDENDUM - ADDENDUM), heights[-1] - (DEDENDUM - ADDENDUM)
     at = [low, *heights[heights < high], high]
     widths = np.clip(np.interp(at, heights, halves), _LAND / 2, _ROOM / 2)
@@ -179,7 +176,7 @@ def worm(starts: int, height: float) -> ToothProfile:
 def _tooth(z: float, addendum: float = ADDENDUM) -> Points:
     root = _root(z)
     tip = 1 + 2 * addendum / z
-    # a pointed tooth ends where its flanks are near to meeting
+    # a pointed tooth is shortened until its tip has a minimum width
     while _half(z, tip) < _LAND * pi / z and tip > 1:
         tip = 1 + 0.9 * (tip - 1)
     flank = [(r, min(_half(z, r), _ROOM * pi / z)) for r in _spread(root, tip)]
@@ -232,7 +229,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
     tree, train = stage.train.kinematics.tree, stage.train
     label = tree.axis(link) or ""
     place = stage.layout.axes.get(label)
-    # coaxial links are parts of the link that bears their axis, however their joints were declared
+    # coaxial links are carried by the link that carries their axis, whatever joints were declared
     bearer = tree.top.get(link)
     speed = stage.speed(link)
     return SceneBody(
@@ -429,8 +426,7 @@ def _doubt(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power that is lost at each wheel's meshes, half of a pair's loss at each wheel.
-    """
+    """Return the fraction of the input power lost at each wheel's meshes, half of a pair's loss at each wheel."""
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

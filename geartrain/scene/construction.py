@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 # ----------------------------------------------------------------------------------------------------- phases of wheels
 
 
-_NONE = 1e-9  # mm, or of a unit vector
+_NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are rounding errors
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,13 +73,13 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | N
     axes = stage.reference(first.axis), stage.reference(second.axis)
     if size(cross(*axes)) >= _NONE and any(wheel.is_helical for wheel in wheels):
         return None
-    if size(cross(*axes)) < _NONE:  # they are parallel
+    if size(cross(*axes)) < _NONE:  # parallel axes
         between = across(minus(second.centre, first.centre), axes[0])
         if size(between) < _NONE:
             return None
         n = unit_or_z(between)
         back = scaled(n, -1.0)
-        # a ring is touched from within, on the far side of its mate
+        # contact with a ring is inside it, on the far side of its mate
         contact = (back, back) if wheels[1].internal else (n, n) if wheels[0].internal else (n, back)
     else:
         contact = _towards(stage, first, second, axes[0]), _towards(stage, second, first, axes[1])
@@ -95,7 +95,7 @@ def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vecto
     return unit_or_z(across(lies, axis))
 
 
-_NEAR = 1e-6  # of a pitch: teeth that stand as their law has them
+_NEAR = 1e-6  # pitches: smaller phase differences are rounding errors
 _ROUNDS = 4
 
 
@@ -169,7 +169,7 @@ class _Mounting:
             self._note_phase(circuit, position)
             return
         at = position - self._ahead(circuit)
-        for _ in range(_ROUNDS):  # how far ahead depends on where the driver position, and that on how far ahead
+        for _ in range(_ROUNDS):  # fixed-point iteration: position and advance depend on each other
             at = position - self._ahead(circuit, at)
         self._set(circuit, 1 - own, at)
         self._note_phase(circuit, at)
@@ -191,8 +191,8 @@ class _Mounting:
     def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
         """Return how far (pitches, in the sense of rotation) the driven wheel's tooth is ahead of the driver's.
 
-        position   position of the driver's tooth (pitches); off the phase of its transmission function, the driven tooth
-                   is advanced until the driver does not interfere with it at any position
+        position   position of the driver's tooth (pitches); off the phase of its transmission function, the driven
+                   tooth is advanced until the driver does not interfere with it at any position
         """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
@@ -202,7 +202,7 @@ class _Mounting:
             return mesh.stands or 0.5
         driver = self._driver(circuit)
         if any(self.stage.layout.wheels[wheel].cone for wheel in circuit.wheels):
-            # no law knows the likeness of a crown: its teeth stand in the middle of spaces, in the mean
+            # approximate teeth of a crown have no transmission function: they are centred in spaces, on average
             middle = sum(setting.transmission.error_range()) / 2
             return 0.5 + (setting.error - middle) / self._pitch(circuit.wheels[1 - driver])
         shift = 0.0 if position is None else self._shift(circuit, position)
@@ -254,8 +254,9 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "their driver meshes with several wheels, and its angle follows from the first of them; the motion is exact, "
-                "and the driven teeth are advanced until nothing cuts into them, so that they touch only once per pitch",
+                "their driver meshes with several wheels, and its angle follows from the first of them; the motion is "
+                "exact, and the driven teeth are advanced until nothing cuts into them, so that they touch only once "
+                "per pitch",
                 "",
             )
 
@@ -263,7 +264,7 @@ class _Mounting:
 # -------------------------------------------------------------------------------------------------------- formula table
 
 
-_MOST_WHEELS = 300  # functions of the links of a long chain are long themselves
+_MOST_WHEELS = 300  # the length of formulas grows with the chain
 
 
 def find_count_formulas(
@@ -342,7 +343,7 @@ class _Table:
     """Indexed formulas without duplicates."""
 
     def __init__(self, place: Mapping[str, int]) -> None:
-        self.place = place  # of each wheel, that of its count
+        self.place = place  # index of the count of each wheel
         self.formulas: dict[CountFormula, int] = {}
 
     def index(self, found: Formulas, requested: tuple[str, str] | None) -> int | None:
@@ -414,7 +415,7 @@ def make_scene(
     >>> scene.movement.kind
     'exact'
     """
-    moves = originals(train.declaration)  # what was simulated moves equal planets as one
+    moves = originals(train.declaration)  # the simulation has equal planets as one link
     folded, train = train, train.unfolded
     declared = train.declaration
     state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
@@ -484,5 +485,5 @@ def _sources(train: GearTrain) -> dict[str, dict[str, str]]:
 
 
 def _plain(notice: Problem) -> dict[str, str]:
-    place = re.sub(r"^.*[\\/]", "", notice.place)  # a page is shown where nobody has the writer's folders
+    place = re.sub(r"^.*[\\/]", "", notice.place)  # a page is shown on other machines: no folders
     return {"what": notice.what, "why": notice.why, "fix": notice.fix, "place": place}

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.train import Output, StateCase
 
 _Z: Vector = (0.0, 0.0, 1.0)
-_MOST_LINKS = 100  # that stand for outputs
+_MOST_LINKS = 100  # maximum number of links used as outputs
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class SceneContext:
         own = self.along(axis)
         for label in (None, *self.train.declaration.axes):
             first = self.along(label)
-            # directions are floats by now: their cosine is 1 but for rounding
+            # the cosine of parallel directions is 1 except for rounding errors
             if abs(dot(first, own)) > 1 - 1e-9:
                 return own if dot(first, own) > 0 else (-own[0], -own[1], -own[2])
         return own

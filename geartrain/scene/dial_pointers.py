@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 # ---------------------------------------------------------------------------------------------------- output dependence
 
 
-_BUDGET = 4_000_000  # operations
+_BUDGET = 4_000_000  # maximum number of operations of the elimination
 
 
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
@@ -137,14 +137,14 @@ def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterabl
 Key = tuple[str, str, str]
 """Key of a dial: its name, the link on which it is mounted, the axis of the pointer that is read on it."""
 
-_APART = 0.96  # of the distance of two neighbours: what their radii may fill together
-_SPIRAL = 1.8  # radius of a spiral over that of a circle beside it
+_APART = 0.96  # maximum sum of the radii of two neighbours, over their distance
+_SPIRAL = 1.8  # radius of a spiral over that of a circle next to it
 _NESTED = 0.74  # radius over that of the dial around it
-_OUT, _BALL = 0.5, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own radius
-_LOWEST, _STEP = 0.02, 0.018  # over the radius of its dial: how high hands stand where no pipe bears them
-_PARTS = 4000  # of a radius, in which an engraving is told
-_MINIMUM = 0.3  # of the train's width, that a dial on a narrow side takes for the width of this side
-_GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
+_OUT, _BALL = 0.5, 0.07  # distance of a ball from the axis, and its radius, over the radius of its dial
+_LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes over the radius of the dial
+_PARTS = 4000  # integer units of an engraving in a radius
+_MINIMUM = 0.3  # minimum width of a side for the size of its dials, over the train's width
+_GAP = 0.04  # gap between wheels and dials, and between dials, over the train's width
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
@@ -240,7 +240,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
     output = stage.outputs[name]
     along = stage.along(stage.train.kinematics.tree.axis(output.of or name))
     side = dot(along, stage.near)
-    # an axis across the view looks neither way but for rounding: it keeps its own
+    # rounding errors must not decide for an axis perpendicular to the view: it keeps its direction
     normal = along if side > 0 or abs(side) < 1e-9 else scaled(along, -1.0)
     dial = declared.dials.get(output.dial or "")
     away = dial is not None and looks_away(dial.face, declared.view.from_)
@@ -254,7 +254,7 @@ def _width(stage: SceneContext) -> float:
         return 1.0
     low = min(place.centre[at] - place.radius for place in places for at in (0, 1))
     high = max(place.centre[at] + place.radius for place in places for at in (0, 1))
-    # not 0, for dials are parts of it
+    # not 0, because sizes of dials are relative to it
     return max(high - low, 1e-6)
 
 
@@ -316,7 +316,7 @@ def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
 
 
 def _rounded(u: Vector) -> Vector:
-    return round(u[0], 6), round(u[1], 6), round(u[2], 6)  # equal but for rounding is equal
+    return round(u[0], 6), round(u[1], 6), round(u[2], 6)  # removes rounding errors, for use as a key
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
@@ -342,7 +342,7 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     of, base = output.links(name, stage.train.declaration.frame)
     signs = stage.train.kinematics.signs
     speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
-    # seen from the side to which its axis points, a positive angle is counter-clockwise
+    # viewed against its axis, a positive angle is counter-clockwise
     sense = -1 if dot(stage.declared(of), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)
     circuits = [circuit for circuit in stage.train.circuits if circuit.id in set(pairs)]

@@ -26,7 +26,7 @@ RING = 0.17
 """Width of a scale around another one, relative to the radius."""
 
 _CELL = "cell"
-_NUMERALS, _HOURS = 12, 24  # numbers to a circle: counted from 0, declared
+_NUMERALS, _HOURS = 12, 24  # maximum count of numerals: default, declared
 _ROUND_STEPS = (1, 2, 5, 10, 15, 20, 30, 50, 60, 100, 200, 500)
 _ROMAN = {1000: "M", 900: "CM", 500: "D", 400: "CD", 100: "C", 90: "XC", 50: "L", 40: "XL", 10: "X", 9: "IX", 5: "V"}
 _ROMAN |= {4: "IV", 1: "I"}
@@ -189,17 +189,17 @@ def _step(count: int, most: int) -> int:
 # ------------------------------------------------------------------------------------------------------------ engraving
 
 
-_CHORDS = 90  # of a turn
-_MARKS = 400  # divisions of a turn that are still drawn singly
-_SHORT, _LONG = 0.032, 0.05  # borders of cells; of those at numerals
-_TALL, _MINIMUM = 0.068, 0.03  # of letters
-_BAND = 0.1  # from a rim to the middle of what is written along it
-_FULL = 0.86  # of its part that a name may fill
-_APART = 0.5  # of their height between numerals
+_CHORDS = 90  # chords per turn
+_MARKS = 400  # maximum number of divisions per turn of which each is drawn
+_SHORT, _LONG = 0.032, 0.05  # lengths of borders, and of those at numerals
+_TALL, _MINIMUM = 0.068, 0.03  # normal and minimum height of letters
+_BAND = 0.1  # from a rim to the middle of the text along it
+_FULL = 0.86  # maximum length of a name over that of its divisions
+_APART = 0.5  # gap between numerals over their height
 
 Kind = Literal["rim", "fine", "bold", "letters"]
 _WIDTHS: dict[Kind, float] = {"rim": 0.005, "fine": 0.003, "bold": 0.007}
-_PEN = 0.12  # over the height of letters
+_PEN = 0.12  # line width over the height of letters
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,7 +280,7 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
     for every in range(1, 7):
         heights = {part: _fitting(scale, radius, part, every) for part in named[::every]}
         kept = {part: height for part, height in heights.items() if height >= _MINIMUM}
-        if len(kept) >= 0.8 * len(heights):  # five days at the year's end have no room for their name
+        if len(kept) >= 0.8 * len(heights):  # five days at the year's end are too few for their name
             break
     height = min([_TALL, *kept.values()])
     if kept:

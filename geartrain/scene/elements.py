@@ -79,7 +79,7 @@ class SceneHanger:
     """Turned parts of it, in their places in the zero pose: rod and bob, or the weight."""
 
 
-# Not in every train: `SceneCoupling.slot_turn` (starting angles), heights in place of radii in the profiles of bevel
+# Not in every train: `SceneCoupling.slot_turn` (starting angles), heights instead of radii in the profiles of bevel
 # and contrate wheels.
 
 

@@ -41,8 +41,7 @@ def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[st
 
 
 def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
-    """Return the equation of a circuit as text: `64 (b - frame) + 38 (c - frame) = 0`; names are the declared speeds.
-    """
+    """Return the equation of a circuit as text: `64 (b - frame) + 38 (c - frame) = 0`; names are declared speeds."""
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
@@ -105,11 +104,11 @@ def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftEle
     return tuple(found)
 
 
-# offset over pin radius, where none is declared
+# default ratio of offset to pin radius
 _LIKE = {"pin_and_slot": 0.15, "pin_follower": 3.0, "pins_in_holes": 0.1}
-_PART = 0.65  # of the distance of two pins: a hole, where no pin is declared
-_REACH = 10.0  # mm, of a pin where neither sizes nor places give one
-_NONE = 1e-9  # mm
+_PART = 0.65  # default diameter of a hole over the distance of two pins
+_REACH = 10.0  # default pin radius (mm)
+_NONE = 1e-9  # mm: smaller distances are rounding errors
 
 
 def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoupling, ...]:
@@ -154,7 +153,7 @@ def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, a
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
-        first = next(each for each in same if each.pin == declared.pin)  # whose pins go through all discs
+        first = next(each for each in same if each.pin == declared.pin)  # its pins pass through all discs
         between = across(minus(_point(stage, tree.axis(first.slot)), middle), axis)
         towards = unit_or_z(between) if size(between) > _NONE else towards
         for place in stage.layout.axes.values():
@@ -214,8 +213,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the nearest wheels of the two links; that of the pin's axis if they have none.
-    """
+    """Return the height midway between the nearest wheels of the two links; without wheels that of the pin's axis."""
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

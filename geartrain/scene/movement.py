@@ -157,8 +157,8 @@ class Movement:
     """Constant errors by the index of the body [rad]."""
 
 
-TOLERANCE = 1e-11  # of a driven pitch
-_DEGREES = (7, 9, 11, 14)  # tried in turn: the smallest table wins
+TOLERANCE = 1e-11  # maximum error of a table in driven pitches
+_DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table is used
 
 
 def step_of(step: Composed) -> ErrorStep:
@@ -186,7 +186,7 @@ def laws_and_sources(
     sources = []
     for source in composition.sources:
         transmission = tabulated(source.id, source.transmission)
-        # bit by bit: laws that differ only by rounding come from pairs that are not alike
+        # compared bit by bit: functions that differ by rounding errors come from different pairs
         key = transmission.period, transmission.breaks.tobytes(), transmission.coefficients.tobytes()
         transmissions.setdefault(key, transmission)
         joint = composition.spread.joints[source.pair]
@@ -215,12 +215,12 @@ def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
 
     tables = (TabulatedTransmission(transmission, TOLERANCE, degree).error_table for degree in _DEGREES)
     pitch = (float(transmission.ratio) or 1.0) * transmission.period
-    # where rounding keeps all tables from the tolerance, the nearest one
+    # if rounding errors keep all tables above the tolerance, the most accurate one is used
     table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
-    # corners, where the error has a kink, part cells: no polynomial runs across one
+    # cells are split at kinks, because a polynomial must not cross one
     breaks = np.sort(np.concatenate((np.arange(table.cells + 1) * (transmission.period / table.cells), table.kinks)))
-    breaks[-1] = transmission.period  # not cells times a quotient, which rounds
-    wide = np.diff(breaks) > 0  # a corner on the border of a cell leaves none between
+    breaks[-1] = transmission.period  # exact, unlike cells times a quotient
+    wide = np.diff(breaks) > 0  # a kink on the border of a cell gives an empty cell
     return ErrorTable(
         pair,
         transmission.period,
@@ -233,8 +233,8 @@ def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
 # --------------------------------------------------------------------------------------------------------- from a train
 
 
-_TRIED_ERRORS = 720  # angles of a driver at which a law is compared with itself
-_TRIED = 257  # positions at which pairs that depend on each other are tried
+_TRIED_ERRORS = 720  # angles of a driver at which a transmission error is compared with its shifted copy
+_TRIED = 257  # positions at which coupled pairs are tested
 
 
 @dataclass(frozen=True, slots=True)
@@ -279,8 +279,7 @@ class MovementStart:
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement of a train in its state. If errors cannot be followed it is the mean motion, with the reason.
-    """
+    """Return the movement of a train in its state: the mean motion, with the reason, if errors cannot be followed."""
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _started(stage))
@@ -327,7 +326,7 @@ def _try(composition: ErrorComposition, turns: float) -> None:
     import numpy as np
 
     if any(step.coupled for step in composition.steps):
-        composition.at(np.linspace(0, turns, _TRIED))  # past a dead centre this raises
+        composition.at(np.linspace(0, turns, _TRIED))  # this raises an error beyond a dead centre
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
@@ -343,8 +342,7 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _written(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement of a composition, `exact` if ratios are constant. Backlash may still give constant offsets.
-    """
+    """Return the movement of a composition, `exact` if ratios are constant. Backlash may still give offsets."""
     transmissions, sources = laws_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(

@@ -119,7 +119,7 @@ THEMES: dict[ThemeName, Theme] = {
         shade="#b8b8b8",
         band="#d8d8d8",
         scale=("#f6f6f6", "#b4b4b4", "#6e6e6e"),
-        series=("#000000", "#737373") * 5,  # the other grey where dashes come again
+        series=("#000000", "#737373") * 5,  # two greys: dashes repeat with the other one
         areas=(
             ("#555555", ""), ("#bbbbbb", ""), ("#ffffff", "/////"), ("#e4e4e4", ""), ("#ffffff", "xxxxx"),
             ("#ffffff", "-----"), ("#bbbbbb", "....."), ("#ffffff", "|||||"), ("#bbbbbb", "\\\\\\\\\\"),

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_ROUNDS, _CONVERGED = 500, 1e-14  # of fixed-point iteration, for pairs that depend on each other; rad
+_ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, and tolerance (rad)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: se
     """Place a body after its parents. Each turns relative to its parent about its own axis, which moves with the
     parent.
     """
-    line, here = [], at  # up to a body that is placed: a chain may be longer than Python's stack is deep
+    line, here = [], at  # a loop, because a chain may exceed Python's recursion limit
     while here not in done:
         line.append(here)
         done.add(here)
@@ -153,7 +153,7 @@ def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) ->
 def _value(transmission: ErrorTable, S: float) -> float:
     """Return the tabulated transmission error at a driver's angle (rad)."""
     s = S % transmission.period
-    # clamped: rounding may put s on the period itself
+    # clamped, because rounding may make s equal to the period
     cell = min(max(int(np.searchsorted(transmission.breaks, s, side="right")) - 1, 0), len(transmission.breaks) - 2)
     x = s - (transmission.breaks[cell] + transmission.breaks[cell + 1]) / 2
     return float(np.polynomial.polynomial.polyval(x, transmission.coefficients[cell]))

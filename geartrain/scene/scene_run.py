@@ -172,8 +172,8 @@ class SceneRun(Result):
 
 TOLERANCE = 1e-4
 """Maximum deviation of angles on a page from those of the simulation (rad)."""
-_TOUCHES = 1e-9  # rad: gaps that are rounding of angles
-_FLAT = 1e6  # of times over angles: what is off a line is then off upwards
+_TOUCHES = 1e-9  # rad: smaller gaps are rounding errors of angles
+_FLAT = 1e6  # ratio of the scales of time and angle, so that deviations from a line are measured along the angle
 
 
 @dataclass(frozen=True)
@@ -221,7 +221,7 @@ class ShownSamples:
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
-        on_front = (front <= back) | (front <= _TOUCHES)  # without play a pair is on both
+        on_front = (front <= back) | (front <= _TOUCHES)  # without backlash a pair is on both
         code = np.where(np.minimum(front, back) > _TOUCHES, 2, np.where(on_front, 0, 1))
         changes = np.concatenate(([0], 1 + np.flatnonzero(np.diff(code))))
         return changes, "".join("dca"[each] for each in code[changes])
@@ -333,8 +333,7 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the contact point of pallets with the escape wheel, a wheel without mates; else that of the largest wheel.
-    """
+    """Return the contact point of pallets with the escape wheel, a wheel without mates, else with the largest wheel."""
     if not wheels:
         return (0.0, 0.0, 0.0)
     free = [wheel for wheel in wheels if not wheel.circuits] or wheels

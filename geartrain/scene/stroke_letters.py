@@ -90,10 +90,10 @@ HANDS: Mapping[str, HandOutline] = {
 Point = tuple[float, float]
 Stroke = tuple[Point, ...]
 
-_HIGH = 8  # of a capital, in the grid below
+_HIGH = 8  # height of a capital in the grid below
 _APART, _SPACE = 2.2, 3.0
 
-# strokes by letter: corners as x and y in one figure each, from the foot of the letter; after ~ a stroke is rounded
+# strokes by letter: corners as one digit each for x and y, from the base line; ~ marks a rounded stroke
 _LATIN = {
     "A": "003860 1353",
     "B": "0008 ~083857553404 ~044463614000",
@@ -163,8 +163,7 @@ _UNKNOWN = "0008585000"
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital, of height 1 above the base line at 0, and its width; an unknown letter is a box.
-    """
+    """Return the strokes of a capital of height 1 above the base line at 0, and its width; a box if it is unknown."""
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)

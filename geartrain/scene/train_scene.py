@@ -8,7 +8,7 @@ after `t` turns of the driving link, is
 with exact speed and the error from `Movement`. Relative to its parent, the body is rotated by A(body) - A(parent) about
 the line through `point` along `direction`, after the parent has moved that line with it (the frame has A = 0).
 """
-# Not in every train: the verdict's "advice" (trains that stand).
+# Not in every train: the verdict's "advice" (only for trains that cannot turn).
 
 from __future__ import annotations
 

@@ -23,9 +23,9 @@ Point = tuple[float, float]
 """Point in plan: coordinates (mm) perpendicular to parallel axes."""
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]
-_TOUCHING = 1e-12  # of a distance: nearer to it, pitch circles touch
-_ACROSS = 1e-9  # of a direction along z: below that, an axis lies across the view
-WORM = Fraction(5)  # pitch radius of a worm over its axial module: slender, but not weak
+_TOUCHING = 1e-12  # relative distance below which pitch circles touch
+_ACROSS = 1e-9  # z component below which an axis is perpendicular to the view
+WORM = Fraction(5)  # default pitch radius of a worm over its axial module
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +83,8 @@ class Parallels:
 
 
 def upwards(direction: Vector) -> Vector:
-    """Return a direction or its opposite, whichever points upwards along z, or along the last coordinate that is not 0.
-    """
-    last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # of a unit vector: less is rounding
+    """Return a direction or its opposite, whichever points upwards along z, or its last nonzero coordinate."""
+    last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # smaller ones are rounding errors
     return direction if last > 0 else (-direction[0], -direction[1], -direction[2])
 
 
@@ -255,7 +254,7 @@ def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
     groups: dict[tuple[Fraction, ...], int] = {}
     for name, link in _first_links(declared, tree).items():
         direction = axes.direction(name)
-        # parallels, of either sense and any length, are equal once their first coordinate is 1: exact, no tolerance
+        # parallel vectors are equal if scaled to a first nonzero coordinate of 1: exact, without a tolerance
         scale = next(part for part in direction if part)
         group = groups.setdefault(tuple(part / scale for part in direction), len(groups))
         top = max(map(abs, direction))  # divided exactly first: the float of a huge Fraction would overflow
@@ -295,12 +294,11 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return factors of centre distances of real teeth relative to touching pitch circles, by pair, if they are not 1.
-    """
+    """Return centre distances of real teeth relative to touching pitch circles, by pair, if they are not 1."""
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:
-        return {}  # why there are no such teeth is told where they are asked for
+        return {}  # the reason is reported where the teeth are requested
     return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}
 
 
@@ -311,7 +309,7 @@ def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front
             dial = declared.dials.get(output.dial or "")
             link = output.of or name
             line = lines.get(tree.axis(link) or "")
-            across = line is not None and abs(line.direction[2]) < _ACROSS  # it looks neither to the reader nor away
+            across = line is not None and abs(line.direction[2]) < _ACROSS  # it faces neither the reader nor away
             if dial is None or dial.look == "ball" or (across and dial.face not in ("front", "back")):
                 continue
             high = (front > 0) != looks_away(dial.face, declared.view.from_)

@@ -31,7 +31,7 @@ from geartrain.scene.layout.wheel_stacks import StackProblem, WheelStack
 # --------------------------------------------------------------------------------------------------------- stack blocks
 
 
-_GAP = 0.4  # of the median thickness: left free between levels
+_GAP = 0.4  # gap between levels over the median thickness
 
 Node = tuple[str, str]
 """A wheel, ("wheel", name), or a crossing axis, ("axis", label)."""
@@ -224,7 +224,7 @@ class _BlockBuilder:
         flat, rise = hypot(u, v), self._rise(across)
         x, y = self.places[side.axis]
         offset += far * rise
-        if each.contact.kind == "screw":  # the axes pass each other, a radius of each wheel apart
+        if each.contact.kind == "screw":  # skew axes: the distance is the sum of the radii
             reach = self.sizes[side.wheel].radius + size.radius
             aside = self.parallels.flat(each.seat.out)
             x, y = x + reach * aside[0], y + reach * aside[1]
@@ -243,7 +243,7 @@ class _BlockBuilder:
 # ---------------------------------------------------------------------------------------------------------- axial slots
 
 
-_TRIES = 20_000  # slots that are tried for one group of wheels; then they stay in one level
+_TRIES = 20_000  # maximum number of trials for one group of wheels; then they stay in one level
 
 
 class AxialSlots(NamedTuple):
@@ -373,8 +373,7 @@ class Arrangement:
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return the places of all groups of parallels, that with most wheels first, then those that mesh with placed ones.
-    """
+    """Return the places of all groups of parallels: that with most wheels first, then those that mesh with it."""
     declared = geometry.declared
     order = _order(geometry)
     placing = _Placing(geometry)
@@ -457,7 +456,7 @@ class _Placing:
         if fixed:
             return fixed
         labels, declared = list(parallels.index), self.geometry.declared
-        for each in self.geometry.crossing:  # nothing of these stands, but an axis they meet is given
+        for each in self.geometry.crossing:  # none of these is fixed, but an axis that they intersect is
             given = declared.lines[each.side.mate_axis].given
             if each.side.axis in parallels.index and given is not None:
                 return {each.side.axis: parallels.flat(given)}

@@ -12,10 +12,10 @@ from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, Parallels, Point
 from geartrain.scene.layout.wheel_modules import CrossingSide, SizedGeometry
 
-# Distances that nothing declares, over radii of the wheels: near enough to look held together, far enough to be seen
-_ENCLOSED = 0.12  # of a slot's axis from that of a pin whose circle encloses it
-_TIED = 1.6  # of other pins and slots
-_CARRIED = 1.2  # of an axis from that of its carrier
+# Default distances over radii of the wheels, chosen for legible pictures
+_ENCLOSED = 0.12  # from the axis of a slot to that of a pin whose circle encloses it
+_TIED = 1.6  # for other pins and slots
+_CARRIED = 1.2  # from an axis to that of its carrier
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,8 +145,7 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Yield planets between a sun and a ring with their assembly positions, as many as both central gears have teeth.
-    """
+    """Yield planets between a sun and a ring with their number of assembly positions, z_sun + z_ring."""
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:
         for side in contact.sides:

@@ -30,10 +30,10 @@ if TYPE_CHECKING:
 # ------------------------------------------------------------------------------------------------------- plan clearance
 
 
-_HARD = 100.0  # cost of wheels that collide in one level, by how far (mm over mm)
-_OVER = 1.0  # of discs one above the other: levels part them, but flat is better
-_COVER = 2.0  # of a disc over another axis, whose arbor it may meet
-_MOST_AXES = 1500  # axes up to which wheels of one level are told from others
+_HARD = 100.0  # cost per mm of overlap of wheels in one level
+_OVER = 1.0  # cost per mm of overlap of discs in different levels, because fewer levels are better
+_COVER = 2.0  # cost per mm of a disc over another axis, whose arbor it may hit
+_MOST_AXES = 1500  # maximum number of axes for which levels are distinguished
 
 
 class PlanClearance:
@@ -103,7 +103,7 @@ def _minimum_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[fro
                 if mate in number:
                     apart[number[disc.wheel], number[mate]] = 0.0
         ends = np.array([at for at, _ in members])
-        np.maximum.at(need, np.ix_(ends, ends), apart)  # not need[...] = : an axis may have several wheels of a cluster
+        np.maximum.at(need, np.ix_(ends, ends), apart)  # unbuffered, as an axis may have several wheels of a cluster
     np.fill_diagonal(need, 0.0)
     return need
 
@@ -119,7 +119,7 @@ def _mates(pairs: frozenset[frozenset[str]]) -> Mapping[str, Sequence[str]]:
 # ----------------------------------------------------------------------------------------------------------- plan order
 
 
-_NEAR = 60  # axes on closed chains up to which chains are followed: that takes time with their square
+_NEAR = 60  # maximum number of axes on closed chains for which bounds are found: time grows with its square
 
 
 class Bar(NamedTuple):
@@ -192,7 +192,7 @@ class PlanOrder:
         for at, joined in enumerate(self._joined):
             if len(joined) == 1 and self._pivot.get(at) in joined and at not in fixed:
                 (pivot, length), *_ = joined.items()
-                # rounded: lengths that are equal but for rounding are alike
+                # rounded, so that equal lengths compare equal
                 alike.setdefault((pivot, round(length, 9), round(float(self.radius[at]), 9)), []).append(at)
         return {at: tuple(group) for group in alike.values() for at in group}
 
@@ -210,7 +210,7 @@ class PlanOrder:
             rank = heappop(waiting)
             at = rank.axis
             if at in placed or rank != self._rank(at, count[at], placed):
-                continue  # it has been put in, or waits with another rank too
+                continue  # an outdated entry: already placed, or queued again with another rank
             tied = tuple(
                 DistanceBound(other, length, length) for other, length in self._joined[at].items() if other in placed
             )
@@ -222,13 +222,13 @@ class PlanOrder:
                 count[other] += 1
             for other in {*self._joined[at], *carried.get(at, ())} - placed:
                 heappush(waiting, self._rank(other, count[other], placed))
-        stand = np.array(order, np.intp)  # each step sees a part of one array: no copy a step
+        stand = np.array(order, np.intp)  # views of one array, without a copy per step
         return [PlanStep(at, stand[:known], tied, bounds) for at, known, tied, bounds in found]
 
     def _rank(self, at: int, tied: int, placed: set[int]) -> _Rank:
         late = at in self._pivot and self._pivot[at] not in placed
         weight = float(self.radius[at]) if tied else float(len(self._joined[at]))
-        # rounded, so that radii equal but for rounding stand in the order declared
+        # rounded, so that equal radii keep the order declared
         return _Rank(late, -tied, -round(weight, 9), at)
 
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
@@ -250,7 +250,7 @@ class PlanOrder:
 
         The ends of a chain of bars are at most its length apart, and at least the longest bar minus the rest.
         """
-        ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # length, longest bar, end
+        ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # (length, longest bar, end)
         done: set[int] = set()
         found: list[DistanceBound] = []
         while ways:
@@ -271,15 +271,15 @@ class PlanOrder:
 # ---------------------------------------------------------------------------------------------------------- plan search
 
 
-_TOUCH = 1e-10  # of a distance: nearer than this it is kept
-_STEPS = 60  # of Gauss-Newton
-_MOST = 400  # points up to which a dense matrix is solved
-_DIRECTIONS = 48  # in which an axis on one circle is tried
-_BEAM = ((60, 12), (200, 4))  # axes up to which that many plans are kept
-_MISS = 1e4  # cost of a distance that is missed (mm over mm)
-_FAR = 0.15  # of the way from the middle of all that stands
-_SIDE = 0.3  # of standing away from the side where a wheel across needs room
-_ROW = 1.2  # of the radii of two axes in a row: their distance where nothing else gives it
+_TOUCH = 1e-10  # relative error below which a distance is satisfied
+_STEPS = 60  # maximum number of Gauss-Newton steps
+_MOST = 400  # maximum number of points for a dense matrix
+_DIRECTIONS = 48  # candidates on a circle
+_BEAM = ((60, 12), (200, 4))  # (maximum number of axes, width of the beam)
+_MISS = 1e4  # cost per mm of error of a distance
+_FAR = 0.15  # cost per mm from the middle of the placed axes
+_SIDE = 0.3  # gain per mm towards the side of a crossing wheel
+_ROW = 1.2  # default distance of two axes in a row over the sum of their radii
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
@@ -294,10 +294,10 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
     along = (apart * apart + radius * radius - other * other) / (2 * apart)
     square = radius * radius - along * along
     if square < -1e-9 * radius * radius:
-        # they do not cross: the point as far off from one circle as from the other
+        # no intersection: the point equidistant from both circles
         side, back = (-1 if other > apart + radius else 1), (1 if radius > apart + other else -1)
         along, square = (apart + back * other + side * radius) / 2, 0.0
-    high = max(square, 0.0) ** 0.5  # circles that touch may miss each other by rounding
+    high = max(square, 0.0) ** 0.5  # for tangent circles rounding errors may make it negative
     u, v = (b[0] - a[0]) / apart, (b[1] - a[1]) / apart
     x, y = a[0] + along * u, a[1] + along * v
     return [(x - high * v, y + high * u), (x + high * v, y - high * u)] if high else [(x, y)]
@@ -327,7 +327,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
     bars = [bar for bar in bars if not {bar.first, bar.second} <= fixed]
     if not bars or not free or len(points) > _MOST:
         return points
-    # a distance of 0 gives no scale of its own
+    # a distance of 0 defines no scale
     kept = _TOUCH * np.array([max(bar.length, 1e-9) for bar in bars])
     if np.all(np.abs(_distance_misses(points, bars)[0]) <= kept):
         return points
@@ -341,7 +341,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
             for end, sign in ((bar.first, -1.0), (bar.second, 1.0)):
                 if end in column:
                     jacobian[row, column[end] : column[end] + 2] = sign * ways[row]
-        # the least step: plans that may turn or bend freely have no unique one
+        # minimum-norm step, because plans may have free rotations
         move = np.linalg.lstsq(jacobian, -miss, rcond=1e-9)[0].reshape(-1, 2)
         longest = float(np.abs(move).max())
         points[free] += move * min(1.0, longest_step / longest) if longest else 0.0
@@ -416,7 +416,7 @@ class _BeamSearch:
             apart = candidates - plan.points[step.placed].mean(axis=0)
             costs += _FAR * np.hypot(apart[:, 0], apart[:, 1])
             costs -= _SIDE * apart @ np.array(self.problem.sides.get(self.problem.labels[step.axis], (0.0, 0.0)))
-        # rounded and stable: of places that are equal but for rounding, the first on every machine
+        # rounded and stable, so that ties are broken alike on every machine
         best = np.argsort(costs.round(9), kind="stable")[: self.width].tolist()
         return [_Option(plan, candidates[at], round(plan.cost + float(costs[at]), 9)) for at in best]
 
@@ -487,7 +487,7 @@ class _BeamSearch:
         if count and alike:
             turns = list(dict.fromkeys(round(turn * count) / count for turn in turns))
         found = [(x + far * cos(first + 2 * pi * turn), y + far * sin(first + 2 * pi * turn)) for turn in turns]
-        for bound in step.bounds:  # arcs from which the rest still reaches may be narrow
+        for bound in step.bounds:  # feasible arcs may be narrower than the spacing of directions
             found += crossings((x, y), far, points[bound.axis].tolist(), (bound.minimum + bound.most) / 2)
         return found
 

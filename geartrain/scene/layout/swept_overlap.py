@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     Flags = NDArray[np.bool_]
 
-_SLACK = 1e-9  # of a radius: discs that touch as placed do not overlap by rounding
+_SLACK = 1e-9  # relative to a radius: touching discs must not overlap by rounding errors
 
 
 class Disc(Protocol):
@@ -39,8 +39,7 @@ class Disc(Protocol):
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
-    """Return whether two wheels at one height collide if the distance of their axes ranges from `near` to `far` (mm).
-    """
+    """Return whether two wheels at one height collide if their axes are `near` to `far` (mm) apart."""
     for ring, inside in ((disc, other), (other, disc)):
         if ring.inner and far + inside.outer <= ring.inner * (1 + _SLACK):
             return False
@@ -73,7 +72,7 @@ def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> S
 
     Axes carried by a link that turns about another direction are infinitely far from all that it does not carry.
     """
-    seen: dict[tuple[str, ...], list[_Swept]] = {}  # by the link that sees, with all that bear it
+    seen: dict[tuple[str, ...], list[_Swept]] = {}  # by link, with all links that carry it
     for at, line in enumerate(lines):
         centre, low, high = line.label, 0.0, 0.0
         for depth in range(len(line.bearers)):
@@ -87,7 +86,7 @@ def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> S
             centre = pivot
     count = len(lines)
     found = SweptDistances(np.full((count, count), np.inf), np.zeros((count, count)))
-    # the nearest common bearer counts: it has the most above it, so it comes last and overwrites the others
+    # the nearest common carrier has the longest chain to the frame, so it comes last and overwrites the others
     for _, members in sorted(seen.items(), key=lambda each: len(each[0])):
         _fill(found, members, places)
     return found
@@ -99,7 +98,7 @@ def _fill(found: SweptDistances, members: Sequence[_Swept], places: Mapping[str,
     low, high = np.array([member.low for member in members]), np.array([member.high for member in members])
     apart = np.hypot(*(points[:, None, axis] - points[None, :, axis] for axis in (0, 1)))
     block = np.ix_(index, index)
-    if not high.any():  # none is carried round: the distance itself, not a difference that rounds
+    if not high.any():  # none is carried: the distance itself, without rounding errors of differences
         found.near[block] = found.far[block] = apart
         return
     reach = high[:, None] + high[None, :]
@@ -166,7 +165,7 @@ def find_plan_overlap(
     inner = np.array([block.inner for block in blocks])
     stacks = np.array([block.stack for block in blocks])
     apart = swept.near[np.ix_(axis, axis)]
-    off = swept.near[:, axis].copy()  # axes against blocks
+    off = swept.near[:, axis].copy()  # shape (axes, blocks)
     for at, block in enumerate(blocks):
         if block.trace is not None:
             away = np.array([segment_distance(places[line.label], *block.trace) for line in lines])

@@ -27,8 +27,8 @@ from geartrain.scene.layout.wheel_stacks import WheelStack
 # --------------------------------------------------------------------------------------------------- layout diagnostics
 
 
-_TOUCH = 1e-9  # of the pitch radii: nearer than this, pitch circles touch
-_MEET = 1e-6  # of them, where axes meet, for directions are rounded as written
+_TOUCH = 1e-9  # gap over the pitch radii below which pitch circles touch
+_MEET = 1e-6  # the same for axes that are not parallel, whose declared directions are rounded
 _SHOWN = 6
 
 
@@ -145,7 +145,7 @@ def _listed(words: Sequence[str]) -> str:
 # ------------------------------------------------------------------------------------------------------- mesh alignment
 
 
-_TEETH_MEET = 1e-6  # of a pitch: nearer, teeth meet
+_TEETH_MEET = 1e-6  # phase error (pitches) below which teeth mesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,7 +255,7 @@ def _past(side: PitchSide, turn: float) -> float:
 def _turn_of_mate(own: PitchSide, mate: PitchSide, sense: int, turn: float) -> float:
     """Return the angle (rad) of the mate of a wheel whose angle is known."""
     pitch = 2 * pi / mate.teeth
-    # s_2 = 1/2 - s_1 where against each other, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
+    # s_2 = 1/2 - s_1 for opposite senses, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
     return (mate.angle + (0.5 + sense * _past(own, turn)) * pitch) % pitch
 
 
@@ -268,8 +268,8 @@ def _miss(one: PitchPoint, turns: Mapping[str, float]) -> float:
 
 
 How = Literal["given", "found", "free"]
-_Z: Vector = (0.0, 0.0, 1.0)  # the axis of what is declared to stand on none
-_PARALLEL = 1e-9  # of the cosine: directions are rounded to floats
+_Z: Vector = (0.0, 0.0, 1.0)  # direction for wheels without an axis
+_PARALLEL = 1e-9  # of the cosine, because directions are rounded to floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -480,7 +480,7 @@ def _layers(found: Arrangement) -> dict[str, int]:
     levels: list[float] = []
     layers = {}
     for wheel, height in sorted(heights.items(), key=lambda each: each[1]):
-        if not levels or height - levels[-1] > 1e-6 * sizes[wheel].thickness:  # less is rounding
+        if not levels or height - levels[-1] > 1e-6 * sizes[wheel].thickness:  # smaller differences are rounding errors
             levels.append(height)
         layers[wheel] = len(levels) - 1
     return layers

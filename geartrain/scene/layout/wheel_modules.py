@@ -32,11 +32,11 @@ from geartrain.teeth.standard_teeth import DEDENDUM
 # -------------------------------------------------------------------------------------------------------- closed chains
 
 
-_ROUNDS = 12  # over all distances; each changes what the others need
-_MOST = 300  # distances on closed chains up to which modules are balanced: time grows with their square
-_TIGHT = 0.97  # of the way round: a distance that is longer leaves wheels no room
-_LOOSE = 0.85  # what it is made then
-_MINIMUM = Fraction(1, 1000)  # factor by which a module may shrink in one step
+_ROUNDS = 12  # passes over all distances, because changes affect each other
+_MOST = 300  # maximum number of distances on closed chains: time grows with its square
+_TIGHT = 0.97  # maximum of a distance over the path round it: more leaves no space for wheels
+_LOOSE = 0.85  # target of that ratio
+_MINIMUM = Fraction(1, 1000)  # minimum factor of a module in one step
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +95,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
     rest = [other for other in way if other.root != one.root]
     if one.root in free and rest:
         same = way_length - sum(other.length(modules) for other in rest)
-        # the part of the way with the same module shrinks along; the floor keeps the factor's sign where both are even
+        # distances of the path with the same module shrink too; the floor keeps the factor positive if both are equal
         factor = _LOOSE * (way_length - same) / max(length - _LOOSE * same, 1e-9 * length)
         if 0 < factor < 1:
             modules[one.root] *= _simple(factor) or _MINIMUM
@@ -116,8 +116,7 @@ def _simple(factor: float) -> Fraction:
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance that does not use it (Dijkstra); empty if there is none.
-    """
+    """Return the shortest path between the axes of a distance without this distance (Dijkstra); empty without one."""
     joined: dict[str, list[tuple[str, int]]] = {}
     for number, one in enumerate(distances):
         if number != at:
@@ -126,7 +125,7 @@ def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int,
             joined.setdefault(second, []).append((first, number))
     start, goal = distances[at].axes
     waiting: list[tuple[float, str, int, str]] = [(0.0, start, -1, "")]
-    came: dict[str, tuple[int, str]] = {}  # axis -> the distance by which it was reached first, and from where
+    came: dict[str, tuple[int, str]] = {}  # axis -> distance on its shortest path, and the axis before it
     while waiting:
         length, here, by, before = heappop(waiting)
         if here in came:
@@ -148,7 +147,7 @@ def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int,
 # -------------------------------------------------------------------------------------------------------- wheel modules
 
 
-_MODULE = Fraction(1)  # mm, where nothing of a train has a size
+_MODULE = Fraction(1)  # mm: default module
 
 
 @dataclass(frozen=True, slots=True)
@@ -312,11 +311,11 @@ class _ModuleSearch:
 # ---------------------------------------------------------------------------------------------------------- wheel sizes
 
 
-_TIP = DEDENDUM  # modules beyond the pitch circle that are kept free: a tooth, and clearance
-_RING = 3.5  # modules of a ring's rim
-WIDE = 2.5  # modules of a wheel's thickness
-_SLOT = 1.4  # thicknesses from slot to slot
-_WORM = 12.0  # modules of a worm's length
+_TIP = DEDENDUM  # modules of free space beyond the pitch circle: addendum and clearance
+_RING = 3.5  # modules from the pitch circle of a ring to the outside of its rim
+WIDE = 2.5  # default thickness in modules
+_SLOT = 1.4  # spacing of slots in thicknesses
+_WORM = 12.0  # length of a worm in modules
 
 
 @dataclass(frozen=True, slots=True)
@@ -356,7 +355,7 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
             Seat(facing * (second * sine + reach * cosine), atan2(sine, cosine), out),
             Seat(other_facing * reach, 0.0, other_out),
         )
-    cone = atan2(sine * first, second + first * cosine)  # not atan: beyond a right angle the cosine is negative
+    cone = atan2(sine * first, second + first * cosine)  # not atan: for obtuse shaft angles the cosine is negative
     other_cone = atan2(sine * second, first + second * cosine)
     return (
         Seat(facing * first / tan(cone), cone, out),
@@ -458,7 +457,7 @@ def _size(geometry: DeclaredGeometry, wheel: str, module: float, is_given: bool)
     declared = geometry.wheel(wheel)
     radius = float(geometry.radius(wheel)) * module
     usual = (_WORM if declared.kind == "worm" else WIDE) * module
-    # of a wheel that may have any size a thickness says nothing
+    # a declared thickness is not used for a wheel of undetermined size
     thickness = geometry.thickness.get(wheel, usual) if is_given else usual
     across_axis = module * declared.slant
     if declared.internal:

@@ -11,11 +11,11 @@ from math import pi, sin, tan
 
 from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
 
-LAND = 0.01  # of the pitch radius: metal under the roots
+LAND = 0.01  # metal under the roots, over the pitch radius
 CROWN = pi / 2 - 1e-6
 """Cone half angle (rad) above which a cone is treated as the plane of a crown wheel, which contains the apex."""
-_BACK = 0.35  # of the thickness: metal behind the teeth
-_MOST_FACE = 0.45  # of the cone's length, whatever the thickness
+_BACK = 0.35  # metal behind the teeth, over the thickness
+_MOST_FACE = 0.45  # maximum face width over the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:

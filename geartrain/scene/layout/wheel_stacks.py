@@ -25,14 +25,15 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats, Indices
 
-_PIERCED = 1.0  # cost of an arbor that goes through a wheel
-_HELD = (0.0, 4.0, 2.0)  # of one that reaches into what stands still: in turn, as dear from the start finds less
-_LONG = 0.02  # of a level that an arbor spans
-_LEVEL = 0.005  # of a level used
-_PASSES = 8  # over all stacks
-_RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved together
-_AT_ONCE = 500  # orders of which costs are worked out together: more would not stay in the cache
-_SEARCHED = 80  # stacks up to which every place is tried
+_PIERCED = 1.0  # cost of an arbor that passes through a wheel
+# cost of an arbor that interleaves with fixed wheels, in successive passes: a high initial cost gives worse optima
+_HELD = (0.0, 4.0, 2.0)
+_LONG = 0.02  # cost of a level that an arbor spans
+_LEVEL = 0.005  # cost of a level
+_PASSES = 8  # maximum number of passes over all stacks
+_RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved or reversed
+_AT_ONCE = 500  # orders evaluated at once: more would not fit into the cache
+_SEARCHED = 80  # maximum number of stacks for the local search
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ class _OrderSearch:
 
     def _carried(self) -> list[tuple[int, ...]]:
         problem = self.problem
-        carried: dict[str, dict[int, None]] = {arbor: {} for arbor in problem.arbors}  # keys in order, each once
+        carried: dict[str, dict[int, None]] = {arbor: {} for arbor in problem.arbors}  # used as an ordered set
         for block in problem.blocks:
             if block.link in carried:
                 carried[block.link][block.stack] = None
@@ -115,7 +116,7 @@ class _OrderSearch:
     def order(self) -> list[int]:
         """Order from the stack with most arbors, each next one sharing most arbors with those before."""
         score = np.array([len(arbors) for arbors in self.bearing], float)
-        weight = float(score.sum()) + 1  # one shared arbor outweighs any number of own ones
+        weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
         for _ in range(self.count):
             at = int(np.argmax(score))
@@ -151,7 +152,7 @@ class _OrderSearch:
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
         costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE], held) for at in range(0, len(ranks), _AT_ONCE)])
-        # rounded, so that of equal costs the first wins, whatever the order of summation made of the last digits
+        # rounded, so that ties are broken alike whatever the order of summation
         best = int(np.argmin(costs.round(9)))
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
@@ -169,7 +170,7 @@ class _OrderSearch:
         tries = (np.nonzero(free)[0] - 1) / 2
         every = np.repeat(keys[None, :], len(tries), axis=0)
         every[:, at] = tries
-        # rounded as in `_shifted`: of equal costs the first
+        # rounded as in `_shifted`, to break ties
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, held), 9)))]
 
     def _costs(self, every: Floats, held: float) -> Floats:
@@ -177,17 +178,17 @@ class _OrderSearch:
 
         held   cost of an arbor that interleaves with fixed wheels
         """
-        keys = np.ascontiguousarray(every.T, np.float32)  # halves of small numbers: exact, and soon compared
-        low, high = keys[self._borne[0]], keys[self._borne[0]]  # two arrays: each is changed in place below
+        keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
+        low, high = keys[self._borne[0]], keys[self._borne[0]]  # two copies, each modified in place below
         for stacks in self._borne[1:]:
-            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin, fmax: pass over nan
+            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin and fmax ignore nan
         out_below, out_above = self._running_out
         low[out_below], high[out_above] = np.nanmin(keys, axis=0), np.nanmax(keys, axis=0)
-        span = np.nansum(high - low, axis=0)  # that to a dial is as long as it is
+        span = np.nansum(high - low, axis=0)  # without the part to a dial, which cannot be shortened
         low[out_below] -= np.inf
         high[out_above] += np.inf
         tangled = self._tangled(keys, low, high) + (held * self._unheld(keys) if held else 0.0)
-        for core, *pipes in self._coaxial_arbors:  # the arbor inside bears its pipes: it reaches as far as they do
+        for core, *pipes in self._coaxial_arbors:  # the inner arbor carries its pipes, so it is at least as long
             low[core] = np.fmin(low[core], np.fmin.reduce(low[pipes]))
             high[core] = np.fmax(high[core], np.fmax.reduce(high[pipes]))
         arbor, wheel, times = self._pierced
@@ -196,8 +197,7 @@ class _OrderSearch:
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
     def _tangled(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
-        """Return the number of pairs of coaxial arbors that interleave, so that neither can be a pipe round the other.
-        """
+        """Return the number of pairs of coaxial arbors that interleave, so that neither can be a pipe."""
         arbor, stack, starts = self._coaxial
         if not len(starts):
             return np.zeros(keys.shape[1])
@@ -221,7 +221,7 @@ class _OrderSearch:
                     np.full((1, keys.shape[1]), end) for end, out in ((-np.inf, below), (np.inf, above)) if arbor in out
                 ]
                 heights = np.concatenate(rows)
-                order = np.argsort(heights, axis=0)  # nan last
+                order = np.argsort(heights, axis=0)  # nan is sorted last
                 stands, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
                 turns = ((stands[1:] != stands[:-1]) & put[1:]).sum(axis=0)
                 found += np.maximum(turns - 1, 0) / 2
@@ -313,7 +313,7 @@ def _shifts(count: int) -> Iterator[Indices]:
         run = (rank >= start) & (rank < start + length)
         moved = np.where(run, rank - start + at, np.where(rest < at, rest, rest + length)).reshape(-1, count)
         turned = np.where(run, 2 * start + length - 1 - rank, rank)[:, 0]
-        # each turned run follows the same run left where it is
+        # each reversed run follows the identity of that run
         stay = np.arange(len(turned)) * (count - length + 2) + 1
         yield np.insert(moved, stay, turned, axis=0)
 
@@ -321,7 +321,7 @@ def _shifts(count: int) -> Iterator[Indices]:
 # -------------------------------------------------------------------------------------------------------------- heights
 
 
-_SLACK = 1e-9  # of the radii: wheels that touch as placed do not collide by rounding
+_SLACK = 1e-9  # relative to the radii: touching wheels must not collide by rounding errors
 
 
 def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
@@ -400,7 +400,7 @@ class WheelStack:
         high = np.array([height[block.wheel] + block.high for block in blocks])
         level = np.triu((low[:, None] < high[None, :]) & (low[None, :] < high[:, None]), 1)
         first, second = np.nonzero(level)
-        # only pairs that are near enough are looked at one by one
+        # the exact test only for pairs that are near enough
         near = self.swept.near[axis[first], axis[second]] < (outer[first] + outer[second]) * (1 - _SLACK)
         for at, to in zip(first[near].tolist(), second[near].tolist(), strict=True):
             one, other = blocks[at], blocks[to]

@@ -15,21 +15,21 @@ from functools import cached_property
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc, by_piece
 
-OVER = 0.2  # mm that a pipe is longer than what it carries, at either end
-SHAKE = 0.2  # mm along the axis
+OVER = 0.2  # mm by which a pipe extends beyond its wheels at either end
+SHAKE = 0.2  # mm of end shake
 HEAD = 0.6  # mm: thickness of a stud's head
-COLLAR = 1.0  # mm: length of a collar, and its wall
-HEAD_OVER = 1.0  # mm that a head is wider than its stud, all round
-APART = 0.2  # mm between a column and a wheel of another axis
-HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and what turns before its head
-INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is cut from the arbor's solid
-HAND = 1.6  # mm that an arbor stands out beyond the pipe round it where both bear hands
-_MINIMUM = 0.8  # mm: the thinnest arbor
+COLLAR = 1.0  # mm: length and wall of a collar
+HEAD_OVER = 1.0  # mm: radius of a head minus that of its stud
+APART = 0.2  # mm of clearance between a column and a wheel of another axis
+HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and turning parts before its head
+INTEGRAL = 0.6  # modules between roots and arbor: with less a pinion is cut from the solid arbor
+HAND = 1.6  # mm by which an arbor extends beyond its pipe if both carry hands
+_MINIMUM = 0.8  # mm: minimum diameter of an arbor
 USUAL = 2 / 3
 """Diameter of an arbor relative to the root radius of its smallest wheel."""
-_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: arbors that are tried where a wheel is in the way, thickest first
-_PIVOT = 0.55  # of its arbor: so that the shoulder bears
-_WIDEST = 6.0  # mm, of one whose size nobody gives
+_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: diameters of arbors that are tried to avoid obstacles
+_PIVOT = 0.55  # diameter of a pivot over that of its arbor, which leaves a shoulder
+_WIDEST = 6.0  # mm: maximum default diameter
 
 
 class AxisBearing(StrEnum):
@@ -152,7 +152,7 @@ class ColumnProblem:
 
         first = column(self._core(order, stud))
         thinner = [core for core in _CORES if core < first.core]
-        # a column becomes thinner with its core at every height: what blocks the thinnest blocks all
+        # the radius of a column increases with its core at every height: an obstacle of the thinnest blocks all
         if self.core is not None or not first.hit or not thinner or column(thinner[-1]).hit:
             return first
         return next(each for each in map(column, thinner) if not each.hit)
@@ -198,7 +198,7 @@ class ColumnProblem:
         parted = {link for link, apart in pieces if apart}
         for (link, apart), discs in pieces.items():
             below, above = self.ends.get(link, (False, False))
-            if link in parted:  # what is apart goes out on its own side, the rest on the other
+            if link in parted:  # a separate piece extends on its own side, the rest on the other
                 under = min(disc.low for disc in pieces[link, True]) < min(disc.low for disc in pieces[link, False])
                 below, above = below and under == apart, above and under != apart
             low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
@@ -274,7 +274,7 @@ class ColumnProblem:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
         found = [_WIDEST, *(USUAL * root for root in roots)]
-        thick = [each.outer for each in self._members(order, 0.0, stud)]  # what pipes add
+        thick = [each.outer for each in self._members(order, 0.0, stud)]  # thickness added by pipes
         found += [2 * root - outer for outer, root in zip(thick, roots, strict=True)]
         return max(_MINIMUM, round(min(found), 2))
 
@@ -284,7 +284,7 @@ class ColumnProblem:
             if not found and not stud:
                 found.append(ColumnMember(each.link, low, high, 0.0, core, each.discs, each.fixed))
                 continue
-            # the first is the core, and goes through all
+            # the first is the core, and passes through all
             under = [one.outer for k, one in enumerate(found) if not (k or stud) or (one.low < high and low < one.high)]
             inner = round(max([core, *under]) + self.process.running, 3)
             outer = round(inner + 2 * self.process.wall, 3)
@@ -314,7 +314,7 @@ def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[Stack
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
     """Return the column with its obstacles, the discs at its heights with too small a gap."""
-    # most discs are too far off for any part of the column, and its radius at their height is not computed
+    # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
     hit = tuple((disc, free - radius) for disc, free, radius in near if radius and free - radius < APART)
@@ -350,7 +350,7 @@ def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()
     while left:
-        # one that no other must be inside of; of several the one that reaches farthest, what does not turn last
+        # the next may contain no other: the longest first, fixed pieces last
         free = [at for at in left if around[at].isdisjoint(left)]
         if not free:
             both = ((links[a].link, links[b].link) for a in left for b in left if a in around[b] and b in around[a])

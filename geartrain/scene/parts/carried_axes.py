@@ -11,12 +11,12 @@ from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, AxisColumn, ColumnP
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 
-BOSS = 2.0  # mm of plate round a stud, at least
-NEAREST = 0.4  # mm in a gap from its middle: plates of pins are nearest to the disc in which these work
-_NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm in a gap: then carriers to what they carry, then discs of rings
-WIDEST = 3.0  # mm: a stud's radius, reckoned with before it is known
-_STEP = 3.0  # mm: diameter of a stud that stands on the end of another, at most
-_BLADE = 0.1  # mm of metal between two holes, or round the foot of a stud
+BOSS = 2.0  # mm: minimum width of plate round a stud
+NEAREST = 0.4  # mm from the middle of a gap: plates of pins are nearest to their disc
+_NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm from the middle of a gap: then carriers, then discs of rings
+WIDEST = 3.0  # mm: assumed radius of a stud before it is known
+_STEP = 3.0  # mm: maximum diameter of a stud on the end of another
+_BLADE = 0.1  # mm: minimum metal between two holes, or round the foot of a stud
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +119,8 @@ def carried_columns(
         apart, meeting = dist(axes[near].at, axes[far].at), (found[near].core + found[far].core) / 2 + _BLADE
         if 0 < apart < meeting and found[near].bearing is found[far].bearing and found[near].is_stud:
             thin = min(found[far].core, _STEP)
-            wide = round(thin + 2 * apart + _BLADE, 2)  # the nearer wheel's end holds all of the farther stud
+            # the end of the nearer stud contains the section of the farther one
+            wide = round(thin + 2 * apart + _BLADE, 2)
             foot = _carried_column(axes[near], seat, seen, process, wide, head)
             end = _carried_column(axes[far], seat, seen, process, thin, head)
             found[near], found[far] = _stepped(foot, end, _others(axes[near], seen))

@@ -59,21 +59,22 @@ class FlexibleCup:
         """Yield a notice on the properties that no drawing can show."""
         what = f"'{self.wheel}' and the wall of '{self.link}' are one thin part, which cannot be cut from sheet"
         why = f"a wave generator deforms it, and its wall is {self.wall:.3g} mm thick"
-        fix = f"turn it, or print it in a flexible material, from wheels/{self.wheel}.stl and {self.link} wall in assembly.stl"
+        solids = f"wheels/{self.wheel}.stl and {self.link} wall in assembly.stl"
+        fix = f"turn it, or print it in a flexible material, from {solids}"
         yield Problem(what, why, fix)
 
 
 # ----------------------------------------------------------------------------------------------------------- eccentrics
 
 
-WALL = 1.5  # mm of an eccentric beside its arbor at least, and of a wheel beside a hole
+WALL = 1.5  # mm: normal wall of an eccentric beside its arbor, and of a wheel beside a hole
 USUAL_ARBOR = 6.0
 """Default diameter of an arbor in an eccentric [mm]."""
-_THIN = 0.6  # mm of an eccentric beside its arbor, or it cannot be made
+_THIN = 0.6  # mm: minimum wall of an eccentric beside its arbor
 ROOM = SHAKE / 2 + HEAD
 """Axial space of a washer beside a wheel [mm]."""
-_POINTS = 1440  # of the edge of a wave
-_OVER = 1.0  # mm that a washer is wider than its eccentric
+_POINTS = 1440  # points of the outline of a wave generator
+_OVER = 1.0  # mm by which a washer extends beyond its eccentric
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +155,7 @@ class Eccentric:
         own = self.turning(discs)
         low, high = min(disc.low for disc in own) - ROOM, max(disc.high for disc in own) + ROOM
         reach, high = self.rise + self.radius, high + (0.0 if self.wave is None else self.wave.length)
-        root = 2 * (self.wall - WALL) / USUAL  # whose usual arbor leaves that wall
+        root = 2 * (self.wall - WALL) / USUAL  # chosen so that the default arbor leaves that wall
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
@@ -189,7 +190,8 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
     if beside >= _THIN:
         return None
     what = f"'{eccentric.name}' leaves a wall of only {beside:.3g} mm beside its arbor"
-    why = f"its radius is {eccentric.radius:g} mm, and its arbor has a diameter of {arbor:g} mm and is {eccentric.offset:g} mm off centre"
+    radius, offset = eccentric.radius, eccentric.offset
+    why = f"its radius is {radius:g} mm, and its arbor has a diameter of {arbor:g} mm and is {offset:g} mm off centre"
     return Problem(what, why, "use a smaller --bore, a larger module, or pins farther from the centre")
 
 
@@ -211,8 +213,8 @@ def running_hole(eccentric: Eccentric, process: Process) -> float:
 # ------------------------------------------------------------------------------------------------------ circles of pins
 
 
-_RIM = 2.0  # mm of plate round a pin
-_HALF_THIN = 0.02  # mm: a plate in a gap before it has its thickness
+_RIM = 2.0  # mm: width of plate round a pin
+_HALF_THIN = 0.02  # mm: half the provisional thickness of a plate in a gap
 
 
 @dataclass(frozen=True, slots=True)

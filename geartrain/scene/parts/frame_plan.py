@@ -48,8 +48,8 @@ if TYPE_CHECKING:
 # ----------------------------------------------------------------------------------------------------- places of plates
 
 
-_TRIED = 64  # ways to place plates of carriers
-_INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs: a stud between the plates, one beyond them, an arbor through one
+_TRIED = 64  # maximum number of combinations of carrier plates
+_INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates or beyond, of an arbor through one
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +155,7 @@ def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
 # ----------------------------------------------------------------------------------------------------------------- plan
 
 
-_DIAL = 6.0  # mm that an arbor stands out towards a dial
+_DIAL = 6.0  # mm by which an arbor extends towards a dial
 
 
 @dataclass(frozen=True)
@@ -222,7 +222,7 @@ class FramePlan:
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
         if self.core is not None or not declared:
             return self.core, None
-        thinnest = min(declared, key=lambda arbor: arbor.diameter.si)  # the one that runs in the others
+        thinnest = min(declared, key=lambda arbor: arbor.diameter.si)  # the innermost
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
@@ -245,7 +245,7 @@ class FramePlan:
         seated: set[str] = set()
         for circle in circles:
             if circle.link in seated:
-                continue  # its pins go through all discs
+                continue  # its pins pass through all discs
             seated.add(circle.link)
             axis = self.stack.train.kinematics.tree.axis(circle.link) or ""
             slots = self._slots(circle)
@@ -460,15 +460,15 @@ class FramePlan:
             root = next(disc.root for disc in member.discs if disc.name == name)
             if place is not None and root < member.outer / 2 - 1e-9:
                 what = f"wheel '{name}' is too small for its {'pipe' if member.inner else 'arbor'}"
-                why = f"its root radius is {root:.3f} mm, and '{member.link}' has a diameter of {member.outer:g} mm next to it"
+                why = f"its root radius is {root:.3f} mm, and '{member.link}' has a diameter of {member.outer:g} mm"
                 yield Problem(what, why, "use a smaller --bore, or a larger module")
 
 
 # ------------------------------------------------------------------------------------------------------ seats of shafts
 
-_ARM, _FLANGE, _THIN = 0.3, 0.2, 0.02  # mm in the outermost gaps: arms are nearer to the wheels
-_PART = 0.4  # of the widest disc on its axis: a flange
-_ROOM = 4.0  # mm of a disc beyond all others on its axis: there a bar stands
+_ARM, _FLANGE, _THIN = 0.3, 0.2, 0.02  # mm from the middle of the outermost gaps: arms are nearer to the wheels
+_PART = 0.4  # radius of a flange over that of the widest disc on its axis
+_ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 
 
 def arm_seats(
@@ -513,8 +513,8 @@ def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list
 
 # -------------------------------------------------------------------------------------------------------------- heights
 
-BEHIND = 1.5  # mm between a plate of the frame and what turns next to it
-BETWEEN = HEAD_ROOM  # mm between a plate that turns and its neighbours
+BEHIND = 1.5  # mm between a plate of the frame and the nearest turning part
+BETWEEN = HEAD_ROOM  # mm between a turning plate and its neighbours
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,10 +21,10 @@ from geartrain.scene.solids.bearing_plates import around
 from geartrain.teeth.outlines.contour import Contour
 
 _PILLAR_MOST, _PILLAR_MINIMUM = 4.0, 1.5  # mm: radius of a pillar
-_PILLAR_PART = 0.025  # of the width of all that turns between the plates: a clock's is 10 mm thick over 200 mm
-_LAND = 3.0  # mm of plate round a hole
-_WIDE = 6.0  # bores in the radius of a wave that is lightened
-_BLADE = 0.05  # mm: holes nearer to each other are one
+_PILLAR_PART = 0.025  # over the diagonal of all turning parts between the plates: 10 mm in diameter at 200 mm
+_LAND = 3.0  # mm: width of plate round a hole
+_WIDE = 6.0  # minimum radius of a wave generator with windows, over its bore
+_BLADE = 0.05  # mm: minimum web between holes
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,11 +122,11 @@ class FramePlates:
         places = self.plan.places
         across = self.plan.across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
-        axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate is round its pins too
+        axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate contains its pins too
         beside = [circle for side in self.mortises.values() for each in side for circle in each.circles]
         circles = [*self.circles, *beside]
         found = pillar_places(axes, circles, self.pillar, even=True)
-        if all(clear_of(at, across) > self.pillar for at in found):  # plates are the smaller the nearer pillars are
+        if all(clear_of(at, across) > self.pillar for at in found):  # nearer pillars give smaller plates
             return found
         return pillar_places(axes, [*circles, *across], self.pillar, even=True)
 

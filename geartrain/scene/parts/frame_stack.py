@@ -46,11 +46,11 @@ if TYPE_CHECKING:
     from geartrain.scene.layout import AxisPlace, Layout, WheelPlace
     from geartrain.scene.solids.wheel_blanks import Blank
 
-_SAME = 1e-6  # mm
-_UPRIGHT = 1e-9  # of a cosine: of an axis at right angles to the normal
-_PASS = 0.4  # mm of air round a wheel that goes through a plate
-_PARALLEL = 1e-9  # of a cosine
-_RIM = 2.0  # modules round the teeth of a ring that is not
+_SAME = 1e-6  # mm: tolerance for equal heights
+_UPRIGHT = 1e-9  # maximum cosine of an axis perpendicular to the normal
+_PASS = 0.4  # mm of clearance round a wheel that passes through a plate
+_PARALLEL = 1e-9  # of a cosine: smaller differences are rounding errors
+_RIM = 2.0  # modules of rim outside the teeth of a ring without a flat shape
 
 
 @dataclass(frozen=True, slots=True)
@@ -278,8 +278,7 @@ class FrameStack:
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
-        """Return the layout with heights shifted along the normal, wheels of crossing axes together with their mates.
-        """
+        """Return the layout with heights shifted along the normal, wheels of crossing axes with their mates."""
         normal, old = self.normal, self.layout
         assert normal is not None
         rise = {disc.name: shift(disc.middle) for disc in self.discs}
@@ -347,7 +346,7 @@ def _upwards(direction: Vector) -> Vector:
 
 # -------------------------------------------------------------------------------------------------- eccentrics and pins
 
-_BESIDE = 1.0  # mm in the middle of a wheel between its hole and an arbor that passes
+_BESIDE = 1.0  # mm of clearance between the central hole of a wheel and an arbor in it
 
 
 @dataclass(frozen=True)
@@ -373,7 +372,7 @@ class StackEccentrics:
         for label, axis in self.stack.layout.axes.items():
             own = self.stack.carrier_axis(axis)
             discs = [disc for disc in self.stack.wheel_discs if disc.axis == label]
-            if own is None or len(slabs(discs)) != 1:  # wheels apart are one body by their pipe alone
+            if own is None or len(slabs(discs)) != 1:  # wheels at different heights are connected by a pipe
                 continue
             at = self._place(own)
             if dist(at, discs[0].at) < ON_ECCENTRIC * min(disc.root for disc in discs):
@@ -410,8 +409,7 @@ class StackEccentrics:
     # ---------------------------------------------------------------------------------------------- cranks side by side
 
     def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-        """Yield the parallel cranks that a link represents, on axes carried about its own, as link, axis and coupling.
-        """
+        """Yield the parallel cranks that a link represents, carried about its own axis, as link, axis and coupling."""
         tree = self.stack.train.kinematics.tree
         for coupling in self.stack.train.declaration.couplings:
             pair = coupling.pin, coupling.slot

@@ -21,14 +21,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.frame_plan import FramePlan
 
-_WAYS = 24  # directions from the middle of the axes in which a pillar is tried
-_STEP = 0.25  # mm
-_GAP = 1.0  # mm between a pillar and a tip circle
-_HOLE = 4.0  # mm of plate between a pillar and the middle of a pivot's hole
+_WAYS = 24  # directions of candidate places from the middle of the axes
+_STEP = 0.25  # mm beyond the blocked part of a ray
+_GAP = 1.0  # mm of clearance between a pillar and a tip circle
+_HOLE = 4.0  # mm from a pillar to the centre of a pivot hole
 _FEWEST, _MOST = 3, 5
-_SPREAD = 4.0  # radii between the middles of neighbours, at least
-_UNEVEN = 0.3  # mm of outline that a mm from the middle of the axes to that of the pillars outweighs
-_UPWARDS = 0.05  # the same, for a mm of their mean distance from the middle upwards
+_SPREAD = 4.0  # minimum distance of neighbours in radii
+_UNEVEN = 0.3  # mm of perimeter per mm from the middle of the axes to that of the pillars
+_UPWARDS = 0.05  # mm of perimeter per mm of their mean vertical distance from the middle
 
 
 def pillar_places(
@@ -91,7 +91,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
     cross = cross - steps[:, :, None, 1] * (axes[None, None, :, 0] - tried[:, None, None, 0])
-    left = np.all(cross > 0, axis=2)  # of the edge from one place to another
+    left = np.all(cross > 0, axis=2)  # all axes are to the left of the edge from one place to another
     length = np.hypot(steps[..., 0], steps[..., 1])
     left &= length >= minimum_edge
     for chosen in combinations(range(len(tried)), count):
@@ -117,8 +117,8 @@ def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
 TENON = 0.6
 """Radius of the end in a plate relative to that of a pillar or a post."""
 _POSTS, _TRIED = 3, 72
-_POST_WIDEST = 2.0  # mm: radius of a post
-_RIM_PART = 0.3  # of a ring's rim: the radius of what goes through it
+_POST_WIDEST = 2.0  # mm: maximum radius of a post
+_RIM_PART = 0.3  # radius of a post over the width of a ring's rim
 
 
 def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
@@ -157,8 +157,7 @@ def _posts(
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced places on a rim with the maximum distance from axes and from parts before the plate.
-    """
+    """Return three equally spaced places on a rim, as far as possible from axes and from parts before the plate."""
     low, high = sorted((sum(plate) / 2, ring.middle))
     between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
     circles = [swept_circle(disc) for disc in between]

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from geartrain.scene.parts.frame_plan import FramePlan
     from geartrain.scene.parts.stack_discs import Point
 
-_WALLS = (1.5, 1.0, 0.6)  # mm: the thickest for which there is room
-_SHORTEST = 0.5  # mm
-_LONGEST = 1.2  # diameters of its arbor, of a collet
-_SAME = 1e-6  # mm: faces that touch but for rounding do not overlap
-_FREE = 0.3  # mm between a collet and what turns before it
+_WALLS = (1.5, 1.0, 0.6)  # mm: walls, of which the thickest that fits is used
+_SHORTEST = 0.5  # mm: minimum length
+_LONGEST = 1.2  # maximum length of a collet in diameters of its arbor
+_SAME = 1e-6  # mm: touching faces must not overlap by rounding errors
+_FREE = 0.3  # mm between a collet and the next turning part
 
 
 def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
@@ -166,7 +166,7 @@ class _OnMember:
 # --------------------------------------------------------------------------------------------------------------- barrel
 
 
-_LONGEST_BARREL = 10.0  # mm
+_LONGEST_BARREL = 10.0  # mm: maximum length of a barrel
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,8 +17,8 @@ from geartrain.teeth.outlines.contour import Contour
 
 Point = tuple[float, float]
 
-EDGE = 1.0  # mm below and above the stack, where it counts as a gap
-_SAME = 1e-6  # mm: faces that touch but for rounding do not overlap
+EDGE = 1.0  # mm from the stack to the middle of the gaps below and above it
+_SAME = 1e-6  # mm: touching faces must not overlap by rounding errors
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +56,7 @@ class StackDisc:
         return (self.low + self.high) / 2
 
     def room_for(self, at: Point, radius: float) -> float:
-        """Return the minimum gap (mm) to a fixed column over all positions of a carried disc; negative if they overlap.
-        """
+        """Return the minimum gap (mm) to a fixed column over all positions of a carried disc, negative for an overlap."""
         if self.carrier is None:
             away = dist(at, self.at)
             return max(away - self.outer, self.inner - away if self.inner else -self.outer) - radius
@@ -93,8 +92,7 @@ def swept_circle(disc: StackDisc) -> tuple[Point, float]:
 
 
 def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[StackDisc]]:
-    """Return the discs of each link, in order, with those that are apart from the rest of the link as separate pieces.
-    """
+    """Return the discs of each link, in order, with those that are apart from it as separate pieces."""
     found: dict[tuple[str, bool], list[StackDisc]] = {}
     for disc in discs:
         found.setdefault((disc.link, disc.apart), []).append(disc)
@@ -104,9 +102,9 @@ def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[Stack
 # ------------------------------------------------------------------------------------------------------------- passages
 
 
-_FINE = 0.005  # mm that chords of a notched edge may leave its arcs
+_FINE = 0.005  # mm: tolerance of chords of a notched edge
 _CORNERS = (-1, -1), (1, -1), (1, 1), (-1, 1)
-_WEB = 1.0  # mm of plate at the least between a window and the edge, and between two windows
+_WEB = 1.0  # mm: minimum web between a window and the edge, and between two windows
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +153,7 @@ def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, 
     windows = []
     for each in passages:
         x, y = each.way
-        turn = np.array([[x, -y], [y, x]])  # columns: along and across
+        turn = np.array([[x, -y], [y, x]])  # columns: unit vectors along and across
         line = (edge.flattened(_FINE) - np.array(each.middle)) @ turn
         corners = np.array([(u * each.length, v * each.width) for u, v in _CORNERS])
         inside = [_is_inside(line, corner) for corner in corners]
@@ -192,8 +190,7 @@ def _notched(line: Floats, start: float, width: float) -> Floats:
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """Return the farthest edge of a line beyond `start` that crosses a level, by its first point, and the intersection.
-    """
+    """Return the farthest edge beyond `start` that crosses a level, by its first point, and the intersection."""
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
     a, b = line[crossing], after[crossing]

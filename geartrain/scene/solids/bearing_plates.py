@@ -26,9 +26,9 @@ CUT, PITCH, ENGRAVE = "CUT", "PITCH", "ENGRAVE"
 LAYERS = (CUT, PITCH, ENGRAVE)
 """Names of the layers: contours for a laser, circles for orientation, and letters."""
 
-MARGIN = 2.0  # mm of white round the part
-_MANY = 64  # vertices, which then bound a contour well enough
-TOLERANCE = 0.001  # mm, how far a chord may leave a curve
+MARGIN = 2.0  # mm of margin round the part
+_MANY = 64  # number of vertices above which they bound a contour sufficiently
+TOLERANCE = 0.001  # mm: tolerance of chords
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,10 +86,10 @@ def wheel_drawing(wheel: WheelOutline) -> FlatDrawing:
 
 Point = tuple[float, float]
 
-_DISC = 3.0  # mm: sheet of discs of pins and slots
-_LAND = 3.0  # mm of plate round a hole
-_PARALLEL = 1e-9  # of a cosine, or mm: less is rounding
-_PIN = 0.25  # of the pin's distance from its axis: its diameter, 2 mm at most
+_DISC = 3.0  # mm: thickness of discs of pins and slots
+_LAND = 3.0  # mm: width of plate round a hole
+_PARALLEL = 1e-9  # of a cosine, or mm: smaller values are rounding errors
+_PIN = 0.25  # diameter of a pin over its distance from the axis, at most 2 mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ def around(points: Sequence[Point], radius: float) -> Contour:
         first = atan2(y - before[1], x - before[0]) - pi / 2
         last = atan2(after[1] - y, after[0] - x) - pi / 2
         sweep = (last - first) % (2 * pi)
-        # a bulge is the tangent of a quarter of the arc's angle
+        # the bulge is the tangent of a quarter of the arc's angle
         vertices.append((x + radius * cos(first), y + radius * sin(first), tan(sweep / 4)))
         vertices.append((x + radius * cos(last), y + radius * sin(last), 0.0))
     return Contour.of(vertices)
@@ -142,7 +142,7 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 def _hull(points: Sequence[Point]) -> list[Point]:
     """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
-    # rounded, so that axes at one place are one point
+    # rounded, so that coincident axes are one point
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
     if len(ordered) < 3:
         return ordered
@@ -152,7 +152,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
         for x, y in row:
             while len(kept) > 1:
                 (ax, ay), (bx, by) = kept[-2:]
-                # mm2: a corner that lies on the edge but for rounding is none
+                # mm2: a collinear point is not a corner
                 if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-9:
                     break
                 kept.pop()
@@ -180,7 +180,8 @@ def _discs(
 ) -> Iterator[Plate]:
     for coupling in couplings:
         if isinstance(coupling, Parallel):
-            what, why = f"'{coupling.name}' is not made", "the mechanism that keeps its two links parallel is not declared"
+            what = f"'{coupling.name}' is not made"
+            why = "the mechanism that keeps its two links parallel is not declared"
             notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
             continue
         if isinstance(coupling, PinsInHoles):

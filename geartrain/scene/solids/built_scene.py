@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     from geartrain.scene.scene_run import TimeRun
     from geartrain.scene.train_scene import DialFace, Pointer, Scene
 
-_FINE = 0.05  # mm that chords of plates may leave their curves
-_FIT = 0.01  # mm that those of holes may, of which a running fit leaves 0.04 mm all round
-_DIGITS = 4  # decimals of a mm
-_HAND = 1.0  # mm of an arbor's end that a hand takes
-_LAID = 0.2  # mm that the face of a dial is above the bracket on which it is laid
+_FINE = 0.05  # mm: tolerance of chords of plates
+_FIT = 0.01  # mm: tolerance of chords of holes, less than the 0.04 mm of a running fit
+_DIGITS = 4  # decimals of lengths in mm
+_HAND = 1.0  # mm of an arbor's end inside a hand
+_LAID = 0.2  # mm from a bracket to the face of a dial on it
 _CLEAR = 1.0  # mm from the edge of such a dial to other arbors
-_EDGE = 1.08  # its edge over all that is engraved
+_EDGE = 1.08  # radius of its edge over that of the engraving
 _SAME = 1e-6
 
 
@@ -77,7 +77,7 @@ def build_scene(
         parts = tuple(_told(each, model) for each in model.structure)
     except GearTrainError:
         return make_scene(train, state, run=run, formulas=formulas)
-    # play that makers add is none of the declaration: the scene moves without it
+    # backlash added for manufacture is not declared, so the scene moves without it
     plain = run is None and not formulas and model.sized is model.train
     scene = model.scene if plain else make_scene(train, state, model.layout, run, formulas)
     scene = scene if model.plan is None else with_pins_apart(scene, model.plan)
@@ -107,7 +107,7 @@ def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
         moved_in |= {name for each in model.plan.stack.eccentrics if each.wave is None for name in each.wheels}
     if blank is None or wheel.id not in moved_in:
         return wheel
-    # the teeth of the model may have play, for which it is turned otherwise
+    # with backlash the wheels of the model have other angles
     turn = next(each.turn for each in model.scene.wheels if each.id == wheel.id) - wheel.turn
     way = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
     return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FIT) @ way)) for each in blank.contours[1:]))

@@ -45,11 +45,11 @@ if TYPE_CHECKING:
 # -------------------------------------------------------------------------------------------------- pendulum and weight
 
 
-_BOB, _THICK = 0.05, 0.25  # a bob's radius over the pendulum's length, and half its thickness over its radius
-_ROD = 0.04  # a pendulum's rod: its radius over the bob's
+_BOB, _THICK = 0.05, 0.25  # radius of a bob over the pendulum's length, and half its thickness over its radius
+_ROD = 0.04  # radius of a pendulum's rod over that of the bob
 _TALL = 4.0  # height of a weight over its radius
-_ANCHOR = sqrt(2)  # of the escape wheel's radius: where an anchor over a quarter of it turns
-_COCK = 2.0  # mm: radius of what bears a pendulum
+_ANCHOR = sqrt(2)  # distance of the anchor's axis over the escape wheel's radius, for pallets a quarter turn apart
+_COCK = 2.0  # mm: radius of the stud of a pendulum
 _AWAY = 2.0  # mm between the frame and a bob
 _LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose
 
@@ -91,7 +91,7 @@ class HangingParts:
         index = next(at for at, body in enumerate(self.scene.bodies) if body.id == escapement.link)
         body = self.scene.bodies[index]
         if body.parent != self.frame:
-            return None  # pallets ride on a carriage, which takes no pendulum round
+            return None  # a carriage with pallets cannot carry a pendulum
         wheels = (each for each in self.scene.wheels if each.body == index and each.teeth == escapement.teeth)
         wheel = next(wheels, None)
         if wheel is None or abs(dot(body.direction, normal)) < 1 - 1e-6:
@@ -140,7 +140,7 @@ class HangingParts:
         if not way:
             return
         middle = self.plan.stack.in_space(barrel.at, (barrel.low + barrel.high) / 2)
-        # where the rim of the barrel goes down as it turns forward
+        # the side on which the rim of the barrel moves down as it turns forward
         rate = barrel.radius if way > 0 else -barrel.radius
         side = plus(middle, cross(down, body.direction), rate)
         lead = material_named(self.declared, "lead").density
@@ -175,7 +175,7 @@ def _turned(frame: int, name: str, place: tuple[Vector, Vector, Vector], band: B
 
 GAP = 0.5
 """Axial clearance between the last wheel of an arbor and its support [mm]."""
-_ROOM = 1.5  # mm, the same of a bracket: the wheel's window in the plate and a web of that stand between
+_ROOM = 1.5  # mm, the same for a bracket, including a web beside the wheel's window in the plate
 LAND = 2.0
 """Metal round a bearing [mm]."""
 _FLAT = 1e-6
@@ -231,7 +231,7 @@ def _brackets(
     low, high = ends
     faces = {1: high + _ROOM, -1: low - _ROOM}
     ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
-    if len(ways) == 1:  # on the inner side, unless wheels are in its way there
+    if len(ways) == 1:  # on the inner side, unless wheels obstruct it there
         ways = [min(ways[0], -ways[0], key=lambda way: _in_the_way(plan, body, faces[way], way, sides)[0])]
     for way in ways:
         yield _bracket(scene, plan, sides, at, faces[way], way, radius)
@@ -368,7 +368,7 @@ class _Holder:
             level = self._level(height, away - post) if seat is None else seat
         way = 1 if level > height else -1
         ends = [height + way * (radius + LAND / 2), level]
-        if seat is None:  # through the arm
+        if seat is None:  # the post passes through the arm
             ends[1:] = level - way * _ARM / 2, level + way * _ARM / 2
         parts = [eye, self._post(eye.place - height * self.along, ends, post)]
         if seat is None:
@@ -387,7 +387,7 @@ class _Holder:
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
         gap = np.array(self.carrier.point) - np.array(self.body.point)
-        near = float(np.cross(gap, self.along) @ normal / (normal @ normal))  # where the axes cross
+        near = float(np.cross(gap, self.along) @ normal / (normal @ normal))  # the point where the axes intersect
         side = 1 if sum(ends) / 2 > near else -1
         return side, max(ends) if side > 0 else min(ends)
 

@@ -29,13 +29,13 @@ if TYPE_CHECKING:
 
 THICKNESS = 1.5
 """Default thickness of a dial [mm]."""
-_AWAY = 2.0  # mm from all that turns to a dial
-_ROOM = 0.5  # mm round the arbor of its pointer
+_AWAY = 2.0  # mm from turning parts to a dial
+_ROOM = 0.5  # mm of clearance round the arbor of its pointer
 _BESIDE = 1.0  # mm from a dial's edge to the arbor of another
-_SCALE, _LETTER = 0.965, 0.055  # of the radius of a dial
-_SMALLEST = 1.2  # mm: letters
-_LAND = 1.0  # mm of plate round the end of a foot
-_SIDES = 48  # points of a circle whose convex hull is an edge
+_SCALE, _LETTER = 0.965, 0.055  # radius of the scale, and height of letters, over the radius of a dial
+_SMALLEST = 1.2  # mm: minimum height of letters
+_LAND = 1.0  # mm: width of plate round the end of a foot
+_SIDES = 48  # points of a circle for a convex hull
 _SAME = 1e-6
 
 
@@ -200,13 +200,13 @@ def _circle(
 
 # ----------------------------------------------------------------------------------------------------------------- feet
 
-FOOT_RADIUS = 1.5  # mm: its ends in the plates are thinner
+FOOT_RADIUS = 1.5  # mm; its ends in the plates are thinner
 _TENON = 0.6
-_GAP = 0.5  # mm between a foot and what turns
+_GAP = 0.5  # mm of clearance between a foot and turning parts
 _FEET, _MOST, _WAYS = 3, 4, 48
-_SHARES = (0.92, 0.8, 0.65, 0.5, 0.35)  # of the radius of the dial: where a foot is tried, the outermost first
-_EDGE = 1.0  # mm of dial round the end of a foot
-_STEPS = 32  # from the middle of a dial to a foot, at which the straight edge between them is looked at
+_SHARES = (0.92, 0.8, 0.65, 0.5, 0.35)  # candidate distances of a foot from the centre, over the radius of the dial
+_EDGE = 1.0  # mm: width of dial round the end of a foot
+_STEPS = 32  # samples from the centre of a dial to a foot, at which the edge between them is tested
 
 
 def dial_feet(
@@ -226,7 +226,7 @@ def dial_feet(
     ]
     spots = _apart(free)
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
-        even = len({column.at for column in plan.columns}) == 1  # as its pillars are
+        even = len({column.at for column in plan.columns}) == 1  # same condition as for pillars
         spots = pillar_places(
             [at for at, _ in circles],
             turning,
@@ -246,8 +246,7 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
-    """Return the clearance (mm) from some circles of a plate that extends straight from its dials to the end of a foot.
-    """
+    """Return the clearance (mm) from circles of a plate that extends straight from its dials to a foot."""
     minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):

@@ -20,15 +20,15 @@ from geartrain.teeth.standard_teeth import BACKLASH, DEDENDUM
 from geartrain.train import GearPair, Train
 from geartrain.train.wheel_stock import wheel_thickness
 
-_SAME_LEVEL = 1e-3  # mm
+_SAME_LEVEL = 1e-3  # mm: tolerance for equal thicknesses
 _STOCK = (
     *(0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0),
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
-)  # mm: sheets as they are sold
+)  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
 """Minimum and maximum sizes (mm): curves are drawn to 0.001 mm, and arbors and plates are sized to match."""
-_SHEET = (1, 1e5)  # mm: sides of sheets
-_NEAR = 1.3  # how much thicker or thinner than 2.5 modules a sheet may be
+_SHEET = (1, 1e5)  # mm: limits of the sides of sheets
+_NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,8 @@ class ManufacturingSizes:
         problems = []
         if self.arms is not None and self.arms < 3:
             what = f"a wheel cannot have {self.arms} spokes"
-            problems.append(Problem(what, "a web with windows has at least 3 spokes", "pass 3 or more, or omit --arms for solid webs", "--arms"))
+            why, fix = "a web with windows has at least 3 spokes", "pass 3 or more, or omit --arms for solid webs"
+            problems.append(Problem(what, why, fix, "--arms"))
         for name, bounds in _MADE.items():
             value = getattr(self, name)
             if value is not None and not (value == 0 and name in ("bore", "backlash")):
@@ -157,7 +158,7 @@ def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: f
         raise QuestionError(replace(problem, place=places[name]) for name, problem in own.items())
     gears = tuple(gear if gear.name in own else _thinned(declared, gear, modules, backlash) for gear in declared.gears)
     if all(new is old for new, old in zip(gears, declared.gears, strict=True)):
-        return declared  # no pair declares a form: standard teeth are thinned as they are cut, and nothing moves
+        return declared  # no pair declares a form: standard teeth are thinned when cut
     return declared.changed(gears=gears)
 
 
@@ -188,7 +189,7 @@ def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) 
 
 def usual_module(layout: Layout) -> float:
     """Return the module (mm) of most wheels."""
-    # rounded: modules that are equal but for rounding count as one
+    # rounded, so that equal modules count as one
     return Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0][0]
 
 

@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneWheel
     from geartrain.scene.layout import Layout
     from geartrain.scene.train_scene import Scene
-_SHEET = 3.0  # mm, the thickness of plates
-_GAP = 1.0  # mm between a plate and what turns before it
+_SHEET = 3.0  # mm: default thickness of plates
+_GAP = 1.0  # mm between a plate and the next turning part
 
 
 @dataclass(frozen=True)

@@ -39,13 +39,12 @@ if TYPE_CHECKING:
 
 WIDE = 0.55
 """Half the width of a slot relative to the diameter of its pin."""
-_WEB = 0.6  # mm of a wheel that stay round a pin and round a slot, at least
+_WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """A pin in one wheel, and its slot in another; the pin's wheel is None if no wheel bears the pins of round holes.
-    """
+    """A pin in one wheel, and its slot in another. The pin's wheel is None if no wheel carries the pins of round holes."""
 
     coupling: SceneCoupling
     pin: SceneWheel | None
@@ -153,7 +152,7 @@ def _flat(point: object, turn: Floats, place: Floats) -> tuple[float, float]:
 
 # --------------------------------------------------------------------------------------------------------------- solids
 
-_GAP = 1.0  # mm between a plate and what turns before it
+_GAP = 1.0  # mm between a plate and the next turning part
 
 
 @dataclass(frozen=True)
@@ -173,7 +172,7 @@ class CouplingParts:
             turn, axis = pin_axis(self.scene, coupling)
             along, cut = turn[:, 2], self.cut.get(coupling.id)
             if coupling.hole and (cut is None or cut.pin is None):
-                continue  # no wheel bears such pins
+                continue  # no wheel carries such pins
             if cut is None or cut.pin is None:
                 height = float(coupling.pin_at @ along)
                 levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
@@ -234,7 +233,7 @@ class CouplingParts:
 # ------------------------------------------------------------------------------------------------------- pins in plates
 
 
-_CHORDS = 13  # of half a seat
+_CHORDS = 13  # points of half a seat
 
 
 def standing_pins(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
@@ -249,7 +248,7 @@ def standing_pins(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
         link = scene.bodies[coupling.pin].id
         if coupling.id not in seats or link in done:
             continue
-        done.add(link)  # pins of one link go through all discs that it has pins for
+        done.add(link)  # pins of one link pass through all its discs
         bodies = {each.slot for each in scene.couplings if each.id in seats and each.pin == coupling.pin}
         slots = [wheel for wheel in scene.wheels if wheel.body in bodies]
         if slots:
@@ -296,7 +295,7 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
 def _land(blank: Blank) -> tuple[tuple[float, float], ...]:
     """Return the profile of a ring between the middles of two seats, as relative radius and angle."""
     assert blank.pins is not None
-    x, y = (float(part) for part in blank.contours[1].points[0])  # on the circle inside, where the first seat begins
+    x, y = (float(part) for part in blank.contours[1].points[0])  # on the inner circle, at the start of the first seat
     R, half, pitch = blank.pins.circle * blank.module, pi / blank.teeth, blank.pitch_radius
     inside = float(np.hypot(x, y)) / pitch
     if blank.contours[1].is_circle:
@@ -309,11 +308,11 @@ def _land(blank: Blank) -> tuple[tuple[float, float], ...]:
 
 # ----------------------------------------------------------------------------------------------------------------- bars
 
-_RADIUS = 1.5  # mm: of a bar
-_EDGE = 1.0  # mm of the wheel round its end
-_WAYS, _STEP = 120, 1.0  # directions in which a bar is tried, and by how much farther in each time (mm)
-_ENOUGH = 1.0  # mm: more room than that is not looked for
-_PARTS = 8  # of a swing, at which a bar with a slot is looked at
+_RADIUS = 1.5  # mm: radius of a bar
+_EDGE = 1.0  # mm: width of the wheel round its end
+_WAYS, _STEP = 120, 1.0  # directions of candidate places of a bar, and radial step (mm)
+_ENOUGH = 1.0  # mm: sufficient clearance, at which the search ends
+_PARTS = 8  # samples of half a swing of a bar with a slot
 
 
 def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
@@ -365,7 +364,7 @@ def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackD
     (x, y), pin = stack.flat(coupling.slot_at), stack.flat(scene.bodies[coupling.pin].point)
     far, wide = slot_reach(coupling)
     r, e = coupling.pin_radius, hypot(pin[0] - x, pin[1] - y)
-    if r >= e:  # it goes round with the pin
+    if r >= e:  # the bar turns with the pin
         yield (x, y), far + wide
         return
     middle, swing = atan2(pin[1] - y, pin[0] - x), asin(r / e)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     Integers = NDArray[np.int64]
     from geartrain.scene.solids.wheel_blanks import Blank
 
-_FLAT = 1e-12  # twice the area (mm2) of a triangle that is none
+_FLAT = 1e-12  # mm2: twice the area below which a triangle is degenerate
 _NEXT = [1, 2, 0]
 
 
@@ -46,7 +46,7 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
     starts = np.cumsum([0, *map(len, parts)])
     rings = [list(range(start, end)) for start, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
     loop = rings[0]
-    # from the right, and of equal ones from above, so that a bridge meets no hole that is not joined yet
+    # from the right, ties from the top, so that a bridge does not cross a hole that is not joined yet
     for ring in sorted(rings[1:], key=lambda ring: max(map(tuple, points[ring].tolist())), reverse=True):
         loop = _bridged(points, loop, ring)
     return points, np.array(_ears(points, loop), dtype=np.int64).reshape(-1, 3)
@@ -112,7 +112,7 @@ class _Corners:
         self.points = [(x, y) for x, y in corners.tolist()]
         self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
         self.turn, self.fatness = [0.0] * count, [0.0] * count
-        self.blocker = [-1] * count  # a corner that was found in the triangle of each; -1: none yet
+        self.blocker = [-1] * count  # a corner known to be in the triangle of each; -1 if unknown
         for at in range(count):
             self._measure(at)
         self.heap = [(-fat, at) for at, fat in enumerate(self.fatness)]
@@ -123,7 +123,7 @@ class _Corners:
         passed, ear = [], -1
         while self.heap:
             fat, at = heappop(self.heap)
-            if -fat != self.fatness[at]:  # it was cut off, or its shape has changed since
+            if -fat != self.fatness[at]:  # an outdated entry: cut off, or with changed neighbours
                 continue
             if self.turn[at] > _FLAT and self._empty(at):
                 ear = at
@@ -133,17 +133,17 @@ class _Corners:
                 break
         for each in passed:
             heappush(self.heap, each)
-        # without an ear nothing but flat corners is left
+        # without an ear only flat corners are left
         return ear if ear >= 0 else min(self.left.tolist(), key=lambda at: abs(self.turn[at]))
 
     def _empty(self, at: int) -> bool:
         """Return whether no other point lies in the triangle of a convex corner."""
         blocker = self.blocker[at]
-        if blocker >= 0 and not isnan(self.fatness[blocker]):  # it is left
+        if blocker >= 0 and not isnan(self.fatness[blocker]):  # not cut off yet
             return False
         here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
         (ax, ay), (x, y) = own.T[..., None], here.T
-        side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # of each edge, (3, n)
+        side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)
         within = np.flatnonzero(side.min(axis=0) >= 0)
         if len(within) == 3:
             return True
@@ -173,11 +173,11 @@ class _Corners:
 # --------------------------------------------------------------------------------------------- raised and turned shapes
 
 
-FINE = 0.02  # mm, how far the chords of a solid may leave a curve
-_SAME = 7  # decimals of a mm to which points are one
+FINE = 0.02  # mm: tolerance of chords of a solid
+_SAME = 7  # decimals (mm) to which points are merged
 SIDES = 96
 """Number of sides of turned parts and round holes: at a radius of 4 mm chords deviate by 2 um."""
-_SLICE = 0.1  # rad: by how much helical teeth turn from one layer to the next
+_SLICE = 0.1  # rad: maximum rotation of helical teeth between layers
 
 
 @dataclass(frozen=True, slots=True)
@@ -282,9 +282,9 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
     sweep = 2 * pi / teeth
-    # -1: a tolerance beyond the diameter asks for no more than one chord
+    # -1: a tolerance larger than the diameter requires only one chord
     steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))), ceil(SIDES / teeth))
-    radius = radius / float(np.cos(sweep / steps / 2))  # round the bore, as in `round_about`
+    radius = radius / float(np.cos(sweep / steps / 2))  # circumscribed about the bore, as in `round_about`
     turn = last - sweep * np.arange(steps + 1) / steps
     assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6
     return np.concatenate([tooth, radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)])
@@ -296,7 +296,7 @@ def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, 
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T
     every = np.stack([c * x - s * y, s * x + c * y], axis=-1).reshape(-1, 2)
-    # rounded only to be compared: last digits of a point seen from two pitches differ; + 0.0 makes -0.0 the same as 0.0
+    # rounded only for the comparison, because pitches differ in the last digits; + 0.0 turns -0.0 into 0.0
     _, first, index = np.unique(every.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = (triangles + len(points) * np.arange(times)[:, None, None]).reshape(-1, 3)
     return every[first], np.asarray(index).reshape(-1)[faces]
@@ -305,9 +305,9 @@ def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, 
 # ------------------------------------------------------------------------------------------------ bevels, crowns, worms
 
 
-_SLICES = 48  # of a worm
-_RIDGE = 0.01  # of a pitch: half of what is left of a crown's tooth that runs out, or its flanks would be one line
-_SIDES = 720  # of a wheel without teeth
+_SLICES = 48  # sections of a worm
+_RIDGE = 0.01  # minimum half width of a crown's tooth in pitches, or its flanks would coincide
+_SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
@@ -346,7 +346,7 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
         return fill(rim, [outline])
     if bore:
         return fill(outline, [round_about(Contour.circle(bore / 2))])
-    # every tooth is seen from the middle: a fan
+    # the outline is star-shaped about the centre, so that a fan of triangles fills it
     count = len(outline)
     spokes = np.arange(count)
     fan = np.stack([spokes, (spokes + 1) % count, np.full(count, count)], axis=1)
@@ -371,14 +371,13 @@ def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
     back[:, 2] = behind
     rows = [_at_bore(back, bore), back, *rows, _at_bore(rows[-1], bore)]
     toothed = _revolved(rows, closed=bore > 0)
-    if wheel.facing < 0:  # the apex lies up its axis
+    if wheel.facing < 0:  # the apex is on the positive side of its axis
         return toothed
     return Solid(toothed.vertices * (1.0, 1.0, -1.0), toothed.faces[:, ::-1])
 
 
 def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
-    """Return points (n, 3) of its outline on its back cone, scaled towards the apex by `scale`, with the apex upwards.
-    """
+    """Return points (n, 3) of its outline on its back cone, scaled towards the apex, with the apex upwards."""
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
     if wheel.cone > CROWN:
@@ -388,8 +387,7 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _aslant(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown's flanks at a radius, for mates whose teeth have a uniform width and pass obliquely.
-    """
+    """Return the angles of a crown's flanks at a radius, for mates of uniform tooth width that pass obliquely."""
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
@@ -402,7 +400,7 @@ def _at_bore(row: Floats, bore: float) -> Floats:
     angle = np.arctan2(row[:, 1], row[:, 0])
     if not bore:
         return np.array([[0.0, 0.0, row[:, 2].mean()]])
-    r = bore / 2 / np.cos(pi / len(row))  # round it, as other holes
+    r = bore / 2 / np.cos(pi / len(row))  # circumscribed, as for other holes
     return np.column_stack([r * np.cos(angle), r * np.sin(angle), row[:, 2]])
 
 

@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 RIM, HUB = 2.25, 1.125
 """Depth of the rim under the roots in modules, and radius of the hub in diameters of the bore, as clockmakers have
 them (rims of 2 to 2.5 modules, hubs of 2 to 2.5 arbors)."""
-_ARM = 1.0  # of the rim: width of an arm
-_WINDOW = 1.0  # of the rim: the least that a window must reach from hub to rim
-_CORNER = 0.5  # of a module: radius of corners, or as a tool needs it
+_ARM = 1.0  # width of a spoke over the depth of the rim
+_WINDOW = 1.0  # minimum radial size of a window over the depth of the rim
+_CORNER = 0.5  # default radius of corners in modules
 
 Point = tuple[float, float]
 
@@ -59,7 +59,7 @@ def arm_windows(root: float, module: float, bore: float, arms: int, corner: floa
         return ()
     depth = RIM * module
     corner = _CORNER * module if corner is None else corner
-    # many arms meet in a greater hub
+    # many spokes require a larger hub
     meet = (_ARM * depth / 2 + corner) / sin(pi / arms) - corner
     outer, inner = root - depth, max(HUB * bore, depth, meet)
     if outer - inner < max(_WINDOW * depth, 2 * corner):
@@ -93,7 +93,7 @@ def _window(outer: float, inner: float, half: float, pitch: float, corner: float
     vertices = []
     for at, (start, about, end) in enumerate(corners):
         following = corners[(at + 1) % 4][0]
-        round_ = at in (1, 3)  # along the hub, and along the rim; between them straight along an arm
+        round_ = at in (1, 3)  # arcs along the hub and the rim; the other two sides are straight edges of spokes
         bulge = bulge_about(end, following, (0.0, 0.0)) if round_ else 0.0
         vertices += [(*start, bulge_about(start, end, about)), (*end, bulge)]
     return Contour.of(vertices)
@@ -125,8 +125,8 @@ def _turned(contour: Contour, angle: float) -> Contour:
 # --------------------------------------------------------------------------------------------------------------- blanks
 
 
-_LAND = 0.8  # of the root circle: the widest bore
-_THIN = 0.4  # mm that a wheel has beside its bore at least, if it is more than that
+_LAND = 0.8  # maximum bore over the root diameter
+_THIN = 0.4  # mm: wall between bore and roots that allows a larger bore
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,7 +221,8 @@ def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     r = blank.pitch_radius
     form = "a disc of its pitch circle, because its teeth are not known"
     what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
-    told = Problem(what, "it has no mate, so its tooth form is not known", "cut its teeth to match the part it works with")
+    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part it works with"
+    told = Problem(what, why, fix)
     return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), told
 
 
@@ -238,7 +239,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
     """Return a ring with seats for pins widened by `wider` (mm); any other wheel unchanged."""
     if blank.pins is None or not wider:
         return blank
-    root = blank.contours[1].points  # corners of the seats stand on the circle inside
+    root = blank.contours[1].points  # corners of the seats are on the inner circle
     inside = float(np.hypot(*root[0])) / blank.module
     seats = pin_seats(blank.pins, blank.teeth, inside, blank.module, wider)
     return replace(blank, contours=(blank.contours[0], seats, *blank.contours[2:]))

@@ -105,8 +105,9 @@ def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of a ring, in the shape of a tooth space of an external wheel, at most `height` (modules)
-    within the pitch circle.
+    """Return a nominal tooth of a ring, at most `height` (modules) within the pitch circle.
+
+    It has the shape of a tooth space of an external wheel.
     """
     most = 1 + 2 * DEDENDUM / z
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
@@ -188,8 +189,9 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angle (rad) of a tooth at relative radius r: an involute, radial below the base circle, with the
-    undercut of a rack.
+    """Return half the angle (rad) of a tooth at relative radius r.
+
+    The flank is an involute, radial below the base circle, with the undercut of a rack.
     """
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
@@ -265,8 +267,9 @@ class ToothProfiles:
 
 
 def find_profiles(stage: SceneContext) -> ToothProfiles:
-    """Return the tooth profile of every wheel, as cut with the declared backlash; wheels that cannot be cut get nominal
-    teeth.
+    """Return the tooth profile of every wheel, as cut with the declared backlash.
+
+    Wheels that cannot be cut get nominal teeth.
     """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}

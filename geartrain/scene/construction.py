@@ -59,9 +59,7 @@ class MeshDirections:
     contact: tuple[Vector, Vector]
     """Unit vectors from their centres to the point of contact, perpendicular to their axes."""
     same: int
-    """1 if positive rotations of both wheels about their own directions move the teeth in contact the same way, else
-    -1.
-    """
+    """1 if positive rotations of both wheels about their directions move the teeth in contact the same way, else -1."""
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:
@@ -88,9 +86,7 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | N
 
 
 def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vector) -> Vector:
-    """Return the unit vector across the axis of a bevel wheel towards its mate, which is on the facing side of the
-    apex.
-    """
+    """Return the unit vector across the axis of a bevel wheel towards its mate, on the facing side of the apex."""
     lies = scaled(stage.along(mate.axis), float(mate.facing)) if mate.facing else minus(mate.centre, own.centre)
     return unit_or_z(across(lies, axis))
 
@@ -175,8 +171,8 @@ class _Mounting:
         self._note_phase(circuit, at)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return the pitches by which a driver's tooth is ahead of the phase of its transmission function, from -1/2 to
-        1/2.
+        """Return by how much (pitches, -1/2 to 1/2) a driver's tooth is ahead of its phase in the transmission
+        function.
         """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:

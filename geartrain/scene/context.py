@@ -73,8 +73,9 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link relative to the driving link; None if it is not determined, or nothing is
-        driven.
+        """Return the exact speed of a link relative to the driving link.
+
+        It is None if the speed is not determined, or nothing is driven.
         """
         found = self.speed(link)
         if found is None or self.driving_link is None:
@@ -115,9 +116,7 @@ class SceneContext:
 
     @cached_property
     def step(self) -> Fraction:
-        """Turns of the driving link in one unit of time of the input: for `100 rpm`, per minute. 1 if nothing is
-        driven.
-        """
+        """Turns of the driving link in one time unit of the input: for `100 rpm`, per minute. 1 if nothing is driven."""
         if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration

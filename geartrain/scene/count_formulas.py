@@ -1,6 +1,4 @@
-"""Speeds of a scene as exact functions of tooth counts: quotients of sums of products, and conditions for their
-validity.
-"""
+"""Speeds of a scene as exact rational functions of tooth counts, and the conditions under which they are valid."""
 
 from __future__ import annotations
 
@@ -18,8 +16,9 @@ class CountFormula:
     """
 
     wheels: Sequence[int]
-    """Counts on which it depends, as indices of `SceneFormulas.wheels`. An index is repeated if equal planets share a
-    count.
+    """Counts on which it depends, as indices of `SceneFormulas.wheels`.
+
+    An index is repeated if equal planets share a count.
     """
     numerator: Sequence[tuple[str, Sequence[int]]]
     """Terms of the numerator: a coefficient as text, and exponents parallel to `wheels`, all 0 or more."""

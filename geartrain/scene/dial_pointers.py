@@ -1,5 +1,4 @@
-"""Dials, with the place and direction of their scales; pointers, with their readings and the pairs on which they
-depend.
+"""Dials with the place and direction of their scales; pointers with their readings and the pairs they depend on.
 
 An output depends on the pairs whose errors would change it; this is computed exactly. An error in one pair is a
 right-hand side in its row. Its effect on an output is the weight of that row in the only combination of rows that gives
@@ -200,9 +199,7 @@ def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials with balls moved to the middle of the pointers of the links that carry them, if these have
-    pointers.
-    """
+    """Return the dials with balls moved into the pointers of the links that carry them, if there are such pointers."""
     return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
 
 
@@ -320,8 +317,9 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """Return a pointer for every output of the state, in the order declared; hands of one dial are at increasing
-    heights.
+    """Return a pointer for every output of the state, in the order declared.
+
+    Hands of one dial are at increasing heights.
     """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found = []

@@ -53,8 +53,9 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """Reading of a pointer: turn of the spiral and cell, from 1; name (empty without one), and the cell within that
-    name.
+    """Reading of a pointer: turn of the spiral and cell, both from 1; name of the part, and cell within it.
+
+    The name is empty on a scale without names.
     """
 
     turn: int
@@ -110,9 +111,7 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: its own, or with numerals that of the line before it, as on
-        clocks.
-        """
+        """Return the number by which a cell is read: its own, or with numerals that of the line before it."""
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
@@ -338,8 +337,9 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
 
 
 def _spiral(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the groove, and inside of it cells as deep as the spacing of turns; the first whole cell of a turn has its
-    number.
+    """Yield the groove and the cells inside of it, which are as deep as the spacing of turns.
+
+    The first whole cell of a turn has its number.
     """
     pitch = (scale.outer - scale.inner) / scale.turns
     every = -(-scale.divisions // (scale.turns * _MARKS))

@@ -18,8 +18,9 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 @dataclass(frozen=True, slots=True)
 class ScenePart:
-    """A structural part as manufactured, turned or flat. Its own z axis passes through `place`, at mid-height if it is
-    flat.
+    """A structural part as manufactured, turned or flat.
+
+    Its own z axis passes through `place`, which is at mid-height of a flat part.
 
     See Also
     --------
@@ -58,8 +59,9 @@ class SceneHanger:
     """
 
     kind: Literal["pendulum", "line", "weight"]
-    """Kind of part. A pendulum swings in step with its escape wheel; a weight falls and its line lengthens as the
-    barrel turns.
+    """Kind of part.
+
+    A pendulum swings in step with its escape wheel. A weight falls, and its line lengthens, as the barrel turns.
     """
     body: int
     """Index of the body whose angle moves it."""
@@ -106,9 +108,7 @@ class SceneBody:
     direction: Vector
     """Reference direction of all axes parallel to its own, a unit vector."""
     sense: int
-    """-1 if the declared axis points against `direction`, so that a declared positive speed is negative about it; else
-    1.
-    """
+    """-1 if the declared axis points against `direction`, so that its speed changes sign about it; else 1."""
     speed: str | None
     """Speed relative to that of the driving link, about its declared axis, exact; None if it is not determined."""
     shown: str | None
@@ -127,8 +127,9 @@ class SceneBody:
 
 @dataclass(frozen=True, slots=True)
 class ToothProfile:
-    """One tooth of a wheel, from the middle of a tooth space to the middle of the next; the tooth's middle is at angle
-    0.
+    """One tooth of a wheel, from the middle of a tooth space to the middle of the next.
+
+    The middle of the tooth is at angle 0.
 
     See Also
     --------
@@ -136,13 +137,14 @@ class ToothProfile:
     """
 
     form: str
-    """Tooth form: triangular, involute, cycloidal, ...; `standard` if none is declared, `likeness` for nominal teeth of
-    a wheel without a flat outline.
+    """Tooth form: triangular, involute, cycloidal, ...
+
+    It is `standard` if none is declared, and `likeness` for nominal teeth of a wheel without a flat outline.
     """
     points: Sequence[tuple[float, float]]
-    """Radius (relative to the pitch radius) and angle [rad] of each point, by increasing angle from -pi/z to pi/z, both
-    ends included. For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back
-    cone.
+    """Radius relative to the pitch radius, and angle [rad], of each point, from -pi/z to pi/z by increasing angle.
+
+    For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back cone.
     """
     hole: bool = False
     """True for the pin of a lantern or another closed curve; its points then go round it."""

@@ -53,8 +53,9 @@ class ErrorTable(Result):
     breaks: Floats
     """Breakpoints in the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
-    """Coefficients of the driven side's error [rad], in powers of the driver's angle minus the middle of its cell.
-    Shape (n, degree + 1).
+    """Coefficients of the driven side's error [rad]. Shape (n, degree + 1).
+
+    They multiply powers of the driver's angle minus the middle of its cell.
     """
     uncertainty: float
     """Maximum error of the table [rad]."""
@@ -140,7 +141,9 @@ class Movement:
     """
 
     kind: str
-    """`exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: these errors cannot be
+    """Kind of motion.
+
+    `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: these errors cannot be
     followed. `still`: no speed is determined.
     """
     why: str = ""
@@ -252,10 +255,10 @@ class InitialPosition:
     """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error (rad) of the driven side at which a driver whose teeth are `shift` (rad) ahead of
-        their phase does not cut into driven teeth.
+        """Return the minimum error (rad) of a driven side into which a driver out of phase nowhere cuts.
 
-        The driven side follows e(S) + c and its mate requires e(S + shift), so c is the maximum of their difference.
+        The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate
+        requires e(S + shift), so c is the maximum of their difference.
         """
         import numpy as np
 

@@ -27,8 +27,9 @@ class ScenePose:
 
     angles: Floats
     turned: Floats
-    """Rotations, shape (bodies, 3, 3). With the displacements `moved`, shape (bodies, 3), in mm, a point p of the zero
-    pose moves to turned p + moved.
+    """Rotation matrices of the bodies. Shape (bodies, 3, 3).
+
+    With their displacements `moved`, shape (bodies, 3) in mm, a point p of the zero pose moves to turned p + moved.
     """
     moved: Floats
 
@@ -42,15 +43,14 @@ class ScenePose:
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the turns of a body after `turns` of the driving link, from its relative speed, exact; 0 if it is not
-    determined.
-    """
+    """Return the exact turns of a body after `turns` of the driving link, from its relative speed; 0 for None."""
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
-    """Return the pose after `turns` of the driving link: mean angles exact, errors of teeth and pins from the scene's
-    tables.
+    """Return the pose after `turns` of the driving link.
+
+    Mean angles are exact, and errors of teeth and pins are from the scene's tables.
 
     Raise `RangeError` if the iteration of pairs that depend on each other does not converge.
     """
@@ -70,8 +70,9 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
 
 
 def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: set[int], at: int) -> None:
-    """Place a body after its parents. Each turns relative to its parent about its own axis, which moves with the
-    parent.
+    """Place a body after its parents.
+
+    Each body turns relative to its parent about its own axis, which moves with the parent.
     """
     line, here = [], at  # a loop, because a chain may exceed Python's recursion limit
     while here not in done:
@@ -116,9 +117,7 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
 
 
 def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas: dict[int, float]) -> None:
-    """Evaluate one step: directly if all drivers of its sources are known, else by fixed-point iteration until
-    convergence.
-    """
+    """Evaluate one step: directly if all drivers of its sources are known, else by fixed-point iteration."""
     bodies, known = list(step.bodies), list(step.known)
     base = _matrix(step.from_known, len(bodies), len(known)) @ error[known]
     gains = _matrix(step.from_sources, len(bodies), len(step.sources))

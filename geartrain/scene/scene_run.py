@@ -215,8 +215,9 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return the samples at which contact changes, and the new states as letters; empty for contacts without
-        flanks.
+        """Return the samples at which contact changes, and the new states as letters.
+
+        Both are empty for contacts without flanks.
         """
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
@@ -227,8 +228,9 @@ class ShownSamples:
         return changes, "".join("dca"[each] for each in code[changes])
 
     def impacts(self, contact: str) -> tuple[Floats, Floats]:
-        """Return times and closing speeds of a contact's impacts. Those within one sample are merged: first time,
-        maximum speed.
+        """Return times and closing speeds of a contact's impacts.
+
+        Impacts within one sample are merged into one with the first time and the maximum speed.
         """
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]

@@ -176,8 +176,9 @@ def _stroke(drawn: str) -> Stroke:
 
 
 def _rounded(corners: list[Point]) -> Iterator[Point]:
-    """Yield corners cut off at a quarter of their sides (Chaikin's algorithm); end points stay, unless a stroke is
-    closed.
+    """Yield corners cut off at a quarter of their sides (Chaikin's algorithm).
+
+    End points are kept, unless a stroke is closed.
     """
     closed = corners[0] == corners[-1]
     found = [] if closed else corners[:1]

@@ -165,8 +165,9 @@ class Pointer:
     reach: float = 0.0
     """Length of its hand relative to the radius of its scale."""
     outline: Sequence[tuple[float, float]] = ()
-    """Outline of its hand, relative to its length: distance from the axis and half the width there; empty without a
-    dial.
+    """Outline of its hand relative to its length: distance from the axis, and half the width there.
+
+    It is empty without a dial.
     """
 
 
@@ -200,8 +201,10 @@ class Scene:
     step: str
     """Turns of the driving link in one unit of the input, exact."""
     verdict: Mapping[str, Any]
-    """Kind, text, faulty loops ({"pairs": [...], "links": [...], "text": ...}), and "advice", a list of sentences that
-    propose a remedy.
+    """Verdict as plain data, with keys "kind", "text", "links", "loops" and "advice".
+
+    A faulty loop is {"pairs": [...], "links": [...], "text": ...}. The advice is a list of sentences that propose a
+    remedy.
     """
     bodies: Sequence[SceneBody]
     """Links, in the order declared, which is that of their indices."""
@@ -224,8 +227,9 @@ class Scene:
     notices: Sequence[Mapping[str, str]]
     """Problems of placement or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
-    """Movement while the driving link turns against its declared sense, in contact on the other flanks; None if it is
-    the same.
+    """Movement while the driving link turns against its declared sense, in contact on the other flanks.
+
+    It is None if it is the same.
     """
     unit_days: str | None = None
     """Length of the unit in days, exact, if it is a time; else None."""
@@ -247,8 +251,9 @@ class Scene:
     """Strain waves that bend flexible wheels into their rings."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON; arrays are base64 of little-endian numbers, row by row. `run` is included only
-        if it exists.
+        """Return plain data for JSON.
+
+        Arrays are base64 of little-endian numbers, row by row. `run` is included only if it exists.
         """
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:

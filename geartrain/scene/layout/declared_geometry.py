@@ -112,8 +112,9 @@ class PitchContact:
     stretch: Fraction = Fraction(1)
     """Centre distance that declared teeth require, as a factor of that of touching pitch circles."""
     worm_sense: int = 0
-    """1 if positive angles of a worm and its wheel move the pitch point the same way, -1 if opposite ways; 0 for other
-    pairs.
+    """1 if positive angles of a worm and its wheel move the pitch point the same way, -1 if opposite ways.
+
+    It is 0 for other pairs.
     """
 
     @property
@@ -284,8 +285,9 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield wheels with the extent of their discs: 1.5 pin diameters, because the rim outside of the pins is one pin
-    wide.
+    """Yield lantern wheels with the extent of their discs beyond the pitch circle (modules).
+
+    It is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
     """
     for gear in declared.gears:
         form = declared.form_of(gear)

@@ -213,8 +213,9 @@ class _BlockBuilder:
                         self.heights.join(("axis", mate), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of the mate of an upright wheel: a strip in plan, or the whole space that its carrier
-        sweeps.
+        """Return the block of the crossing mate of an upright wheel, a strip in plan.
+
+        If a carrier moves it relative to the wheel, the block is the whole space that it sweeps.
         """
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
@@ -301,10 +302,10 @@ class _SlotSearch:
         return {}
 
     def _try(self, count: int) -> dict[str, AxialSlots] | None:
-        """Assign `count` slots to the meshes in order, by depth-first search with backtracking; None without a
-        solution.
+        """Return slots from an assignment of the meshes to `count` slots by depth-first search with backtracking.
 
-        The search has an explicit stack, because a chain of meshes may exceed Python's recursion limit.
+        It is None without a solution. The search has an explicit stack, because a chain of meshes may exceed Python's
+        recursion limit.
         """
         spans: dict[str, AxialSlots] = {}
         choice = [0]  # the slot to try next, by mesh
@@ -373,7 +374,10 @@ class Arrangement:
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return the places of all groups of parallels: that with most wheels first, then those that mesh with it."""
+    """Return the places of all groups of parallels.
+
+    The group with most wheels is placed first, then those that mesh with placed groups.
+    """
     declared = geometry.declared
     order = _order(geometry)
     placing = _Placing(geometry)
@@ -464,7 +468,7 @@ class _Placing:
         return dict.fromkeys(self._in_line(parallels) or driven or labels[:1], (0.0, 0.0))
 
     def _in_line(self, parallels: Parallels) -> list[str]:
-        """Return parallel axes that must be collinear: each intersects the same two crossing axes of different
+        """Return parallel axes that must be collinear, because each intersects two crossing axes of different
         directions.
 
         One crossing wheel also makes its mates collinear, because the cones of all its mates have one apex.

@@ -61,8 +61,10 @@ class PlanProblem:
 def plan_problem(
     geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
 ) -> PlanProblem:
-    """Return the problem of a group of parallels. `fixed` has given points; `standing` has points of axes placed
-    before.
+    """Return the problem of a group of parallels.
+
+    fixed      given points in plan by axis
+    standing   points of axes that are already placed
     """
     declared, labels = geometry.declared, list(parallels.index)
     discs: dict[str, list[PlanDisc]] = {label: [] for label in labels}
@@ -95,9 +97,7 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return distances for pins without dimensions, and for carried axes that no distance connects to their carrier's
-    axis.
-    """
+    """Return distances of pins without dimensions, and of carried axes that are not connected to their carrier's."""
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -121,8 +121,9 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that meet one crossing axis, and so are in a row along it. A worm only passes its wheel's
-    axis.
+    """Yield pairs of axes that intersect one crossing axis, and so are in a row along it.
+
+    A worm does not intersect its wheel's axis.
     """
     met: dict[str, list[str]] = {}
     for each in crossing:

@@ -37,8 +37,9 @@ _MOST_AXES = 1500  # maximum number of axes for which levels are distinguished
 
 
 class PlanClearance:
-    """Overlap cost of axes at fixed distances, that is on one carrier or about it. Axes moved by carriers are left to
-    levels.
+    """Overlap cost of axes at constant distances: axes on one carrier, and the axis of that carrier.
+
+    Axes that carriers move relative to each other are separated by levels instead.
 
     still    (axes, axes): True if the distance of two is constant
     radius   radius of the widest wheel of each axis (mm), without rings
@@ -283,10 +284,10 @@ _ROW = 1.2  # default distance of two axes in a row over the sum of their radii
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
-    """Return the intersections of two circles; if there are none the nearest point between them, for concentric ones
-    nothing.
+    """Return the intersections of two circles.
 
-    With the distance d of the centres they intersect at x = (d^2 + r^2 - s^2) / 2d along it, sqrt(r^2 - x^2) aside.
+    Without an intersection it is the nearest point between them, and nothing for concentric circles. With the distance
+    d of the centres they intersect at x = (d^2 + r^2 - s^2) / 2d along it, sqrt(r^2 - x^2) aside.
     """
     apart = hypot(b[0] - a[0], b[1] - a[1])
     if apart < 1e-12 * (radius + other):
@@ -304,8 +305,9 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the intersections of a line, given by a point and a unit vector, with a circle, else the nearest point of
-    the line.
+    """Return the intersections of a line, given by a point and a unit vector, with a circle.
+
+    Without an intersection both are the point of the line nearest to the centre.
     """
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]

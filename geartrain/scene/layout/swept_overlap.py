@@ -128,9 +128,7 @@ class WheelBlock:
     across: bool = False
     """True for a wheel of an axis that crosses this group, which meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
-    """Ends of the trace in plan of a crossing wheel that stays in place; its half width is `outer`. None for other
-    wheels.
-    """
+    """Ends of the trace in plan of a crossing wheel that stays in place, whose half width is `outer`; else None."""
 
 
 @dataclass(frozen=True)
@@ -152,10 +150,10 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> PlanOverlap:
-    """Return the blocks that overlap in plan, and those that an arbor, or a pin from wheel to wheel, would pass
-    through.
+    """Return the blocks that overlap in plan, and the blocks that arbors or pins would pass through.
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
+    pins     wheel of a pin and wheel of its slot
     """
     if not blocks:
         return PlanOverlap(np.zeros((0, 0), bool), np.zeros((len(links), 0), bool))

@@ -175,8 +175,10 @@ class PitchPoint:
 
 @dataclass(frozen=True, slots=True)
 class MeshAlignment:
-    """Angle of the first tooth of each wheel (rad, from 0 to a pitch), and phase errors (pitches) of pairs that close a
-    loop.
+    """Angles at which wheels mesh.
+
+    turns    angle of the first tooth of each wheel (rad, from 0 to a pitch)
+    misses   phase errors of pairs that close a loop (pitches)
     """
 
     turns: Mapping[str, float]
@@ -212,9 +214,7 @@ def _seated(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
 
 
 def _side_by_side(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
-    """Return directions to the pitch point for parallel axes: towards each other, or for a pair with a ring both
-    outwards.
-    """
+    """Return directions to the pitch point for parallel axes, which are opposite, or equal for a pair with a ring."""
     declared = found.geometry.declared
     direction = declared.lines[contact.axes[0]].direction
     apart = across(minus(found.points[contact.axes[1]], found.points[contact.axes[0]]), direction)

@@ -84,8 +84,9 @@ def _on_cycles(distances: Sequence[AxisDistance]) -> list[AxisDistance]:
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance that is longer than the path round it, or lengthen the path; return whether a module was
-    changed.
+    """Shorten a distance that is longer than the path round it, or lengthen the path.
+
+    Return whether a module was changed.
     """
     one = distances[at]
     way = _way_round(distances, at, modules)
@@ -273,9 +274,7 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes from their declared points, else from the offset of a pin; None without
-        either.
-        """
+        """Return the distance of two axes from their declared points, else from the offset of a pin, else None."""
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -323,9 +322,7 @@ class Seat:
     """Position of a wheel of a pair whose axes are not parallel."""
 
     far: float
-    """Distance (mm) along the direction of its axis from the point where the axes intersect, or are nearest, to its
-    centre.
-    """
+    """Distance (mm) from the point where the axes intersect, or are nearest, to its centre, along its axis."""
     cone: float
     """Half angle of its pitch cone (rad)."""
     out: Vector

@@ -49,8 +49,9 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 
 
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
-    """Return the position of the back of its body, in the coordinate of `height_on_cone`; `root` is the `depth` of its
-    roots (mm).
+    """Return the position of the back of its body (mm), in the coordinate of `height_on_cone`.
+
+    root   height of the roots above the pitch cone (mm)
     """
     ends = 1.0, taper(cone, radius, thickness)
     return min(height_on_cone(cone, radius, root - LAND * radius, scale) for scale in ends) - _BACK * thickness
@@ -62,8 +63,7 @@ def bare_reach(cone: float, radius: float, thickness: float, module: float) -> t
 
 
 def reach(cone: float, radius: float, thickness: float, root: float, tip: float) -> tuple[float, float]:
-    """Return the extents (mm) of a wheel's body along its axis from its pitch circle, away from the apex and towards
-    it.
+    """Return the axial extents (mm) of a wheel's body from its pitch circle, away from the apex and towards it.
 
     cone        half angle of its pitch cone (rad), 0 for a cylinder
     root, tip   heights above the pitch cone (mm)

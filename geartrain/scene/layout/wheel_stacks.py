@@ -206,8 +206,7 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _unheld(self, keys: NDArray[np.float32]) -> Floats:
-        """Return how often arbors interleave with fixed wheels on their axis, which prevents these from being one
-        piece.
+        """Return how often arbors interleave with fixed wheels on their axis, so that these cannot be one piece.
 
         Going upwards, wheels of the two alternate. One alternation means an arbor beside the fixed wheels; each further
         one counts as half.
@@ -229,8 +228,9 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) for each arbor with each stack of another arbor on its axis, and the first row of each
-        ordered pair.
+        """Rows (arbor, stack) of each arbor with each stack of another arbor on its axis, as three arrays.
+
+        They are the arbors, the stacks, and the first row of each ordered pair of arbors.
         """
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
@@ -283,9 +283,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ too many for that
 
     def first_fit(self) -> Floats:
-        """Return keys with each stack in the free level nearest to stacks that share its arbors, else in a new one on
-        top.
-        """
+        """Return keys with each stack in the free level nearest to stacks on its arbors, else in a new top level."""
         keys = np.full(self.count, np.nan)
         levels = 0
         for at in self.order:
@@ -302,9 +300,7 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield ranks of `count` levels, (orders, count): the identity, then orders with one run moved, or reversed in
-    place.
-    """
+    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run moved, or reversed."""
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -338,7 +334,7 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return heights of levels from the lowest: each is above all blocks that clash with it, and above the level
+    """Return heights of levels from the lowest. Each is above all blocks that clash with it, and above the level
     before.
     """
     blocks = problem.blocks
@@ -378,8 +374,9 @@ class WheelStack:
     """Stack -> height (mm) that is determined by parts already placed."""
 
     def heights(self) -> dict[str, float]:
-        """Return heights of upright wheels (mm), as given, with all other stacks shifted by the same amount as the
-        first given one.
+        """Return heights of upright wheels (mm).
+
+        Given heights are kept, and all other stacks are shifted by the same amount as the first given one.
         """
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)

@@ -82,8 +82,9 @@ class AxisColumn:
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other."""
     on: str = ""
-    """Axis of the stud on whose end this stud is turned; empty for other columns. `topped` marks the lower stud of
-    such a pair.
+    """Axis of the stud on whose end this stud is turned; empty for other columns.
+
+    `topped` marks the lower stud of such a pair.
     """
     topped: bool = False
 
@@ -142,9 +143,7 @@ class ColumnProblem:
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the thickest core of standard size that clears all wheels; with a given core, that
-        one.
-        """
+        """Return the column with the given core, else with the thickest core of standard size that clears all wheels."""
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -267,9 +266,7 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core (mm), as given, or such that every pipe fits into the roots of its smallest
-        wheel.
-        """
+        """Return the diameter of the core (mm), as given, else such that every pipe fits into its smallest wheel."""
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
@@ -344,8 +341,9 @@ class CoaxialLink:
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Return links from the innermost, each outside all before it; if that is impossible, as given, with two that
-    conflict.
+    """Return links from the innermost, each outside all before it, and two links that conflict, or None.
+
+    The order is a topological sort. If there is a cycle, the links are returned as given.
     """
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()

@@ -79,9 +79,7 @@ _OVER = 1.0  # mm by which a washer extends beyond its eccentric
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """Wave that bends a flexible wheel: its amplitude (mm), its number of lobes, and the wall thickness of the wheel
-    (mm).
-    """
+    """Strain wave of a flexible wheel: its amplitude (mm), number of lobes, and the wall thickness of the wheel (mm)."""
 
     rise: float
     lobes: int
@@ -168,17 +166,18 @@ class Eccentric:
             yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
 
     def faces(self, disc: StackDisc) -> tuple[float, float]:
-        """Return the faces of the eccentric itself: between its washers, or in a flexible wheel below the wall of its
-        cup.
-        """
+        """Return the faces of the eccentric: between its washers, or in a flexible wheel below the wall of its cup."""
         if self.wave is not None:
             return disc.low + ROOM, disc.high - ROOM - self.wave.length - SHAKE
         return disc.low + HEAD, disc.high - HEAD
 
 
 def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
-    """Return the radius of an eccentric (mm) for an arbor, whose diameter may be given, within `free` (mm) of free
-    radius.
+    """Return the radius of an eccentric (mm) on an arbor.
+
+    offset   distance of its centre from the arbor's axis (mm)
+    arbor    diameter of the arbor (mm), if it is given
+    free     free radius round its centre (mm)
     """
     wanted = offset + (USUAL_ARBOR if arbor is None else arbor) / 2 + WALL
     return round(min(wanted, free - WALL), 2)

@@ -38,8 +38,7 @@ def pillar_places(
     suits: Callable[[Point], bool] = lambda _: True,
     even: bool = False,
 ) -> list[Point]:
-    """Return four places, else three or up to five, whose polygon contains all axes and has the shortest perimeter
-    (mm).
+    """Return four places, else three or five, whose polygon contains all axes and has the shortest perimeter (mm).
 
     In each direction from the middle of the axes the candidate is the innermost place with free space outwards.
     Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
@@ -61,9 +60,7 @@ def pillar_places(
 
 
 def _far_apart(tried: Floats, middle: Floats) -> Floats:
-    """Return the place farthest from the middle, then repeatedly the one farthest from those chosen (greedy
-    dispersion).
-    """
+    """Return five places: the farthest from the middle, then repeatedly the one farthest from those chosen."""
     taken = [int(np.argmax(np.hypot(*(tried - middle).T)))]
     while len(taken) < _MOST:
         away = np.hypot(*(tried[:, None, :] - tried[None, taken, :]).transpose(2, 0, 1)).min(axis=1)
@@ -84,9 +81,7 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon of `count` candidates, relative to the middle, that contains all axes; None without
-    one.
-    """
+    """Return the shortest polygon of `count` candidates that contains all axes, relative to the middle, or None."""
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])

@@ -28,8 +28,9 @@ _FREE = 0.3  # mm between a collet and the next turning part
 
 
 def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
-    """Yield the spacers and collets of all arbors and pipes of a plan, if there is space and no pin works beside the
-    wheels.
+    """Yield the spacers and collets of all arbors and pipes of a plan, if there is space.
+
+    There are none on links with pins and slots, which work beside the wheels.
 
     held   a wheel that needs no collet, because a barrel is fixed to it
     """
@@ -146,9 +147,7 @@ class _OnMember:
         return None if wall is None else Band(low, high, bore + wall, bore + self.around.plan.process.press / 2)
 
     def _collet(self, disc: StackDisc) -> Band | None:
-        """Return the longest collet that fits on either side of a wheel with clearance to turning parts; None without
-        space.
-        """
+        """Return the longest collet that fits on either side of a wheel with clearance to turning parts, or None."""
         longest = _LONGEST * self.member.outer
         for part in (1.0, 0.75, 0.5, 0.25):
             length = max(part * longest, _SHORTEST)

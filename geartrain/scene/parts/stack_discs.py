@@ -56,7 +56,10 @@ class StackDisc:
         return (self.low + self.high) / 2
 
     def room_for(self, at: Point, radius: float) -> float:
-        """Return the minimum gap (mm) to a fixed column over all positions of a carried disc, negative for an overlap."""
+        """Return the minimum gap (mm) to a fixed column over all positions of a carried disc.
+
+        It is negative for an overlap.
+        """
         if self.carrier is None:
             away = dist(at, self.at)
             return max(away - self.outer, self.inner - away if self.inner else -self.outer) - radius
@@ -66,8 +69,9 @@ class StackDisc:
 
 
 def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) -> list[tuple[float, float]]:
-    """Return occupied intervals of height, from the lowest; discs that overlap are merged, and so are all between tied
-    ends.
+    """Return occupied intervals of height, from the lowest.
+
+    Discs that overlap are merged, and so are all between tied ends.
     """
     found: list[tuple[float, float]] = []
     for low, high in sorted([*((disc.low, disc.high) for disc in discs), *tied]):
@@ -181,9 +185,7 @@ def _is_inside(line: Floats, point: Floats) -> bool:
 
 
 def _notched(line: Floats, start: float, width: float) -> Floats:
-    """Return a closed line, counter-clockwise, without the part beyond `start` along x and within `width` of the x
-    axis.
-    """
+    """Return a closed line, counter-clockwise, with a notch beyond `start` along x and within `width` of the x axis."""
     (last, below), (first, above) = (_exit(line, level, start) for level in (-width, width))
     order = (first + 1 + np.arange((last - first - 1) % len(line) + 1)) % len(line)
     return np.vstack([above, line[order], below, [[start, -width], [start, width]]])

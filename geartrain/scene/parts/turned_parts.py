@@ -50,8 +50,9 @@ class TurnedPart:
     name: str
     """Name of the part."""
     kind: str
-    """Kind of part: arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, rod, bob or
-    weight.
+    """Kind of part.
+
+    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, rod, bob or weight.
     """
     at: Point
     """Position of its axis in the stack [mm]."""

@@ -33,9 +33,7 @@ TOLERANCE = 0.001  # mm: tolerance of chords
 
 @dataclass(frozen=True, slots=True)
 class EngravedText:
-    """Letters of a given height (mm), with their centre (mm) and the angle of the line of text from the x axis
-    (degrees).
-    """
+    """Letters of a given height (mm), with their centre (mm) and the angle of the text from the x axis (degrees)."""
 
     text: str
     at: tuple[float, float]

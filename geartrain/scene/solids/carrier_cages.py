@@ -380,9 +380,7 @@ class _Holder:
         return float(aside @ np.array(right)), float(aside @ np.array(up))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the side and the position along its arbor of the outer end of the wheels, away from the carrier's
-        axis.
-        """
+        """Return the outer end of the wheels along their arbor, as the side of the carrier's axis and position (mm)."""
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
@@ -410,9 +408,7 @@ class _Holder:
         return SolidPart(self.index, part.name, part.kind, turn, place, turned=part)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the nearest face of the carrier's wheels that extend to a post within their teeth; None if there is
-        none.
-        """
+        """Return the nearest face of the carrier's wheels that extend to a post within their teeth, or None."""
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
         return min(faces, key=lambda each: abs(each - height), default=None)
@@ -427,9 +423,7 @@ class _Holder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the middle of an arm next to the pinion, on the side with fewest obstructing wheels of the carrier's
-        axis.
-        """
+        """Return the middle of an arm next to the pinion, on the side with fewest obstructing coaxial wheels."""
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:
@@ -448,9 +442,7 @@ class _Holder:
                 yield wheel
 
     def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
-        """Return heights of the `ends` of a wheel about the carrier's axis, which are relative to its centre and
-        direction.
-        """
+        """Return heights of the `ends` of a wheel about the carrier's axis, which are given relative to its centre."""
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
         low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high

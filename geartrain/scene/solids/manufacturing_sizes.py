@@ -53,8 +53,9 @@ class ManufacturingSizes:
     bore: float | None = None
     """Diameter of the arbors [mm]. 0 omits arbors and plates, and holes of wheels."""
     backlash: float | None = None
-    """Circumferential backlash at the pitch circle of every pair that does not declare its own [mm], 0 or more; by
-    default 1/20 of the module.
+    """Circumferential backlash at the pitch circle of every pair that does not declare its own [mm], 0 or more.
+
+    The default is 1/20 of the module.
     """
     process: str | None = None
     """Manufacturing process: laser, cnc, fdm or hand. It sets kerf, fits, and the default backlash."""
@@ -91,8 +92,9 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
 
 
 def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearTrain:
-    """Return the train with the requested modules and backlash, as if it declared them; the same train without
-    requests.
+    """Return the train with the requested modules and backlash, as if it declared them.
+
+    Without requests it is the same train.
 
     Raise `QuestionError` if the declaration gives sizes, which take precedence, and if teeth cannot have the backlash.
 
@@ -216,8 +218,9 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the thicknesses of all wheels (mm), as requested; wheels without a declared thickness share one stock
-    size.
+    """Return the thicknesses of all wheels (mm), as requested.
+
+    Otherwise wheels without a declared thickness share one stock size.
     """
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)

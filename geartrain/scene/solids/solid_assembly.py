@@ -255,9 +255,7 @@ class _Parts:
         return replace(flat, drawn=wheel_solid(blank))
 
     def rods(self) -> Iterator[SolidPart]:
-        """Yield an arbor without bearings for every body whose axis no plate bears, from its lowest wheel to the
-        highest.
-        """
+        """Yield an arbor without bearings, as long as its wheels require, for every body whose axis no plate bears."""
         frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
         borne = set[str]()
         if frame is not None:

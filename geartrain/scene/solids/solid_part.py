@@ -32,8 +32,11 @@ class SolidPart:
     name: str
     """Name of the wheel or part."""
     kind: str
-    """Wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin,
-    rod, bob or weight."""
+    """Kind of part.
+
+    It is one of wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock,
+    pin, rod, bob or weight.
+    """
     turn: Floats
     """Rotation matrix into the zero pose. Shape (3, 3)."""
     place: Floats

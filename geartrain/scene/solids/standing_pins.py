@@ -44,7 +44,10 @@ _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """A pin in one wheel, and its slot in another. The pin's wheel is None if no wheel carries the pins of round holes."""
+    """A pin in one wheel, and its slot in another.
+
+    The pin's wheel is None if no wheel carries the pins of round holes.
+    """
 
     coupling: SceneCoupling
     pin: SceneWheel | None
@@ -102,9 +105,7 @@ def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
 
 
 def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
-    """Return the distance from the slot's axis to the centre of its outer end, and half the width of a separate bar
-    (mm).
-    """
+    """Return the distance from the slot's axis to the centre of the bar's outer end, and half the bar's width (mm)."""
     return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
 
 
@@ -327,9 +328,7 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost place with sufficient clearance relative to wheel and arm, else that with the maximum
-    clearance.
-    """
+    """Return the outermost place with sufficient clearance relative to wheel and arm, else the clearest place."""
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]

@@ -59,8 +59,9 @@ def area(polygon: Floats) -> float:
 
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point to the
-    right.
+    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible one.
+
+    Only points to the right of the hole are considered.
     """
     at = int(np.lexsort(points[hole].T[::-1])[-1])
     hole = hole[at:] + hole[:at]
@@ -254,9 +255,7 @@ def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
 
 
 def twisted(points: Floats, triangles: Integers, thickness: float, twist: float) -> Solid:
-    """Return a flat shape (n, 2) extruded by half the thickness to either side, its upper face rotated by `twist`
-    (rad).
-    """
+    """Return a flat shape (n, 2) extruded by half the thickness to either side, with a `twist` of the top (rad)."""
     x, y = points.T
     layers = []
     for height in np.linspace(-0.5, 0.5, 1 + max(1, ceil(abs(twist) / _SLICE))).tolist():
@@ -311,8 +310,7 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return a wheel of the scene, with its pitch circle centred at the origin, its first tooth along x, its axis along
-    z.
+    """Return an approximate wheel of the scene, centred at the origin, its first tooth along x, its axis along z.
 
     bore   diameter of its hole, unless it is a ring (mm)
     """
@@ -405,8 +403,9 @@ def _at_bore(row: Floats, bore: float) -> Floats:
 
 
 def _revolved(rows: list[Floats], *, closed: bool) -> Solid:
-    """Return the surface through rows of points, each counter-clockwise, closed through the bore or by a point at each
-    end.
+    """Return the surface through rows of points, each counter-clockwise.
+
+    It is closed through the bore, or by a point at each end.
     """
     count, starts = len(rows[1]), np.cumsum([0, *map(len, rows)])
     here, after = np.arange(count), (np.arange(count) + 1) % count

@@ -211,8 +211,9 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """Return a wheel without mates, an escape wheel with its teeth, any other as a disc of its pitch circle, with a
-    notice.
+    """Return a wheel without mates, with a notice.
+
+    An escape wheel has its teeth, and any other wheel is a disc of its pitch circle.
     """
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"

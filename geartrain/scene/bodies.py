@@ -70,15 +70,15 @@ def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
     """Return bodies and wheels with flexible ones moved to the axes of their generators, and the strain waves."""
-    told, moved, waves = list(bodies), list(wheels), []
+    bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
         wheel = wheels[at]
-        told[wheel.body] = replace(bodies[wheel.body], parent=bodies[by].parent, point=bodies[by].point)
+        bent[wheel.body] = replace(bodies[wheel.body], parent=bodies[by].parent, point=bodies[by].point)
         moved[at] = replace(wheel, centre=minus(wheel.centre, each.offset))
         way, rise, thin = unit_or_z(each.offset), size(each.offset), wall(wheel.radius)
         waves.append(SceneWave(at, by, way, rise, each.lobes, wheel.root - thin / 2, thin))
-    return tuple(told), tuple(moved), tuple(waves)
+    return tuple(bent), tuple(moved), tuple(waves)
 
 
 # -------------------------------------------------------------------------------------------------------- nominal teeth
@@ -287,12 +287,12 @@ def _section(toothing: WheelTeeth) -> ToothProfile:
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
     """Yield the reasons why planar wheels are drawn differently from how they could be cut, each reason once."""
-    told: dict[tuple[str, str, str, bool], list[str]] = {}
+    by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
             first = problems[0]
-            told.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
-    for (what, why, fix, of_first), wheels in told.items():
+            by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
+    for (what, why, fix, of_first), wheels in by_reason.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
         drawn = "drawn as for their first pairs" if of_first else "drawn approximately"
         yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)

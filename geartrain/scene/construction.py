@@ -171,7 +171,7 @@ class _Mounting:
         self._note_phase(circuit, at)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return by how much (pitches, -1/2 to 1/2) a driver's tooth is ahead of its phase in the transmission
+        """Return by how much (pitches, -1/2 to 1/2) a driver's tooth is ahead of the phase of its transmission
         function.
         """
         setting = self.moved.driving.get(circuit.id)
@@ -286,7 +286,7 @@ def find_count_formulas(
     own = originals(declared)
     counted = {wheel.id: _original(wheel.id, own, bodies[wheel.body].id) for wheel in wheels}
     try:
-        train_requested = _asking(unfolded.declaration, state, [*requested, *filter(None, links)])
+        train_requested = _with_outputs(unfolded.declaration, state, [*requested, *filter(None, links)])
         found = find_formulas(train_requested, state, {name: free[of] for name, of in counted.items() if of in free})
     except GearTrainError:
         return None
@@ -309,7 +309,7 @@ def _name(requested: tuple[str, str]) -> str:
     return " seen from ".join(requested)
 
 
-def _asking(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
+def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
     """Return the train with other outputs: speeds of links relative to links."""
     outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in requested})
     states = {

@@ -116,7 +116,7 @@ class SceneContext:
 
     @cached_property
     def step(self) -> Fraction:
-        """Turns of the driving link in one time unit of the input: for `100 rpm`, per minute. 1 if nothing is driven."""
+        """Turns of the driving link in one time unit of the input, for `100 rpm` per minute; 1 if nothing is driven."""
         if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration

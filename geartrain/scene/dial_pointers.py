@@ -150,7 +150,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
     """Return every declared dial on which an output is read, once for each body and axis."""
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
-    width = _width(stage)
+    width = _train_width(stage)
     for name, output in stage.outputs.items():
         dial = declared.dials.get(output.dial or "")
         key = dial_key(stage, name)
@@ -162,26 +162,26 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             id=key[0],
             body=stage.body[key[1]],
             face=dial.face or "",
-            centre=_beyond(stage, key[2], normal, _GAP * width),
+            centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
-            radius=0.4 * min(width, _side(stage, normal)),
+            radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
             look=dial.look,
             note=dial.note or "",
-            engraving=_told(scale) if dial.look == "scale" else (),
+            engraving=_engraving(scale) if dial.look == "scale" else (),
         )
     scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
     return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
 
 
 @lru_cache(maxsize=64)
-def _told(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
+def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
     """Return the engraving as differences from point to point, in integer fractions of the radius."""
-    return tuple((each.kind, round(each.width, 4), tuple(map(_steps, each.lines))) for each in engrave(scale))
+    return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
 
 
-def _steps(line: Stroke) -> tuple[int, ...]:
+def _differences(line: Stroke) -> tuple[int, ...]:
     x = y = 0
     found: list[int] = []
     for point in line:
@@ -244,7 +244,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
     return scaled(normal, -1.0) if away else normal
 
 
-def _width(stage: SceneContext) -> float:
+def _train_width(stage: SceneContext) -> float:
     """Return the extent of the train perpendicular to the view (mm)."""
     places = stage.layout.wheels.values()
     if not places:
@@ -255,15 +255,15 @@ def _width(stage: SceneContext) -> float:
     return max(high - low, 1e-6)
 
 
-def _side(stage: SceneContext, normal: Vector) -> float:
+def _side_width(stage: SceneContext, normal: Vector) -> float:
     """Return the width of the side on which a dial is mounted (mm); infinite for dials that face the reader or away."""
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
-    return max(min((_reach(stage, way) for way in ways), default=inf), _MINIMUM * _width(stage))
+    return max(min((_extent(stage, way) for way in ways), default=inf), _MINIMUM * _train_width(stage))
 
 
-def _reach(stage: SceneContext, way: Vector) -> float:
+def _extent(stage: SceneContext, way: Vector) -> float:
     """Return the extent of all wheels along a direction (mm)."""
     ends = []
     for wheel in stage.layout.wheels.values():
@@ -274,7 +274,7 @@ def _reach(stage: SceneContext, way: Vector) -> float:
     return max(ends) - min(ends) if ends else inf
 
 
-def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
+def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
     """Return the point of an axis beyond all wheels on one side."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point

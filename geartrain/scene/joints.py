@@ -59,11 +59,11 @@ def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
     """Return the verdict as plain data with its loops, and the fault of each pair by name."""
     verdict = stage.answer.verdict
     faults: dict[str, str] = {}
-    loops = {loop.pairs: _said(loop) for loop in verdict.loops}
+    loops = {loop.pairs: _loop_data(loop) for loop in verdict.loops}
     if verdict.kind != "determined" or stage.train.mobility.locked:
         for jam in stage.train.kinematics.gridlock.jams:
-            loops.setdefault(jam.loop.pairs, {**_said(jam.loop), "text": str(jam)})
-    for loop in (*loops.values(), *_unfit(stage)):
+            loops.setdefault(jam.loop.pairs, {**_loop_data(jam.loop), "text": str(jam)})
+    for loop in (*loops.values(), *_unusable_pairs(stage)):
         loops.setdefault(tuple(loop["pairs"]), loop)
         for pair in loop["pairs"]:
             faults.setdefault(pair, loop["text"])
@@ -77,11 +77,11 @@ def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
     }, faults
 
 
-def _said(loop: Loop) -> dict[str, Any]:
+def _loop_data(loop: Loop) -> dict[str, Any]:
     return {"pairs": list(loop.pairs), "links": list(loop.links), "text": f"{loop} does not close"}
 
 
-def _unfit(stage: SceneContext) -> Iterator[dict[str, Any]]:
+def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
     """Yield pairs whose real teeth cannot run, in the form of loops, with the reason and a remedy."""
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
@@ -140,7 +140,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
         offset=offset,
         drawn=declared.pin_radius is not None and declared.offset is not None,
         text=in_words(circuit, stage.train.kinematics.signs),
-        slot_turn=_aside(stage, moved, circuit),
+        slot_turn=_slot_angle(stage, moved, circuit),
         pins_at=_around(declared, pin_axis, towards, radius, axis),
         holes_at=_around(declared, slot_axis, towards, radius, axis),
         pin_diameter=pin,
@@ -181,7 +181,7 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
     return pin, pin + 2 * offset
 
 
-def _aside(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
+def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
     """Return the angle (rad) by which the slot in the zero pose deviates from the direction of its pin.
 
     A transmission function has slot and pin in line if both angles are 0. Declared starting angles may differ.

@@ -255,7 +255,7 @@ class InitialPosition:
     """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error (rad) of a driven side into which a driver out of phase nowhere cuts.
+        """Return the minimum error (rad) of the driven side at which a driver out of phase does not cut into it.
 
         The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate
         requires e(S + shift), so c is the maximum of their difference.
@@ -285,33 +285,33 @@ def find_movement(stage: SceneContext) -> MovementStart:
     """Return the movement of a train in its state: the mean motion, with the reason, if errors cannot be followed."""
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
-        return MovementStart(Movement("still", why, period=None), _started(stage))
+        return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
     if stage.unbuilt:
-        return _in_the_mean(stage, stage.unbuilt)
+        return _mean_movement(stage, stage.unbuilt)
     if not stage.meshes and not stage.train.mechanics.pins:
-        return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _started(stage))
+        return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _starting_angles(stage))
     try:
         motion = stage.train.motion(stage.answer.state, tuple(stage.train.declaration.links))
         return _followed(stage, motion)
     except GearTrainError as error:
-        return _in_the_mean(stage, error.problems)
+        return _mean_movement(stage, error.problems)
 
 
-def _started(stage: SceneContext) -> dict[str, float]:
+def _starting_angles(stage: SceneContext) -> dict[str, float]:
     return {link: stage.sense(link) * stage.start(link) for link in stage.train.declaration.links}
 
 
-def _in_the_mean(stage: SceneContext, problems: Sequence[Problem]) -> MovementStart:
+def _mean_movement(stage: SceneContext, problems: Sequence[Problem]) -> MovementStart:
     first = problems[0]
     movement = Movement("mean", f"{first.what}: {first.why}" if first.why else first.what, _text(_period(stage, ())))
-    return MovementStart(movement, _started(stage), notices=tuple(problems))
+    return MovementStart(movement, _starting_angles(stage), notices=tuple(problems))
 
 
 def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
     import numpy as np
 
     composition = motion.ahead
-    _try(composition, float(motion.period or 1))
+    _check_positions(composition, float(motion.period or 1))
     error, way = composition.at(np.zeros(1)).error[:, 0], motion.train.way
     links = tuple(stage.train.declaration.links)
     rest = {
@@ -319,12 +319,12 @@ def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
         for link, each in zip(links, error, strict=True)
     }
     driving = dict(_settings(composition, way))
-    movement = _written(stage, composition, way)
+    movement = _movement(stage, composition, way)
     back, notices = _backward(stage, motion, movement)
     return MovementStart(movement, rest, driving, motion, notices, back)
 
 
-def _try(composition: ErrorComposition, turns: float) -> None:
+def _check_positions(composition: ErrorComposition, turns: float) -> None:
     """Raise `GearTrainError` if pairs that depend on each other have no common position."""
     import numpy as np
 
@@ -336,15 +336,15 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
     """Return the movement in reverse if it differs from that ahead, and notices on why it cannot be followed."""
     try:
         composition = motion.back
-        _try(composition, -float(motion.period or 1))
-        back = _written(stage, composition, motion.train.way)
+        _check_positions(composition, -float(motion.period or 1))
+        back = _movement(stage, composition, motion.train.way)
     except GearTrainError as error:
-        mean = _in_the_mean(stage, error.problems)
+        mean = _mean_movement(stage, error.problems)
         return mean.movement, mean.notices
     return (None if plain(back) == plain(ahead) else back), ()
 
 
-def _written(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
+def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
     """Return the movement of a composition, `exact` if ratios are constant. Backlash may still give offsets."""
     transmissions, sources = laws_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)

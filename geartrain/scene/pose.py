@@ -109,14 +109,14 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
     error = np.zeros(len(scene.bodies))
     deltas: dict[int, float] = {}
     for step in movement.steps:
-        _take(scene, step, turns, error, deltas)
+        _evaluate_step(scene, step, turns, error, deltas)
     index = {body.id: at for at, body in enumerate(scene.bodies)}
     for link, offset in movement.offsets.items():
         error[index[link]] += offset
     return error
 
 
-def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas: dict[int, float]) -> None:
+def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas: dict[int, float]) -> None:
     """Evaluate one step: directly if all drivers of its sources are known, else by fixed-point iteration."""
     bodies, known = list(step.bodies), list(step.known)
     base = _matrix(step.from_known, len(bodies), len(known)) @ error[known]

@@ -290,7 +290,7 @@ def find_run(
         links=tuple(samples.link(_turned(stage, run, moves[link]), _tolerance(stage, link)) for link in links),
         contacts=contacts,
         deviations=run.deviations,
-        notes=(*run.notes, *_left_out(run, movement)),
+        notes=(*run.notes, *_omissions(run, movement)),
     )
 
 
@@ -311,7 +311,7 @@ def _tolerance(stage: SceneContext, link: str) -> float:
     return TOLERANCE / max(1.0, *(abs(float(ratio)) for ratio in ratios if ratio))
 
 
-def _left_out(run: TimeRun, movement: Movement) -> Iterator[str]:
+def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
     if movement.kind == "mean":
         yield f"initial angles are those of the mean motion, without transmission errors; {movement.why}"
     kept = len(run.impacts.time)

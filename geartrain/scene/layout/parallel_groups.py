@@ -183,10 +183,10 @@ class _BlockBuilder:
         """Fix the height of a wheel relative to the crossing axis."""
         side = each.side
         above = each.seat.far * self._rise(self.declared.lines[side.axis])
-        above += self._climb(self.declared.lines[side.mate_axis], self.places[side.axis])
+        above += self._height_at(self.declared.lines[side.mate_axis], self.places[side.axis])
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
-    def _climb(self, across: AxisLine, place: Point) -> float:
+    def _height_at(self, across: AxisLine, place: Point) -> float:
         """Return the height of a crossing axis at a point in plan relative to its reference point."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
@@ -220,7 +220,7 @@ class _BlockBuilder:
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
-        offset += self._climb(across, self.places[side.axis])
+        offset += self._height_at(across, self.places[side.axis])
         u, v = self.parallels.flat(across.direction)
         flat, rise = hypot(u, v), self._rise(across)
         x, y = self.places[side.axis]
@@ -407,7 +407,7 @@ def _order(geometry: SizedGeometry) -> list[int]:
 
 
 @dataclass(frozen=True, slots=True)
-class _HeldAxis:
+class _DeterminedAxis:
     """A new axis that meshes with a placed one: the pair from the new side, and a point of the axis."""
 
     crossing: CrossingSide
@@ -428,7 +428,7 @@ class _Placing:
 
     def place(self, parallels: Parallels) -> None:
         """Plan some parallels, broaden wheels as the plan requires, and stack them."""
-        held = list(self._held(parallels))
+        held = list(self._determined_axes(parallels))
         fixed = self._fixed(parallels, held)
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))
         swept = swept_distances(parallels.lines, places)
@@ -441,7 +441,7 @@ class _Placing:
         for wheel, height in stack.heights().items():
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
-    def _held(self, parallels: Parallels) -> Iterator[_HeldAxis]:
+    def _determined_axes(self, parallels: Parallels) -> Iterator[_DeterminedAxis]:
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -450,9 +450,9 @@ class _Placing:
                 if each.contact.kind == "screw":
                     far = sum(self.geometry.sizes[wheel].radius for wheel in each.contact.wheels)
                     point = plus(point, each.mate_seat.out, far)
-                yield _HeldAxis(each, point)
+                yield _DeterminedAxis(each, point)
 
-    def _fixed(self, parallels: Parallels, held: Sequence[_HeldAxis]) -> dict[str, Point]:
+    def _fixed(self, parallels: Parallels, held: Sequence[_DeterminedAxis]) -> dict[str, Point]:
         """Return points in plan of the axes that cannot move; if nothing fixes any, that of one axis."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for new in held:
@@ -465,13 +465,12 @@ class _Placing:
             if each.side.axis in parallels.index and given is not None:
                 return {each.side.axis: parallels.flat(given)}
         driven = [label for label in labels if label == declared.driven]
-        return dict.fromkeys(self._in_line(parallels) or driven or labels[:1], (0.0, 0.0))
+        return dict.fromkeys(self._collinear(parallels) or driven or labels[:1], (0.0, 0.0))
 
-    def _in_line(self, parallels: Parallels) -> list[str]:
-        """Return parallel axes that must be collinear, because each intersects two crossing axes of different
-        directions.
+    def _collinear(self, parallels: Parallels) -> list[str]:
+        """Return parallel axes that must coincide, because each intersects two crossing axes of different directions.
 
-        One crossing wheel also makes its mates collinear, because the cones of all its mates have one apex.
+        One crossing wheel also makes the axes of its mates coincide, because the cones of all its mates have one apex.
         """
         met: dict[str, set[int]] = {label: set() for label in parallels.index}
         mates: dict[str, list[str]] = {}
@@ -503,7 +502,7 @@ class _Placing:
         }
         self.geometry = replace(self.geometry, sizes={**sizes, **broad})
 
-    def _constraints(self, parallels: Parallels, held: Sequence[_HeldAxis]) -> list[HeightConstraint]:
+    def _constraints(self, parallels: Parallels, held: Sequence[_DeterminedAxis]) -> list[HeightConstraint]:
         """Return heights of wheels whose axes are determined by placed parts."""
         found = []
         for new in held:

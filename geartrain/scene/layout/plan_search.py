@@ -412,7 +412,7 @@ class _BeamSearch:
     def _options(self, step: PlanStep, plan: _Plan) -> list[_Option]:
         """Return the best places of an axis in one plan."""
         candidates = self._candidates(step, plan.points)
-        costs = _missed(step, candidates, plan.points)
+        costs = _distance_cost(step, candidates, plan.points)
         costs += self.clearance.cost(step.axis, step.placed, candidates, plan.points)
         if len(step.placed):
             apart = candidates - plan.points[step.placed].mean(axis=0)
@@ -494,7 +494,7 @@ class _BeamSearch:
         return found
 
 
-def _missed(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
+def _distance_cost(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
     """Return the cost of the distances that each candidate violates, or makes impossible."""
     total = np.zeros(len(candidates))
     for bound in (*step.tied, *step.bounds):

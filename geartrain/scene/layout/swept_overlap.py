@@ -179,12 +179,12 @@ def find_plan_overlap(
     for row, link in enumerate(links):
         if link in plates:
             pierce[row, named[plates[link]]] = False
-    rows = [_in_the_way(blocks, off, (named[pin], named[slot])) for pin, slot in pins]
+    rows = [_pin_obstacles(blocks, off, (named[pin], named[slot])) for pin, slot in pins]
     pierce = np.vstack([pierce, *rows])
     return PlanOverlap(clash, pierce)
 
 
-def _in_the_way(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
+def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
     """Return blocks of other links that a pin may meet between its wheel and that of its slot."""
     pin, slot = (blocks[at] for at in ends)
     outer = np.array([block.outer for block in blocks])

@@ -198,7 +198,7 @@ def align_meshes(found: Arrangement) -> MeshAlignment:
 def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
     declared = found.geometry.declared
     directions = [declared.lines[axis].direction for axis in contact.axes]
-    outs = _side_by_side(found, contact) if contact.parallel else _seated(found, contact)
+    outs = _parallel_directions(found, contact) if contact.parallel else _seat_directions(found, contact)
     first, second = (
         PitchSide(wheel, declared.count(wheel), azimuth(across(out, direction), direction, reference(direction)))
         for wheel, direction, out in zip(contact.wheels, directions, outs, strict=True)
@@ -207,13 +207,13 @@ def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
     return PitchPoint(contact.name, first, second, contact.worm_sense or (1 if same else -1))
 
 
-def _seated(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
+def _seat_directions(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
     """Return directions to the pitch point for axes that are not parallel, one for each wheel."""
     first, second = (found.geometry.seats[contact.name, wheel] for wheel in contact.wheels)
     return first.out, second.out
 
 
-def _side_by_side(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
+def _parallel_directions(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
     """Return directions to the pitch point for parallel axes, which are opposite, or equal for a pair with a ring."""
     declared = found.geometry.declared
     direction = declared.lines[contact.axes[0]].direction

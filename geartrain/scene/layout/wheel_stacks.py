@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _PIERCED = 1.0  # cost of an arbor that passes through a wheel
 # cost of an arbor that interleaves with fixed wheels, in successive passes: a high initial cost gives worse optima
-_HELD = (0.0, 4.0, 2.0)
+_FIXED_COSTS = (0.0, 4.0, 2.0)
 _LONG = 0.02  # cost of a level that an arbor spans
 _LEVEL = 0.005  # cost of a level
 _PASSES = 8  # maximum number of passes over all stacks
@@ -100,7 +100,7 @@ class _OrderSearch:
         return [*(tuple(stacks) for stacks in carried.values()), *pins]
 
     @cached_property
-    def _standing(self) -> dict[int, tuple[int, ...]]:
+    def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
         """Stacks of fixed wheels by axis, if there are several, which are one piece."""
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
@@ -132,31 +132,33 @@ class _OrderSearch:
         """Place all stacks, then improve each again and move runs of levels until nothing improves."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
-            self._settle(keys, at, 0.0)
-        for held in _HELD if self._standing else (0.0,):
-            keys = self._converged(keys, held)
+            self._place_best(keys, at, 0.0)
+        for fixed_cost in _FIXED_COSTS if self._fixed_stacks else (0.0,):
+            keys = self._converged(keys, fixed_cost)
         return keys
 
-    def _converged(self, keys: Floats, held: float) -> Floats:
+    def _converged(self, keys: Floats, fixed_cost: float) -> Floats:
         for _ in range(_PASSES):
             before = keys.copy()
             for at in self.order:
-                self._settle(keys, at, held)
-            keys, better = self._shifted(keys, held)
+                self._place_best(keys, at, fixed_cost)
+            keys, better = self._best_shift(keys, fixed_cost)
             if not better and np.array_equal(before, keys):
                 break
         return keys
 
-    def _shifted(self, keys: Floats, held: float) -> tuple[Floats, bool]:
+    def _best_shift(self, keys: Floats, fixed_cost: float) -> tuple[Floats, bool]:
         """Return the best order with one run of levels moved or reversed, and whether it is an improvement."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
-        costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE], held) for at in range(0, len(ranks), _AT_ONCE)])
+        costs = np.concatenate(
+            [self._costs(ranks[at : at + _AT_ONCE], fixed_cost) for at in range(0, len(ranks), _AT_ONCE)]
+        )
         # rounded, so that ties are broken alike whatever the order of summation
         best = int(np.argmin(costs.round(9)))
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
-    def _settle(self, keys: Floats, at: int, held: float) -> None:
+    def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
         """Move one stack to its place of minimum cost, in a level (integer key) or between two (half-integer key)."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
@@ -170,24 +172,24 @@ class _OrderSearch:
         tries = (np.nonzero(free)[0] - 1) / 2
         every = np.repeat(keys[None, :], len(tries), axis=0)
         every[:, at] = tries
-        # rounded as in `_shifted`, to break ties
-        keys[at] = tries[int(np.argmin(np.round(self._costs(every, held), 9)))]
+        # rounded as in `_best_shift`, to break ties
+        keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
-    def _costs(self, every: Floats, held: float) -> Floats:
+    def _costs(self, every: Floats, fixed_cost: float) -> Floats:
         """Return costs of several orders of the same stacks, one per row; stacks that are not placed yet are nan.
 
-        held   cost of an arbor that interleaves with fixed wheels
+        fixed_cost   cost of an arbor that interleaves with fixed wheels
         """
         keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
-        low, high = keys[self._borne[0]], keys[self._borne[0]]  # two copies, each modified in place below
-        for stacks in self._borne[1:]:
+        low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below
+        for stacks in self._stack_table[1:]:
             low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin and fmax ignore nan
-        out_below, out_above = self._running_out
+        out_below, out_above = self._dial_arbors
         low[out_below], high[out_above] = np.nanmin(keys, axis=0), np.nanmax(keys, axis=0)
         span = np.nansum(high - low, axis=0)  # without the part to a dial, which cannot be shortened
         low[out_below] -= np.inf
         high[out_above] += np.inf
-        tangled = self._tangled(keys, low, high) + (held * self._unheld(keys) if held else 0.0)
+        tangled = self._interleaved(keys, low, high) + (fixed_cost * self._split_fixed(keys) if fixed_cost else 0.0)
         for core, *pipes in self._coaxial_arbors:  # the inner arbor carries its pipes, so it is at least as long
             low[core] = np.fmin(low[core], np.fmin.reduce(low[pipes]))
             high[core] = np.fmax(high[core], np.fmax.reduce(high[pipes]))
@@ -196,7 +198,7 @@ class _OrderSearch:
         levels = (np.diff(np.sort(keys, axis=0), axis=0) > 0).sum(axis=0)
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
-    def _tangled(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
+    def _interleaved(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
         """Return the number of pairs of coaxial arbors that interleave, so that neither can be a pipe."""
         arbor, stack, starts = self._coaxial
         if not len(starts):
@@ -205,15 +207,15 @@ class _OrderSearch:
         covers = np.logical_or.reduceat(inside, starts, axis=0)
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
-    def _unheld(self, keys: NDArray[np.float32]) -> Floats:
+    def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
         """Return how often arbors interleave with fixed wheels on their axis, so that these cannot be one piece.
 
         Going upwards, wheels of the two alternate. One alternation means an arbor beside the fixed wheels; each further
         one counts as half.
         """
         found = np.zeros(keys.shape[1])
-        below, above = (frozenset(each.tolist()) for each in self._running_out)
-        for axis, still in self._standing.items():
+        below, above = (frozenset(each.tolist()) for each in self._dial_arbors)
+        for axis, still in self._fixed_stacks.items():
             for arbor, turning in self._hubs.get(axis, {}).items():
                 rows = [keys[list(still)], keys[list(turning)]]
                 rows += [
@@ -256,7 +258,7 @@ class _OrderSearch:
         return [list(about) for about in self._hubs.values() if len(about) > 1]
 
     @cached_property
-    def _borne(self) -> Indices:
+    def _stack_table(self) -> Indices:
         """Stacks of every arbor, shape (maximum number, arbors); the first is repeated for arbors with fewer."""
         most = max(map(len, self.carried), default=1)
         filled = [[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried]
@@ -268,12 +270,12 @@ class _OrderSearch:
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.overlap.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
-        times[np.arange(len(self.carried)), self._borne] = 0
+        times[np.arange(len(self.carried)), self._stack_table] = 0
         arbor, stack = np.nonzero(times)
         return arbor, stack, times[arbor, stack]
 
     @cached_property
-    def _running_out(self) -> tuple[Indices, Indices]:
+    def _dial_arbors(self) -> tuple[Indices, Indices]:
         """Arbors that extend beyond the low end of the stack, and beyond the high end."""
         ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
         ends += [DialEnds()] * len(self.problem.pins)
@@ -334,8 +336,9 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return heights of levels from the lowest. Each is above all blocks that clash with it, and above the level
-    before.
+    """Return heights of levels from the lowest.
+
+    Each level is above all blocks that clash with it, and above the level before.
     """
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])

@@ -143,7 +143,7 @@ class ColumnProblem:
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given core, else with the thickest core of standard size that clears all wheels."""
+        """Return the column with the given core, else with the thickest standard core that clears all wheels."""
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -174,23 +174,23 @@ class ColumnProblem:
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
         """Return pieces from the innermost, and two links of which neither can be inside the other, if any."""
-        if not self._standing:
+        if not self._fixed_discs:
             return self._turning_order
         tangled = None
-        for still in self._still(places, [height for each in self._moving for height in each.hubs]):
-            order, clash = nested([*still, *self._moving])
+        for still in self._fixed_pieces(places, [height for each in self._turning_pieces for height in each.hubs]):
+            order, clash = nested([*still, *self._turning_pieces])
             if not clash:
                 return order, None
             tangled = tangled or clash
-        return nested([self._in_one(places), *self._moving])[0], tangled
+        return nested([self._single_piece(places), *self._turning_pieces])[0], tangled
 
     @cached_property
     def _turning_order(self) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
         """Order of nesting without fixed wheels, which does not depend on the places of plates."""
-        return nested(self._moving)
+        return nested(self._turning_pieces)
 
     @cached_property
-    def _moving(self) -> tuple[CoaxialLink, ...]:
+    def _turning_pieces(self) -> tuple[CoaxialLink, ...]:
         """Pieces that turn."""
         found = []
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
@@ -207,34 +207,36 @@ class ColumnProblem:
         return tuple(found)
 
     @cached_property
-    def _standing(self) -> list[StackDisc]:
+    def _fixed_discs(self) -> list[StackDisc]:
         """Fixed wheels, from the lowest."""
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
-    def _in_one(self, places: FramePlaces) -> CoaxialLink:
+    def _single_piece(self, places: FramePlaces) -> CoaxialLink:
         """Return fixed wheels as one piece, held by the nearer plate, ignoring obstacles."""
-        held = self._held(self._standing, self._nearer(places)[0])
+        held = self._fixed_piece(self._fixed_discs, self._nearer(places)[0])
         return replace(held, hubs=held.hubs[:-1])
 
     def _nearer(self, places: FramePlaces) -> list[tuple[float, float]]:
         """Return both plates, first the one that is nearer to fixed wheels."""
-        middle = (self._standing[0].low + self._standing[-1].high) / 2
+        middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
-    def _still(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
+    def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
         """Yield ways to hold fixed wheels: as one piece, or as two, one of wheels with no obstacle before a plate.
 
         hubs   heights of all turning discs on the axis
         """
-        own, plates = self._standing, self._nearer(places)
-        yield from ([self._held(own, plate)] for plate in plates)
+        own, plates = self._fixed_discs, self._nearer(places)
+        yield from ([self._fixed_piece(own, plate)] for plate in plates)
         for plate in plates:
             next_to = [disc for disc in own if not any(_between(height, disc, plate) for height in hubs)]
             rest = [disc for disc in own if disc not in next_to]
             if next_to and rest:
-                yield from ([self._held(rest, other), self._held(next_to, plate)] for other in plates[::-1])
+                yield from (
+                    [self._fixed_piece(rest, other), self._fixed_piece(next_to, plate)] for other in plates[::-1]
+                )
 
-    def _held(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
+    def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
         """Return a fixed piece from its discs into a plate, which it must reach past all turning parts."""
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
@@ -306,7 +308,7 @@ def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool
 
 def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[StackDisc, float]]:
     """Return discs of other axes, each with the gap (mm) between it and the middle of an axis."""
-    return [(disc, disc.room_for(at, 0.0)) for disc in discs if disc.axis != axis]
+    return [(disc, disc.clearance_to(at, 0.0)) for disc in discs if disc.axis != axis]
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:

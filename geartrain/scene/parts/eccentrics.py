@@ -79,7 +79,7 @@ _OVER = 1.0  # mm by which a washer extends beyond its eccentric
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """Strain wave of a flexible wheel: its amplitude (mm), number of lobes, and the wall thickness of the wheel (mm)."""
+    """Strain wave of a flexible wheel: amplitude (mm), number of lobes, and wall thickness of the wheel (mm)."""
 
     rise: float
     lobes: int

@@ -451,8 +451,8 @@ class FramePlan:
                 yield Problem(what, why, "move the axis, change the order of the wheels, or use a smaller --bore")
         yield from self._thin_roots()
         for each in self.stack.eccentrics:
-            if each.name in self.members and (told := too_thin(each, self.members[each.name].outer)):
-                yield told
+            if each.name in self.members and (problem := too_thin(each, self.members[each.name].outer)):
+                yield problem
 
     def _thin_roots(self) -> Iterator[Problem]:
         for name, member in self.members.items():

@@ -184,7 +184,7 @@ class FramePlates:
 
     def _frame_holes(self, faces: tuple[float, float]) -> list[Hole]:
         own = self._tenon_holes(faces)
-        return [*own, *self._apart(self._bearings(faces), own)]
+        return [*own, *self._disjoint(self._bearings(faces), own)]
 
     def _tenon_holes(self, faces: tuple[float, float]) -> list[Hole]:
         """Return the holes of pillars and posts."""
@@ -221,7 +221,7 @@ class FramePlates:
 
     def seat_holes(self, seat: str) -> list[Hole]:
         """Return the holes beside the hub in a wheel or plate, for studs of the axes that it bears, and for posts."""
-        return [*self._apart(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
+        return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
     def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:
         """Yield the holes of a wheel that turns on several eccentrics."""
@@ -234,7 +234,7 @@ class FramePlates:
         at = (disc.at for disc in self.plan.discs if disc.name == seat)
         return [] if member is None else [Hole("hub", next(at), self.plan.bores[seat])]
 
-    def _apart(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
+    def _disjoint(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
         """Return the holes that intersect none before them."""
         found: list[Hole] = []
         for hole in holes:
@@ -305,13 +305,13 @@ class FramePlates:
     def problems(self) -> Iterator[Problem]:
         """Yield problems for holes that intersect each other, and for posts that collide with wheels."""
         for side, faces in self.sides.items():
-            yield from self._lost(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
+            yield from self._missing_holes(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
         for seat in self.plan.choice.seats:
-            yield from self._lost(f"'{seat.seat}'", list(self._seat_holes(seat.seat)), self._hub(seat.seat))
+            yield from self._missing_holes(f"'{seat.seat}'", list(self._seat_holes(seat.seat)), self._hub(seat.seat))
         yield from blocked_posts(self.plan, self.posts)
 
-    def _lost(self, where: str, holes: Sequence[Hole], taken: Sequence[Hole]) -> Iterator[Problem]:
-        kept = self._apart(holes, taken)
+    def _missing_holes(self, where: str, holes: Sequence[Hole], taken: Sequence[Hole]) -> Iterator[Problem]:
+        kept = self._disjoint(holes, taken)
         for hole in holes:
             if hole not in kept:
                 other = next(each for each in (*taken, *kept) if _meet(hole, each))

@@ -36,10 +36,10 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
     """
     coupled = {link for each in plan.stack.train.declaration.couplings for link in (each.pin, each.slot)}
     for column in plan.all_columns:
-        around = _Around(plan, column)
+        around = _Obstacles(plan, column)
         for member in column.members:
             if member.link not in coupled:
-                yield from _OnMember(around, member).all(held)
+                yield from _MemberSleeves(around, member).all(held)
 
 
 def free_beside(
@@ -49,7 +49,7 @@ def free_beside(
 
     size   radius and length of the drum (mm); the length is reduced if necessary
     """
-    around, (radius, longest) = _Around(plan, column), size
+    around, (radius, longest) = _Obstacles(plan, column), size
     disc = next(each for each in member.discs if each.name == name)
     for part in (1.0, 0.75, 0.5, 0.25):
         for low, high in ((disc.high, disc.high + part * longest), (disc.low - part * longest, disc.low)):
@@ -60,7 +60,7 @@ def free_beside(
 
 
 @dataclass(frozen=True)
-class _Around:
+class _Obstacles:
     """Obstacles of rings on an axis."""
 
     plan: FramePlan
@@ -108,16 +108,16 @@ class _Around:
         if any(each.outer > member.outer for each in inner) or any(a < high and low < b for a, b in self.walls):
             return False
         near = (disc for disc in self.discs if disc.low < high - _SAME and low + _SAME < disc.high)
-        return all(disc.room_for(self.column.at, radius) >= APART for disc in near) and not any(
+        return all(disc.clearance_to(self.column.at, radius) >= APART for disc in near) and not any(
             wheel.is_between(low, high) for wheel in self.plan.wheels_across
         )
 
 
 @dataclass(frozen=True)
-class _OnMember:
+class _MemberSleeves:
     """An arbor or a pipe with its wheels."""
 
-    around: _Around
+    around: _Obstacles
     member: ColumnMember
 
     @cached_property

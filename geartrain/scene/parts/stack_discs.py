@@ -55,7 +55,7 @@ class StackDisc:
         """Height of its middle plane."""
         return (self.low + self.high) / 2
 
-    def room_for(self, at: Point, radius: float) -> float:
+    def clearance_to(self, at: Point, radius: float) -> float:
         """Return the minimum gap (mm) to a fixed column over all positions of a carried disc.
 
         It is negative for an overlap.

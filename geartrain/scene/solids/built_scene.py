@@ -74,21 +74,21 @@ def build_scene(
     state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
     model = SolidModel(train, ManufacturingSizes(), state)
     try:
-        parts = tuple(_told(each, model) for each in model.structure)
+        parts = tuple(_scene_part(each, model) for each in model.structure)
     except GearTrainError:
         return make_scene(train, state, run=run, formulas=formulas)
     # backlash added for manufacture is not declared, so the scene moves without it
     plain = run is None and not formulas and model.sized is model.train
     scene = model.scene if plain else make_scene(train, state, model.layout, run, formulas)
     scene = scene if model.plan is None else with_pins_apart(scene, model.plan)
-    dials, pointers = _engraved(scene, model), tuple(scene.pointers)
+    dials, pointers = _sized_dials(scene, model), tuple(scene.pointers)
     if model.plan is not None:
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
-        dials = _with_borne(dials, pointers)
+        dials = _with_seated(dials, pointers)
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
     for at in range(len(dials)):
         dials, pointers = _on_bracket(at, scene, dials, pointers, parts)
-    wheels = tuple(_opened(each, model) for each in scene.wheels)
+    wheels = tuple(_with_holes(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
     return found if model.hanging is None else replace(found, hangers=tuple(_hanging(model, model.hanging)))
 
@@ -96,10 +96,10 @@ def build_scene(
 def _hanging(model: SolidModel, hanging: HangingParts) -> Iterator[SceneHanger]:
     """Yield the hanging parts with their solids."""
     for each in hanging.found():
-        yield replace(each, parts=tuple(_told(part, model) for part in hanging_solids(each, hanging.frame)))
+        yield replace(each, parts=tuple(_scene_part(part, model) for part in hanging_solids(each, hanging.frame)))
 
 
-def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
+def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
     """Return a wheel with its slots, and with its hole for an eccentric; other holes are filled by parts."""
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
@@ -113,7 +113,7 @@ def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
     return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FIT) @ way)) for each in blank.contours[1:]))
 
 
-def _told(part: SolidPart, model: SolidModel) -> ScenePart:
+def _scene_part(part: SolidPart, model: SolidModel) -> ScenePart:
     """Return a part without its triangles."""
     kind = part.kind
     if kind == "plate" and model.frame is not None:
@@ -154,7 +154,7 @@ def _numbers(points: Floats) -> Iterator[float]:
         yield _round(y)
 
 
-def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
+def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
     """Return dials in the size of their plates, on the face that is read."""
     faces = list(scene.dials)
     if model.plan is None:
@@ -176,7 +176,7 @@ def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
     return tuple(faces)
 
 
-def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
+def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
     """Return the dials, with those that turn with a hand of another dial moved to the place of that hand."""
     found = list(dials)
     for at, face in enumerate(dials):
@@ -206,7 +206,7 @@ def _on_bracket(
     if face.plate or face.look != "scale" or not under:
         return dials, pointers
     high = max(dot(minus(part.place, face.centre), face.normal) + part.height / 2 for part in under)
-    radius = min([face.radius, *_room_beside(face, [part for part in along if part.bands])])
+    radius = min([face.radius, *_radius_limits(face, [part for part in along if part.bands])])
     if radius <= 0:
         return dials, pointers
     laid = replace(face, centre=plus(face.centre, face.normal, high + _LAID), radius=radius)
@@ -214,7 +214,7 @@ def _on_bracket(
     return (*dials[:at], laid, *dials[at + 1 :]), tuple(hands.get(n, each) for n, each in enumerate(pointers))
 
 
-def _room_beside(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
+def _radius_limits(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
     """Yield limits of the radius of a dial (mm) from turned parts parallel to its axis, except coaxial ones."""
     for part in parts:
         off = minus(part.place, face.centre)

@@ -232,12 +232,12 @@ def _brackets(
     faces = {1: high + _ROOM, -1: low - _ROOM}
     ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
     if len(ways) == 1:  # on the inner side, unless wheels obstruct it there
-        ways = [min(ways[0], -ways[0], key=lambda way: _in_the_way(plan, body, faces[way], way, sides)[0])]
+        ways = [min(ways[0], -ways[0], key=lambda way: _best_plate(plan, body, faces[way], way, sides)[0])]
     for way in ways:
         yield _bracket(scene, plan, sides, at, faces[way], way, radius)
 
 
-def _in_the_way(
+def _best_plate(
     plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
 ) -> tuple[int, float, str]:
     """Return the number of wheels before the best plate for a bracket, its distance (mm), and its side."""
@@ -270,7 +270,7 @@ def _bracket(
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
-    _, _, side = _in_the_way(plan, body, face, way, sides)
+    _, _, side = _best_plate(plan, body, face, way, sides)
     away = max(sides[side], key=lambda each: abs(each - height)) - height
     down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
     hole = Contour.circle(radius + plan.process.running / 2)
@@ -320,12 +320,12 @@ def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tup
         if carrier is None or carrier.parent is None or not bores.get(body.axis) or wheel_ends(scene, at) is None:
             continue
         if abs(float(np.dot(body.direction, carrier.direction))) < 1 - _SAME:
-            found.append(_Holder(scene, plan, at, bores).cage())
+            found.append(_CageBuilder(scene, plan, at, bores).cage())
     return tuple(found)
 
 
 @dataclass(frozen=True)
-class _Holder:
+class _CageBuilder:
     scene: Scene
     plan: FramePlan
     at: int

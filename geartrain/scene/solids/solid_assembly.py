@@ -135,11 +135,11 @@ class SolidModel:
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
             others = self._own_holes(name)
-            wheels[name], told = bored(with_seats(blank, self.process.press), holes.get(name, 0.0), others)
-            notices += told
+            wheels[name], problems = bored(with_seats(blank, self.process.press), holes.get(name, 0.0), others)
+            notices += problems
             if self.making.arms is not None:
-                wheels[name], told = crossed_out(wheels[name], self.making.arms)
-                notices += told
+                wheels[name], problems = crossed_out(wheels[name], self.making.arms)
+                notices += problems
         return replace(self._toothed, wheels=wheels, notices=tuple(notices))
 
     @cached_property

@@ -60,8 +60,8 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
         far = coupling.hole / 2 if coupling.hole else e + half
-        pins = _roomy(scene, coupling.pin, blanks, bores, (r - half, r + half))
-        slots = _roomy(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
+        pins = _wide_wheels(scene, coupling.pin, blanks, bores, (r - half, r + half))
+        slots = _wide_wheels(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
         if coupling.drawn and slots and not pins and coupling.hole:
             found[coupling.id] = CutCoupling(coupling, None, slots[0])
         elif coupling.drawn and pins and slots:
@@ -78,7 +78,7 @@ def pin_width(coupling: SceneCoupling) -> float:
     return coupling.pin_diameter or pin_diameter(coupling.pin_radius)
 
 
-def _roomy(
+def _wide_wheels(
     scene: Scene, body: int, blanks: Mapping[str, Blank], bores: Mapping[str, float], reach: tuple[float, float]
 ) -> list[SceneWheel]:
     """Return flat wheels of a body with material from one radius to another (mm)."""
@@ -280,7 +280,7 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
         blank = plan.stack.blanks.get(wheel.id)
         if blank is not None and blank.pins is not None:
             form = profiles[wheel.profile].form
-            points = _land(blank)
+            points = _tooth_between_seats(blank)
             radii = [blank.pitch_radius * radius for radius, _ in points]
             wheels[at] = replace(
                 wheel,
@@ -293,7 +293,7 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
     return replace(scene, wheels=tuple(wheels), profiles=tuple(profiles))
 
 
-def _land(blank: Blank) -> tuple[tuple[float, float], ...]:
+def _tooth_between_seats(blank: Blank) -> tuple[tuple[float, float], ...]:
     """Return the profile of a ring between the middles of two seats, as relative radius and angle."""
     assert blank.pins is not None
     x, y = (float(part) for part in blank.contours[1].points[0])  # on the inner circle, at the start of the first seat
@@ -334,16 +334,16 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]
     slots = [circle for each in scene.couplings for circle in _swept(scene, plan, each, wheel)]
 
-    def room(at: Point) -> float:
-        near = min((disc.room_for(at, _RADIUS) for disc in seen), default=_ENOUGH)
+    def clearance(at: Point) -> float:
+        near = min((disc.clearance_to(at, _RADIUS) for disc in seen), default=_ENOUGH)
         return min(near, clear_of(at, [*rods, *slots]) - _RADIUS, _ENOUGH)
 
     best, minimum = wheel.at, -wheel.root
     away = wheel.root - _RADIUS - _EDGE
     while away > 0 and minimum < _ENOUGH - APART:
-        at = max(_round(wheel.at, away), key=room)
-        if room(at) > minimum:
-            best, minimum = at, room(at)
+        at = max(_round(wheel.at, away), key=clearance)
+        if clearance(at) > minimum:
+            best, minimum = at, clearance(at)
         away -= _STEP
     return best
 

@@ -379,12 +379,12 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
     if wheel.cone > CROWN:
-        turn = _aslant(wheel, turn, scale)
+        turn = _flank_angles(wheel, turn, scale)
     z = height_on_cone(wheel.cone, wheel.radius, 0.0, scale) + depth * np.sin(wheel.cone) * scale
     return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
 
 
-def _aslant(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
+def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
     """Return the angles of a crown's flanks at a radius, for mates of uniform tooth width that pass obliquely."""
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch

@@ -30,14 +30,16 @@ if TYPE_CHECKING:
 RIM, HUB = 2.25, 1.125
 """Depth of the rim under the roots in modules, and radius of the hub in diameters of the bore, as clockmakers have
 them (rims of 2 to 2.5 modules, hubs of 2 to 2.5 arbors)."""
-_ARM = 1.0  # width of a spoke over the depth of the rim
+_SPOKE = 1.0  # width of a spoke over the depth of the rim
 _WINDOW = 1.0  # minimum radial size of a window over the depth of the rim
 _CORNER = 0.5  # default radius of corners in modules
 
 Point = tuple[float, float]
 
 
-def arm_windows(root: float, module: float, bore: float, arms: int, corner: float | None = None) -> tuple[Contour, ...]:
+def spoke_windows(
+    root: float, module: float, bore: float, spokes: int, corner: float | None = None
+) -> tuple[Contour, ...]:
     """Return the windows between the spokes of a wheel, one hole each; empty if there is not enough space.
 
     A spoke has a uniform width equal to the depth of the rim. A window is bounded by two spokes, the rim and the hub.
@@ -50,24 +52,24 @@ def arm_windows(root: float, module: float, bore: float, arms: int, corner: floa
         Module of the wheel [mm].
     bore : float
         Diameter of the hole for its arbor [mm].
-    arms : int
+    spokes : int
         Number of spokes, 3 or more; fewer give no windows.
     corner : float, optional
         Radius of inner corners [mm], at least that of the tool.
     """
-    if arms < 3:
+    if spokes < 3:
         return ()
     depth = RIM * module
     corner = _CORNER * module if corner is None else corner
     # many spokes require a larger hub
-    meet = (_ARM * depth / 2 + corner) / sin(pi / arms) - corner
+    meet = (_SPOKE * depth / 2 + corner) / sin(pi / spokes) - corner
     outer, inner = root - depth, max(HUB * bore, depth, meet)
     if outer - inner < max(_WINDOW * depth, 2 * corner):
         return ()
-    window = _window(outer, inner, _ARM * depth / 2, 2 * pi / arms, corner)
+    window = _window(outer, inner, _SPOKE * depth / 2, 2 * pi / spokes, corner)
     if window is None:
         return ()
-    return tuple(_turned(window, 2 * pi * (at + 0.5) / arms) for at in range(arms))
+    return tuple(_turned(window, 2 * pi * (at + 0.5) / spokes) for at in range(spokes))
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
@@ -86,8 +88,8 @@ def _window(outer: float, inner: float, half: float, pitch: float, corner: float
     if min(rim_turn, hub_turn) < -1e-9 or far <= near:
         return None
     upper = [
-        (_at(rim, rim_turn), _at(rim_centre, rim_turn), _beside(far, half, pitch)),
-        (_beside(near, half, pitch), _at(hub_centre, hub_turn), _at(hub, hub_turn)),
+        (_at(rim, rim_turn), _at(rim_centre, rim_turn), _spoke_edge(far, half, pitch)),
+        (_spoke_edge(near, half, pitch), _at(hub_centre, hub_turn), _at(hub, hub_turn)),
     ]
     corners = [*upper, *((_mirrored(c), _mirrored(b), _mirrored(a)) for a, b, c in reversed(upper))]
     vertices = []
@@ -103,7 +105,7 @@ def _at(radius: float, angle: float) -> Point:
     return radius * cos(angle), radius * sin(angle)
 
 
-def _beside(along: float, half: float, pitch: float) -> Point:
+def _spoke_edge(along: float, half: float, pitch: float) -> Point:
     """Return a point on the edge of the spoke at +pitch/2 that faces the window."""
     c, s = cos(pitch / 2), sin(pitch / 2)
     return along * c + half * s, along * s - half * c
@@ -184,10 +186,10 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
     for name, toothing in toothed.wheels.items():
         wheel, blank = train.declaration.wheels[name][1], _blank(toothing, layout.wheels[name])
         if name not in mated and blank.kind == "external":
-            blank, told = _unmated(toothing, blank)
-            notices.append(told)
+            blank, notice = _without_mates(toothing, blank)
+            notices.append(notice)
         wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
-        notices += _leaning(name, wheel)
+        notices += _helix_notice(name, wheel)
     return Blanks(wheels, tuple(notices), toothed.backlashes, toothed.problems, toothed.flat)
 
 
@@ -210,7 +212,7 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
     )
 
 
-def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
+def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     """Return a wheel without mates, with a notice.
 
     An escape wheel has its teeth, and any other wheel is a disc of its pitch circle.
@@ -223,11 +225,11 @@ def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     form = "a disc of its pitch circle, because its teeth are not known"
     what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
     why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part it works with"
-    told = Problem(what, why, fix)
-    return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), told
+    notice = Problem(what, why, fix)
+    return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), notice
 
 
-def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
+def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
     """Yield a notice on helical teeth, which a flat file cannot show."""
     if wheel.is_helical:
         what = f"wheel '{name}' is drawn flat: it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
@@ -251,7 +253,7 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
-    windows = arm_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
+    windows = spoke_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
     if windows and len(blank.contours) > own:
         what = f"wheel '{blank.wheel}' keeps its web"
         return blank, [Problem(what, "it has holes for other parts", "cut its windows by hand", "--arms")]

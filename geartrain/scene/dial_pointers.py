@@ -66,7 +66,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the used pairs with those that turn the pins of used followers."""
+    """Return the used pairs together with the pairs that turn the pins of used followers."""
     found, left = set(used), set(swings)
     while met := found & left:
         left -= met

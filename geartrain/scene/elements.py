@@ -329,7 +329,7 @@ class SceneWave:
     wheel: int
     """Index of the flexible wheel."""
     by: int
-    """Index of the body whose angle is that of the wave."""
+    """Index of the body that is the wave generator."""
     towards: Vector
     """Unit vector perpendicular to the axis, towards the first lobe in the zero pose."""
     rise: float

@@ -157,7 +157,7 @@ class Movement:
     steps: Sequence[ErrorStep] = ()
     """Steps in the order of their evaluation."""
     offsets: Mapping[str, float] = field(default_factory=dict)
-    """Constant errors by the index of the body [rad]."""
+    """Constant errors by link [rad]."""
 
 
 TOLERANCE = 1e-11  # maximum error of a table in driven pitches

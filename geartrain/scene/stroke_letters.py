@@ -211,7 +211,7 @@ class CurvedLine:
     radius: float
     angle: float
     inwards: bool = False
-    """True if the feet of letters are outside, so that text below the centre is readable."""
+    """True if the feet of letters point outwards, so that text below the centre is readable."""
 
 
 def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:

@@ -57,7 +57,7 @@ class DialFace:
     normal: Vector
     """Unit vector perpendicular to the face, towards the reader."""
     zero: Vector
-    """Unit vector from the middle to the zero mark."""
+    """Unit vector from the centre to the zero mark."""
     radius: float
     """Radius of the whole engraving [mm]."""
     scale: DialScale

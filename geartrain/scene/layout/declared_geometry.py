@@ -34,7 +34,7 @@ class AxisLine:
 
     label: str
     direction: Vector
-    """Unit vector."""
+    """Unit vector along the axis."""
     group: int
     """Number of its group of parallel axes."""
     bearers: tuple[str, ...]

@@ -248,7 +248,7 @@ def _aligned(points: Iterable[PitchPoint]) -> MeshAlignment:
 
 
 def _past(side: PitchSide, turn: float) -> float:
-    """Return the pitches by which the first tooth is past the pitch point."""
+    """Return by how many pitches the first tooth is past the pitch point."""
     return (turn - side.angle) * side.teeth / (2 * pi)
 
 

@@ -170,7 +170,7 @@ _LONGEST_BARREL = 10.0  # mm: maximum length of a barrel
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """A drum fixed to a wheel, whose collet it is."""
+    """A drum fixed to a wheel, which it also holds on the arbor as a collet."""
 
     link: str
     """Link to which it belongs."""

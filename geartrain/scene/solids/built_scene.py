@@ -194,7 +194,7 @@ def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tupl
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """Return the dials and pointers with a dial without a plate laid on the bracket of its pointers' arbor.
+    """Place a dial that has no plate on the bracket of its pointers' arbor, and return all dials and pointers.
 
     Its radius is limited by neighbouring arbors.
     """

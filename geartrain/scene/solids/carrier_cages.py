@@ -177,7 +177,7 @@ GAP = 0.5
 """Axial clearance between the last wheel of an arbor and its support [mm]."""
 _ROOM = 1.5  # mm, the same for a bracket, including a web beside the wheel's window in the plate
 LAND = 2.0
-"""Metal round a bearing [mm]."""
+"""Width of metal round a bearing [mm]."""
 _FLAT = 1e-6
 
 

@@ -28,8 +28,10 @@ if TYPE_CHECKING:
     from geartrain.train import Wheel
 
 RIM, HUB = 2.25, 1.125
-"""Depth of the rim under the roots in modules, and radius of the hub in diameters of the bore, as clockmakers have
-them (rims of 2 to 2.5 modules, hubs of 2 to 2.5 arbors)."""
+"""Depth of the rim under the roots in modules, and radius of the hub in diameters of the bore.
+
+Clockmakers use rims of 2 to 2.5 modules, and hubs of 2 to 2.5 diameters of the arbor.
+"""
 _SPOKE = 1.0  # width of a spoke over the depth of the rim
 _WINDOW = 1.0  # minimum radial size of a window over the depth of the rim
 _CORNER = 0.5  # default radius of corners in modules

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from geartrain.numerics.results import Shown
+
 
 @dataclass(frozen=True, slots=True)
-class CountFormula:
+class CountFormula(Shown):
     """A quotient of two polynomials in the tooth counts, with integer coefficients.
 
     See Also
@@ -27,7 +29,7 @@ class CountFormula:
 
 
 @dataclass(frozen=True, slots=True)
-class CountCondition:
+class CountCondition(Shown):
     """A condition on tooth counts under which the formulas are valid.
 
     See Also
@@ -46,7 +48,7 @@ class CountCondition:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneFormulas:
+class SceneFormulas(Shown):
     """All speeds of a scene, at the declared inputs and in the train's unit, as functions of tooth counts.
 
     See Also

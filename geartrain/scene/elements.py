@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from geartrain.numerics.results import Shown
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.wheel_reach import reach, span, web
 
@@ -17,7 +18,7 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 
 @dataclass(frozen=True, slots=True)
-class ScenePart:
+class ScenePart(Shown):
     """A structural part as manufactured, turned or flat.
 
     Its own z axis passes through `place`, which is at mid-height of a flat part.
@@ -50,7 +51,7 @@ class ScenePart:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneHanger:
+class SceneHanger(Shown):
     """A part that hangs on a train: a pendulum, the line of a weight, or the weight.
 
     See Also
@@ -89,7 +90,7 @@ class SceneHanger:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneBody:
+class SceneBody(Shown):
     """A link of a scene, with the axis about which it turns.
 
     See Also
@@ -126,7 +127,7 @@ class SceneBody:
 
 
 @dataclass(frozen=True, slots=True)
-class ToothProfile:
+class ToothProfile(Shown):
     """One tooth of a wheel, from the middle of a tooth space to the middle of the next.
 
     The middle of the tooth is at angle 0.
@@ -151,7 +152,7 @@ class ToothProfile:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneWheel:
+class SceneWheel(Shown):
     """A wheel of a body.
 
     See Also
@@ -225,7 +226,7 @@ class SceneWheel:
 
 
 @dataclass(frozen=True, slots=True)
-class ScenePair:
+class ScenePair(Shown):
     """A gear pair of a scene.
 
     See Also
@@ -252,7 +253,7 @@ class ScenePair:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneCoupling:
+class SceneCoupling(Shown):
     """A pin in a slot, or pins in round holes.
 
     See Also
@@ -318,7 +319,7 @@ class SceneShiftElement:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneWave:
+class SceneWave(Shown):
     """Strain wave that bends a flexible wheel into its ring. Wheel, cup wall and wave generator are coaxial.
 
     See Also

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, ClassVar
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.results import Key, Result, plain
+from geartrain.numerics.results import Key, Result, Shown, plain
 from geartrain.scene.context import SceneContext
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ class ErrorTable(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorSource:
+class ErrorSource(Shown):
     """A pair whose transmission error contributes to the errors of a scene.
 
     After t turns of the lead the driver's forward angle is
@@ -109,7 +109,7 @@ class ErrorSource:
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorStep:
+class ErrorStep(Shown):
     """Errors of some bodies from known ones: error[bodies] = from_known error[known] + from_sources delta[sources].
 
     See Also
@@ -132,7 +132,7 @@ class ErrorStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Movement:
+class Movement(Shown):
     """Errors of angles as functions of the turns of the driving link: the steps in order, then constant offsets.
 
     See Also
@@ -310,9 +310,9 @@ def _mean_movement(stage: SceneContext, problems: Sequence[Problem]) -> Movement
 def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
     import numpy as np
 
-    composition = motion.ahead
+    composition = motion._forward
     _check_positions(composition, float(motion.period or 1))
-    error, way = composition.at(np.zeros(1)).error[:, 0], motion.train.way
+    error, way = composition.at(np.zeros(1)).error[:, 0], motion._problem.way
     links = tuple(stage.train.declaration.links)
     rest = {
         link: stage.sense(link) * (stage.start(link) + way * float(each))
@@ -335,9 +335,9 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
     """Return the movement in reverse if it differs from that ahead, and notices on why it cannot be followed."""
     try:
-        composition = motion.back
+        composition = motion._backward
         _check_positions(composition, -float(motion.period or 1))
-        back = _movement(stage, composition, motion.train.way)
+        back = _movement(stage, composition, motion._problem.way)
     except GearTrainError as error:
         mean = _mean_movement(stage, error.problems)
         return mean.movement, mean.notices

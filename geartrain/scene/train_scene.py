@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
-from geartrain.numerics.results import plain
+from geartrain.numerics.results import Shown, plain
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.count_formulas import SceneFormulas
 from geartrain.scene.dial_scale import DialScale
@@ -38,7 +38,7 @@ FORMAT = 1
 
 
 @dataclass(frozen=True, slots=True)
-class DialFace:
+class DialFace(Shown):
     """A dial: a scale over which pointers turn.
 
     See Also
@@ -82,7 +82,7 @@ class DialFace:
 
 
 @dataclass(frozen=True, slots=True)
-class PointerTarget:
+class PointerTarget(Shown):
     """A value that an output should show.
 
     See Also
@@ -99,7 +99,7 @@ class PointerTarget:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneEpoch:
+class SceneEpoch(Shown):
     """A date that corresponds to a number of turns of the driving link, and the duration of one turn.
 
     See Also
@@ -122,7 +122,7 @@ class SceneEpoch:
 
 
 @dataclass(frozen=True, slots=True)
-class Pointer:
+class Pointer(Shown):
     """An output as a pointer.
 
     See Also
@@ -172,7 +172,7 @@ class Pointer:
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Shown):
     """A train in one state, ready to be drawn, as plain data in mm and rad.
 
     See Also
@@ -249,6 +249,10 @@ class Scene:
     """Pendulum and weight of a train as built that declares them; else empty."""
     waves: Sequence[SceneWave] = ()
     """Strain waves that bend flexible wheels into their rings."""
+
+    def _summary(self) -> str:
+        state = "" if self.state is None else f" state {self.state}"
+        return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON.

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics.gear_meshes import find_sizes
@@ -18,6 +18,9 @@ from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
 from geartrain.train.outputs import looks_away
 from geartrain.train.wheel_stock import wheel_thickness
+
+if TYPE_CHECKING:
+    from geartrain.teeth.lantern import Lantern
 
 Point = tuple[float, float]
 """Point in plan: coordinates (mm) perpendicular to parallel axes."""
@@ -291,8 +294,10 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
     """
     for gear in declared.gears:
         form = declared.form_of(gear)
-        if form is not None and form.form == "lantern" and form.pin_diameter.unit is None:
-            yield gear.pair[form.pins - 1], 1.5 * float(form.pin_diameter.value)
+        if form is not None and form.form == "lantern":
+            lantern = cast("Lantern", form)
+            if lantern.pin_diameter.unit is None:
+                yield gear.pair[lantern.pins - 1], 1.5 * float(lantern.pin_diameter.value)
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:

@@ -17,6 +17,7 @@ from typing import Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
+from geartrain.numerics.results import Shown
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
@@ -273,7 +274,7 @@ _PARALLEL = 1e-9  # of the cosine, because directions are rounded to floats
 
 
 @dataclass(frozen=True, slots=True)
-class AxisPlace:
+class AxisPlace(Shown):
     """An axis in the zero pose.
 
     See Also
@@ -294,7 +295,7 @@ class AxisPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class WheelPlace:
+class WheelPlace(Shown):
     """A wheel on its axis in the zero pose.
 
     See Also
@@ -337,7 +338,7 @@ class WheelPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(Shown):
     """All axes and wheels of a train in space.
 
     See Also
@@ -355,6 +356,10 @@ class Layout:
     """Side of z from which the train is viewed: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
     """Gap of the pitch circles [mm] of gear pairs whose wheels do not touch as placed, negative for an overlap."""
+
+    def _summary(self) -> str:
+        notices = f", {len(self.notices)} notices" if self.notices else ""
+        return f"{len(self.axes)} axes, {len(self.wheels)} wheels{notices}"
 
     def axis_distance(self, first: str, second: str) -> float | None:
         """Return the distance of the axes of two wheels, if they are parallel.

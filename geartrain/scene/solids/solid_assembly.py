@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.results import Shown
 from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
 from geartrain.scene.layout.declared_geometry import read_geometry
@@ -45,7 +46,7 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 
 @dataclass(frozen=True)
-class SolidModel:
+class SolidModel(Shown):
     """Solid model of a train, from which exports are made; each part is computed at first use.
 
     Raises

@@ -140,6 +140,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
     """
     # the back cone of a crown wheel is a cylinder: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
+    # tooth count of the virtual spur wheel (Tredgold)
     virtual = z / narrow
     points = _tooth(virtual)
     return ToothProfile(FORM, tuple((1 + (r - 1) / narrow, angle / narrow) for r, angle in points))

@@ -107,6 +107,7 @@ class SceneContext:
     def reference(self, axis: str | None) -> Vector:
         """Return the direction of an axis, reversed if it points against the first declared axis parallel to it."""
         own = self.along(axis)
+        # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):
             first = self.along(label)
             # the cosine of parallel directions is 1 except for rounding errors

@@ -96,6 +96,7 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
         for link, factor in output.items():
             if factor:
                 columns[link][-1 - number] = Fraction(-factor)
+    # rows of the transposed system; negative columns are outputs, as right-hand sides
     forms = eliminate(columns.values(), _BUDGET).forms(_BUDGET)
     found: list[set[str]] = [set() for _ in outputs]
     for at, form in forms.items():
@@ -376,7 +377,7 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
     return f"{'clockwise' if (speed > 0) == (sense > 0) else 'counter-clockwise'} as read"
 
 
-# ---- the sky: dates of turns of the lead, and what pointers should show in mean motion
+# ---- the sky: dates of turns of the driving link, and mean motions that pointers should show
 
 
 def find_epoch(stage: SceneContext) -> SceneEpoch | None:

@@ -276,6 +276,7 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
     """
     radius = scale.outer - _BAND
     named = [part for part in scale.names if part[0]]
+    # fewer names leave more space for each
     for every in range(1, 7):
         heights = {part: _fitting(scale, radius, part, every) for part in named[::every]}
         kept = {part: height for part, height in heights.items() if height >= _MINIMUM}

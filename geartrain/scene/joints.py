@@ -60,6 +60,7 @@ def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
     verdict = stage.answer.verdict
     faults: dict[str, str] = {}
     loops = {loop.pairs: _loop_data(loop) for loop in verdict.loops}
+    # a determined train may still have parts that are locked
     if verdict.kind != "determined" or stage.train.mobility.locked:
         for jam in stage.train.kinematics.gridlock.jams:
             loops.setdefault(jam.loop.pairs, {**_loop_data(jam.loop), "text": str(jam)})

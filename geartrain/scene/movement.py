@@ -75,11 +75,11 @@ class ErrorTable(Result):
 class ErrorSource(Shown):
     """A pair whose transmission error contributes to the errors of a scene.
 
-    After t turns of the lead the driver's forward angle is
+    After t turns of the driving link the driver's forward angle is
 
         S = start + period frac(cycles t) + forward (driver_sense error[driver] - carrier_sense error[carrier])
 
-    and the pair adds sense law(S) to what it drives.
+    and the error of the driven body includes sense delta(S), with delta from the error table.
 
     See Also
     --------
@@ -176,7 +176,7 @@ def step_of(step: Composed) -> ErrorStep:
     )
 
 
-def laws_and_sources(
+def tables_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
     """Return the error tables and the sources that refer to them; equal pairs share a table.
@@ -346,7 +346,7 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
     """Return the movement of a composition, `exact` if ratios are constant. Backlash may still give offsets."""
-    transmissions, sources = laws_and_sources(composition, way)
+    transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
         "real" if sources else "exact",
@@ -374,6 +374,7 @@ def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:
         return None
+    # the least common multiple of the periods 1/rate, exact
     return Fraction(lcm(*(rate.denominator for rate in rates)), gcd(*(rate.numerator for rate in rates)))
 
 

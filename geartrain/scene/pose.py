@@ -121,6 +121,7 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats
     bodies, known = list(step.bodies), list(step.known)
     base = _matrix(step.from_known, len(bodies), len(known)) @ error[known]
     gains = _matrix(step.from_sources, len(bodies), len(step.sources))
+    # fixed-point iteration, which converges if transmission errors vary slowly with the angle
     for _ in range(_ROUNDS):
         for source in step.sources:
             deltas[source] = _delta(scene, scene.movement.sources[source], turns, error)

@@ -223,6 +223,7 @@ class ShownSamples:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
         on_front = (front <= back) | (front <= _TOUCHES)  # without backlash a pair is on both
+        # index of a letter of "dca"
         code = np.where(np.minimum(front, back) > _TOUCHES, 2, np.where(on_front, 0, 1))
         changes = np.concatenate(([0], 1 + np.flatnonzero(np.diff(code))))
         return changes, "".join("dca"[each] for each in code[changes])
@@ -338,6 +339,7 @@ def _rim(wheels: Sequence[SceneWheel]) -> Vector:
     """Return the contact point of pallets with the escape wheel, a wheel without mates, else with the largest wheel."""
     if not wheels:
         return (0.0, 0.0, 0.0)
+    # an escape wheel has no mate among gears
     free = [wheel for wheel in wheels if not wheel.circuits] or wheels
     wheel = max(free, key=lambda each: each.radius)
     return plus(wheel.centre, wheel.reference, wheel.radius)

@@ -207,9 +207,9 @@ class Scene(Shown):
     remedy.
     """
     bodies: Sequence[SceneBody]
-    """Links, in the order declared, which is that of their indices."""
+    """Links, in the order declared and of their indices."""
     wheels: Sequence[SceneWheel]
-    """Wheels, in the order declared, which is that of their indices."""
+    """Wheels, in the order declared and of their indices."""
     profiles: Sequence[ToothProfile]
     """Tooth forms that wheels share."""
     pairs: Sequence[ScenePair]

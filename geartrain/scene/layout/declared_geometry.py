@@ -127,7 +127,7 @@ class PitchContact:
 
     @property
     def sides(self) -> tuple[ContactSide, ContactSide]:
-        """The pair from the side of its first wheel, and from that of its second."""
+        """The pair from the side of its first and of its second wheel."""
         (first, second), (axis, other) = self.wheels, self.axes
         return ContactSide(first, axis, second, other), ContactSide(second, other, first, axis)
 

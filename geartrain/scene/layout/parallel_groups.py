@@ -62,6 +62,7 @@ class _HeightSets:
     def join(self, node: Node, other: Node, above: float) -> None:
         """Put a node `above` another (mm), unless their relative height is already set."""
         (root, height), (base, low) = self.find(node), self.find(other)
+        # an existing relation is kept: contradictory heights become collisions, which are reported
         if root != base:
             self._above[root] = (base, low + above - height)
 
@@ -230,6 +231,7 @@ class _BlockBuilder:
             aside = self.parallels.flat(each.seat.out)
             x, y = x + reach * aside[0], y + reach * aside[1]
             offset += reach * dot(each.seat.out, self.parallels.up)
+        # half height of an inclined disc: its rim and its thickness, as perpendicular contributions
         tall = sqrt(size.outer**2 * flat**2 + (size.thickness * rise) ** 2)
         number = self.parallels.index[side.axis]
         if across.bearers[0] != axis.bearers[0]:
@@ -295,6 +297,7 @@ class _SlotSearch:
 
     def found(self) -> dict[str, AxialSlots]:
         """Return slots by wheel; empty if there are not any, or none were found within the limit."""
+        # iterative deepening: the first success has the minimum number of slots
         for count in range(2, len(self.meshes) + 1):
             spans = self._try(count)
             if spans is not None:
@@ -363,7 +366,7 @@ class Arrangement:
     geometry: SizedGeometry
     """Declared geometry, with the broadened wheels."""
     points: Mapping[str, Vector]
-    """Points of axes by label. `centres` are those of wheels by name."""
+    """Points of axes by label. `centres` are the centres of wheels by name."""
     centres: Mapping[str, Vector]
     stacks: Sequence[WheelStack]
     """Stack of each group of parallels."""

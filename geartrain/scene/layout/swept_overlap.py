@@ -102,6 +102,7 @@ def _fill(found: SweptDistances, members: Sequence[_Swept], places: Mapping[str,
         found.near[block] = found.far[block] = apart
         return
     reach = high[:, None] + high[None, :]
+    # one annulus may be inside the inner circle of the other
     inside, outside = low[:, None] - high[None, :] - apart, low[None, :] - high[:, None] - apart
     found.near[block] = np.maximum.reduce([apart - reach, inside, outside, 0 * apart])
     found.far[block] = apart + reach
@@ -113,7 +114,7 @@ class WheelBlock:
 
     wheel: str
     axis: int
-    """Index of its axis. `link` is that of its arbor."""
+    """Index of its axis. `link` is the link of its arbor."""
     link: str
     stack: int
     """Number of its stack, a set of wheels with fixed relative heights because they mesh."""

@@ -53,6 +53,7 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
         first, second = (found.points[axis] for axis in contact.axes)
         apart = pitch_distance(declared, found.geometry.modules.module, contact)
         far = size(across(minus(second, first), lines[0].direction)) - apart
+        # a wheel too far from the centre of a ring overlaps it
         return -far if contact.kind == "ring" else far
     centres = [found.centres[wheel] for wheel in contact.wheels]
     if contact.kind == "screw":
@@ -76,6 +77,7 @@ def notices(
     gaps     gaps of pairs whose pitch circles do not touch (mm)
     misses   phase errors of pairs whose teeth do not mesh (pitches)
     """
+    # what cannot be built at all comes first
     yield from (each.problem for each in train.build_findings)
     declared = found.geometry.declared
     place = {gear.name: train.declaration.place("gears", at) for at, gear in enumerate(train.declaration.gears)}
@@ -122,6 +124,7 @@ def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     """Yield notices on wheels that collide, and on arbors that pass through wheels."""
     mates = {frozenset(contact.wheels) for contact in found.geometry.declared.contacts}
     height = {block.wheel: dot(found.centres[block.wheel], stack.up) for block in stack.upright}
+    # mates overlap by the depth of their teeth
     collide = [pair for pair in stack.collisions(height) if frozenset(pair) not in mates]
     if collide:
         yield Problem(

@@ -426,7 +426,7 @@ class SizedGeometry:
     modules: WheelModules
     sizes: Mapping[str, WheelSize]
     crossing: tuple[CrossingSide, ...]
-    """Pairs whose axes are not parallel, each twice: from the side of its first wheel, and from that of its second."""
+    """Pairs whose axes are not parallel, each twice, once from the side of each wheel."""
 
     @cached_property
     def seats(self) -> Mapping[tuple[str, str], Seat]:

@@ -24,7 +24,7 @@ class TurningPlate:
     """A plate to be inserted into a gap of the stack, with the axes that it bears."""
 
     disc: StackDisc
-    """Cylinder that it sweeps; its height is that of its gap."""
+    """Cylinder that it sweeps, at the height of its gap."""
     spots: tuple[str, ...] = ()
     """Axes that it bears (carrier), or none (disc of a ring)."""
     ring: str = ""

@@ -254,7 +254,7 @@ class StandingPins:
     wheel: str
     """Wheel through which they extend, from the plate to its far face."""
     spots: tuple[Point, ...]
-    """Centres in the plane of the stack. `radius` is that of a pin (mm)."""
+    """Centres in the plane of the stack. `radius` is the radius of a pin (mm)."""
     radius: float
     joined: bool = False
     """True if they are also fixed in the wheel, and do not work in its holes."""

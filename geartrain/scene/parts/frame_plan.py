@@ -84,8 +84,10 @@ def best_places(
     count = len(slab_gaps)
     best: PlateChoice | None = None
     crossed = [cut(height) for height in slab_gaps]
+    # both plates at the ends come first, a good bound for all others
     pairs = [(low, high) for high in range(count - 1, 0, -1) for low in range(high)]
     ways = []
+    # the product is exponential in the number of carriers, so it is truncated
     for chosen in islice(product(*seats), _TRIED):
         every = [*discs, *(plate.disc for seat in chosen for plate in seat.plates)]
         ways.append((chosen, [with_discs(axis, every) for axis in axes], blocked(chosen)))
@@ -419,7 +421,7 @@ class FramePlan:
 
     @cached_property
     def layout(self) -> Layout:
-        """Layout with wheels moved along the plates' normal, those of crossing axes together with their mates."""
+        """Layout with wheels moved along the plates' normal, and wheels of crossing axes moved with their mates."""
         return self.stack.raised(self.heights.shift)
 
     @cached_property
@@ -428,7 +430,7 @@ class FramePlan:
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Return circles that contain those of them between two heights."""
+        """Return circles that contain the wheels that are not upright between two heights."""
         return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property
@@ -553,6 +555,7 @@ def stack_up(
             top += low - before[0] - before[1] if slabs else max(room, before[2])
         faces[name] = top, top + tall
         top, before = top + tall, row
+    # the lowest slab keeps its height
     rise = taken[0][0] - faces["slab", "0"][0]
     moved = {name: (low + rise, high + rise) for name, (low, high) in faces.items()}
     shifts = tuple(moved["slab", str(at)][0] - low for at, (low, _) in enumerate(taken))

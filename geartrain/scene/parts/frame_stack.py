@@ -102,6 +102,7 @@ class FrameStack:
         for place in self.layout.wheels.values():
             axis = self.layout.axes[place.axis]
             if axis.carrier == self.frame:
+                # both senses of a direction count as one
                 count[_upwards(axis.direction)] += 1
         return count.most_common(1)[0][0] if count else None
 
@@ -228,6 +229,7 @@ class FrameStack:
         The shaft of an eccentric extends below, the link of pins above. A carrier of cranks extends below, its sun
         above.
         """
+        # eccentrics on the main axis: a cycloidal or strain wave drive; on carried axes: parallel cranks
         inner = {each.link for each in self.eccentrics if each.axis in self.axes}
         if inner:
             pins = {each.link for each in self.pin_circles.values()} | {cup.link for cup in self.cups}

@@ -97,6 +97,7 @@ def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
     outside = [corner for band in bands for corner in ((band.radius, band.low), (band.radius, band.high))]
     inside = [corner for band in bands[::-1] for corner in ((band.bore, band.high), (band.bore, band.low))]
     corners = [*outside, *inside]
+    # bands of equal radius give collinear corners, and so triangles without area
     bent = (
         (here, before, after)
         for here, before, after in zip(corners, [corners[-1], *corners[:-1]], [*corners[1:], corners[0]], strict=True)
@@ -116,11 +117,13 @@ def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
     start = 0
     for radius, height in corners:
         count = SIDES if radius else 1
+        # a corner on the axis is one vertex, to which the whole ring refers
         rings.append(start + np.arange(SIDES) * (count > 1))
         start += count
         column = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), np.full(SIDES, height)])
         vertices.append(column[:count])
     faces = []
+    # triangles with two corners in one vertex on the axis are omitted
     for low, high in zip(rings, [*rings[1:], rings[0]], strict=True):
         here, after = (low, high), (np.roll(low, -1), np.roll(high, -1))
         if low[0] != low[1]:
@@ -193,6 +196,7 @@ def _core(
     for passes, face, way in ((below, low, 1), (above, high, -1)):
         ends = sorted((face, face + way * COLLAR))
         free = all(each is member or each.high <= ends[0] or ends[1] <= each.low for each in column.members)
+        # a collar replaces the shoulder of an arbor without pivots
         if passes and free:
             ring = Band(ends[0], ends[1], thick + COLLAR, thick + process.press / 2)
             side = "back" if way > 0 else "front"

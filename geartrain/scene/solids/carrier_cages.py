@@ -145,6 +145,7 @@ class HangingParts:
         side = plus(middle, cross(down, body.direction), rate)
         lead = material_named(self.declared, "lead").density
         assert lead is not None
+        # a lead cylinder of the declared mass: m = rho pi r^2 (4 r)
         radius = 1000 * (drive.weight.si / lead.si / (pi * _TALL)) ** (1 / 3)
         yield SceneHanger("line", crank, side, body.direction, down, _START, rate, _LINE)
         yield SceneHanger("weight", crank, side, body.direction, down, _START, rate, radius)

@@ -44,7 +44,7 @@ class ManufacturingSizes(Shown):
     Examples
     --------
     >>> ManufacturingSizes(module=2.0, bore=6.0)
-    ManufacturingSizes(module=2.0, thickness=None, bore=6.0, backlash=None, process=None, arms=None, sheet=None)
+    <ManufacturingSizes module=2, bore=6>
     """
 
     module: float | None = None

@@ -93,10 +93,12 @@ class SolidModel(Shown):
     def plan(self) -> FramePlan | None:
         """Places of plates and arbors; None if the frame carries no axis, or arbors are not requested."""
         stack = FrameStack(self.sized, self._spread, self._toothed.wheels, self.making.bore)
+        # a bore of 0 requests wheels without arbors and plates
         if self.making.bore == 0 or stack.normal is None:
             return None
         stack = stack.with_head_room()
         ends = {link: (each.low, each.high) for link, each in read_geometry(self.sized).dial_ends.items()}
+        # declared dials take precedence over the shafts of a reducer
         ends = {**stack.ends, **ends}
         return FramePlan(stack, self.process, self.making.thickness or _SHEET, self.making.bore, ends)
 

@@ -1,4 +1,4 @@
-"""Torque over a turn, from a train in one case to its answer: docs/torques.md, sections 16 to 18."""
+"""Torque over a turn, from a load case to its results: docs/torques.md, sections 16 to 18."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ _ODD = Fraction(1_414_213, 1_000_003)
 def find_extreme(
     value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
 ) -> tuple[float, float] | None:
-    """Where a value is greatest (1) or least (-1), and the value; None where there is none anywhere.
+    """Return the position and value of a maximum (`way` 1) or minimum (-1), or None if there are no finite values.
 
-    value_at   at some positions; `values`, those of the run, NaN where there are none
+    value_at   function from positions to values; `values` are those of the run, NaN where the train is locked
     """
     signed = np.where(np.isfinite(values), way * values, -np.inf)
     if not np.isfinite(signed).any():
@@ -88,11 +88,11 @@ def find_torque_cycle(
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
-    """Torques over some turns of the input.
+    """Compute torques over some turns of the input.
 
-    problem   what motion needs to know of the same case
-    of        the link whose torque is unknown, in place of that which the declaration tells
-    on_done   called with the number of positions that have been worked out since
+    problem   data for the motion of the same case
+    of        link whose torque is unknown, instead of the link that follows from the declaration
+    on_done   callback, called with the number of positions computed since the last call
     """
     if not 0 < turns <= MOST_TURNS:
         what, why = f"torques over {turns:g} turns", "a run goes forward"
@@ -112,12 +112,14 @@ def find_torque_cycle(
 
 
 def tell_run(run: TurnRun, of: str | None) -> TorqueCycle:
-    """What a run answers; `of` is the link that is told of, by default the first whose torque is found."""
+    """Return the results of a run. `of` is the link to report, by default the first with an unknown torque."""
     return _Answer(run).told(of)
 
 
 def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
-    """A train to be asked at positions, or why it cannot be; `of` is the link whose torque is unknown."""
+    """Return the balance of a train at any positions, or the verdict if there is none. `of` is the link of unknown
+    torque.
+    """
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return question
@@ -128,7 +130,7 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
 
 
 def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: TorqueQuestion) -> TurnBalance:
-    """A train under load, to be asked at positions: only what torque passes through is followed."""
+    """Build the balance of a train at any positions. Only the parts that transmit torque are evaluated."""
     bearings, frame = find_bearings(setting), setting.train.frame
     known = dict(question.loads)
     for link, friction in bearings.items():
@@ -157,18 +159,18 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
 
 
 def find_figures(run: TurnRun, of: str | None) -> CycleFigures:
-    """The figures of a run alone, as of `tell_run`."""
+    """Return only the figures of a run; see `tell_run`."""
     return _Answer(run).figures(of)
 
 
 @dataclass
 class _Answer:
-    """What is told of a run."""
+    """Results of a run."""
 
     run: TurnRun
 
     def figures(self, of: str | None) -> CycleFigures:
-        """Mean, greatest, starting torque, efficiency."""
+        """Return mean, maximum and starting torque, and efficiency."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)
         if self.run.share(~found.valid):
@@ -196,7 +198,7 @@ class _Answer:
         return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
 
     def told(self, of: str | None) -> TorqueCycle:
-        """The answer."""
+        """Return all results of the run."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)
         link = train.requested[own.row]
@@ -275,7 +277,7 @@ class _Answer:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:
-        """The greatest torque (the least with -1), sharpened between positions."""
+        """Find the maximum torque (the minimum with -1), refined between positions."""
 
         def torque(found: PositionTorques) -> Floats:
             return own.highest(found) if way > 0 else own.torque(found)
@@ -289,19 +291,19 @@ class _Answer:
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
     def _starting(self, own: _Request, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
-        """The greatest torque with friction at rest; None where the train does not start everywhere."""
+        """Return the maximum torque with static friction, or None if the train does not start everywhere."""
         if not self.run.standing.valid.all():
             return None
         return self._extreme(own, 1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
-        """Energies over the run, from powers over the input's speed: angles are in radians."""
+        """Return energies over the run. Powers are over the input's speed, so angles are in radians."""
         found, requested = self.run.found, len(self.run.train.requested)
         weights = self.run.cells.weights * 2 * np.pi
         driving, loading = found.powers[:requested], found.powers[requested:]
 
         def summed(powers: Floats) -> float:
-            """Of what is above 0."""
+            """Integrate the positive part of powers."""
             return float(weights @ np.maximum(powers, 0).sum(axis=0))
 
         lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)
@@ -334,19 +336,19 @@ class _Answer:
 
     @property
     def _closes(self) -> bool:
-        """True if the run ends as it began."""
+        """True if the run has a whole number of periods."""
         period = self.run.train.motion.period
         return period is None or (self.run.span / float(period)) % 1 == 0
 
     def _held(self) -> float:
-        """Share of the run in which loads put power in and what is asked for does too."""
+        """Return the fraction of the run in which both loads and unknown torques put power in."""
         found, requested = self.run.found, len(self.run.train.requested)
         driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
         minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
         return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
-        """Where nothing balances."""
+        """Return start and end of each stretch in which nothing balances."""
         turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
         starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
         return tuple(
@@ -355,24 +357,24 @@ class _Answer:
 
 
 class _Request(NamedTuple):
-    """The link that is told of, by number, and the sense of its mean motion."""
+    """Row of the reported link, and the sense of its mean motion."""
 
     row: int
     way: int
 
     def torque(self, found: PositionTorques) -> Floats:
-        """Its torque in that sense, in the solution that loses least."""
+        """Return its torque in that sense, in the solution with minimum loss."""
         torque: Floats = self.way * found.torque[self.row]
         return torque
 
     def highest(self, found: PositionTorques) -> Floats:
-        """The same in the one that loses most."""
+        """Return its torque in that sense, in the solution with maximum loss."""
         torque: Floats = self.way * found.highest[self.row]
         return torque
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """How often a sign changes; where it is 0 the last one stays."""
+    """Count the sign changes of a sequence, ignoring zeros."""
     own = signs[signs != 0]
     if not len(own):
         return 0

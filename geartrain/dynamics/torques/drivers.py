@@ -1,15 +1,16 @@
-"""Which side drives each gear pair and coupling: from which power flows through it, seen from its carrier.
+"""Driving side of each gear pair and coupling, from the power that flows through it relative to its carrier.
 
-"Who drives a pair" in docs/torques.md, section 3. Where loads are declared the torques decide, for all pairs that a
-load reaches. Else every pointer on a dial is taken to resist its motion, with a torque that is not known: without
-loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0, so if all c_o of a pair have
-one sign power flows one way whatever the pointers weigh, and else the way is open. For pairs through which no pointer
-takes power, resistance is assumed at the outputs on shafts, then at all outputs, all shafts, and at last every joint.
-The order of declaration has no part in it.
+"Who drives a pair" in docs/torques.md, section 3. If loads are declared, the torques decide for all pairs that a load
+reaches. Otherwise every pointer on a dial is assumed to resist its motion with an unknown torque. Without loss the
+multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0. If all c_o of a pair have one sign, the
+power flows in one direction for any torques of the pointers; otherwise the direction is undetermined. For pairs through
+which no pointer takes power, resistance is assumed at the outputs on shafts, then at all outputs, all shafts, and
+finally every joint. The order of declaration does not matter.
 
-The coefficients c_o are exact (point 3 there): one elimination for all loads at once, each load a symbol, and every
-unknown torque a linear form of symbols. Where loads go on through one torque only, and with one sign, only their sum
-matters from there on: it becomes a symbol of its own, so that long trains stay cheap and their numbers short.
+The coefficients c_o are exact (point 3 there). One elimination treats all loads at once, with a symbol for each load and
+every unknown torque as a linear form of symbols. Where loads continue through a single torque, with one sign, only their
+sum matters beyond it. That sum becomes a symbol, which keeps the cost of long trains and the length of their numbers
+small.
 """
 
 from __future__ import annotations
@@ -37,14 +38,14 @@ if TYPE_CHECKING:
 
 
 UnitLoads = Mapping[str, Mapping[str, Fraction]]
-"""Who resists -> link -> torque at a load of one."""
+"""Torques by link under a unit load, by the name of the resisting output or link."""
 
 _NAMED = 3  # loads named; of the others it is said how many they are
 
 
 @dataclass(frozen=True)
 class LoadGroup:
-    """Loads summed up: how many, and the first of their names in alphabetical order."""
+    """Sum of loads: their number, and their first names in alphabetical order."""
 
     count: int
     names: tuple[str, ...]
@@ -55,7 +56,7 @@ class LoadGroup:
         return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
     def joined(self, other: LoadGroup) -> LoadGroup:
-        """Both together; what is in both counts once as far as it is named."""
+        """Return the union of two groups. Common members count once if both groups name them."""
         names = sorted({*self.names, *other.names})
         twice = len({*self.names} & {*other.names})
         return LoadGroup(self.count + other.count - twice, tuple(names[:_NAMED]))
@@ -65,7 +66,7 @@ NOTHING = LoadGroup(0, ())
 
 
 class LoadInfluence(NamedTuple):
-    """Which loads act on one mesh: those that make its multiplier positive, and negative; `open` if nothing tells."""
+    """Loads that make the multiplier of a mesh positive or negative. `open` is True if it is undetermined."""
 
     plus: LoadGroup = NOTHING
     minus: LoadGroup = NOTHING
@@ -73,9 +74,9 @@ class LoadInfluence(NamedTuple):
 
 
 def find_load_influence(balance: TorqueBalance, loads: UnitLoads) -> dict[str, LoadInfluence] | None:
-    """The influence of loads on every mesh; None where no torques balance the loads.
+    """Return the influence of loads on every mesh, or None if no torques balance the loads.
 
-    balance   without losses; its known torques only tell which links are loaded
+    balance   without losses; its known torques only mark the loaded links
     """
     weighing = _InfluenceSolver(balance, loads)
     return weighing.found if weighing.go() else None
@@ -110,7 +111,7 @@ class _InfluenceSolver:
             (self.holders[symbol].add if symbol in own else self.holders[symbol].discard)(row)
 
     def go(self) -> bool:
-        """Solve block by block, or all at once where a block leaves open what a later one may need."""
+        """Solve block by block, or all at once if a block leaves open what a later one may need."""
         self._start()
         done = self._through(self.balance.parts)
         if done is None:
@@ -131,7 +132,10 @@ class _InfluenceSolver:
         return True
 
     def _solve(self, block: Block) -> dict[int, LinearForm | None] | None:
-        """Every unknown of a block as a form of symbols, None where it stays open; None for all if nothing balances."""
+        """Solve a block for its unknowns as linear forms of symbols, None if undetermined.
+
+        The result as a whole is None if nothing balances.
+        """
         known = {row: self.rows.pop(row) for row in block.rows}
         for row, form in known.items():
             for symbol in form:
@@ -142,7 +146,7 @@ class _InfluenceSolver:
         return {column: None if form is None else self._merged(form) for column, form in found.items()}
 
     def _merged(self, form: LinearForm) -> LinearForm:
-        """One symbol for loads of one sign that are told apart nowhere else."""
+        """Replace loads of one sign by a single symbol, if they are not needed separately elsewhere."""
         signs = {value > 0 for value in form.values()}
         if len(signs) != 1 or any(self.holders[symbol] for symbol in form):
             return form
@@ -170,29 +174,29 @@ class _InfluenceSolver:
 
 
 class FlowDirections(NamedTuple):
-    """What takes power that flows from a pair's first wheel to its second, and what takes it the other way."""
+    """Loads that take power flowing from a pair's first wheel to its second, and those that take it in reverse."""
 
     ahead: LoadGroup = NOTHING
     back: LoadGroup = NOTHING
     shared: bool = False
-    """Redundant pairs share the power in no certain way."""
+    """True if redundant pairs share the power in an undetermined way."""
     note: str = ""
-    """What takes no power through this pair."""
+    """Note on outputs that take no power through this pair."""
 
     def __bool__(self) -> bool:
         return bool(self.ahead.count or self.back.count or self.shared)
 
     def joined(self, other: FlowDirections) -> FlowDirections:
-        """What either says."""
+        """Return the union of two directions."""
         ahead, back = self.ahead.joined(other.ahead), self.back.joined(other.back)
         return FlowDirections(ahead, back, self.shared or other.shared, self.note)
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """The driver of every pair, and of every coupling, in one case: a wheel, or a link. Each is found when it is read.
+    """Return the driving wheel of every pair and the driving link of every coupling in one case, found when first read.
 
-    circuits   those that are in; `setting` may have more
-    setting    the case with its speeds; None where they are not determined, and only what is declared tells
+    circuits   those that are included; `setting` may have more
+    setting    the case with its speeds; None if they are undetermined, which leaves only declared drivers
     """
     if setting is None:
         return _undetermined(train, circuits, "the speeds of the train are not determined")
@@ -200,7 +204,7 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
 
 
 def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
-    """The drivers where no speeds are known: those that are declared, and no others."""
+    """Return the drivers without known speeds: only declared drivers are certain."""
     declared = _declared(train)
     text = f"undetermined: {why}"
     return {each.id: declared.get(each.id) or MeshDriver(_lesser(train, each), text, False) for each in circuits}
@@ -211,7 +215,7 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """The drivers in one case with its speeds; efficiencies, which need teeth, enter only where a load acts."""
+    """Drivers in one case with its speeds. Efficiencies, which need teeth, are computed only where a load acts."""
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting
@@ -229,7 +233,7 @@ class _Drivers:
 
     @cached_property
     def _idle(self) -> Collection[str]:
-        """The pairs that no load reaches: efficiencies do not matter. Sought only where these need teeth."""
+        """Pairs that no load reaches, whose efficiencies do not matter. Searched only if efficiencies need teeth."""
         return find_idle_pairs(self.setting) if self.setting.meshes else ()
 
     @cached_property
@@ -256,7 +260,7 @@ def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
 
 
 def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
-    """The way of power through pairs that roll: as pointers take it, else outputs, shafts, joints."""
+    """Return the directions of power through pairs that roll, from resisting pointers, outputs, shafts or joints."""
     found: dict[str, FlowDirections] = {}
     note = ""
     for loads, missed in _RESISTING:
@@ -270,13 +274,14 @@ def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirection
 
 
 def _pointers(setting: LoadCase) -> UnitLoads:
-    """Every output on a dial, against its own motion."""
+    """Return unit loads on every output with a dial, against its motion."""
     outputs = setting.case.outputs
     return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
 
 
 def _outer(setting: LoadCase) -> UnitLoads:
-    """Every output that is a shaft in the frame: what turns on a carrier, or is seen from one, is a reading."""
+    """Return unit loads on every output shaft in the frame. Outputs on carriers, or relative to one, are only readings.
+    """
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     outer = {name for name, (of, base) in ends.items() if base == frame == setting.bearer(of)}
@@ -284,19 +289,19 @@ def _outer(setting: LoadCase) -> UnitLoads:
 
 
 def _outputs(setting: LoadCase) -> UnitLoads:
-    """Every output, against its own motion."""
+    """Return unit loads on every output, against its motion."""
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     return {name: drag for name, (of, base) in ends.items() if (drag := _drag(setting, of, base))}
 
 
 def _shafts(setting: LoadCase) -> UnitLoads:
-    """Every link that turns in the frame."""
+    """Return unit loads on every link that turns in the frame."""
     return {link: drag for link, drag in _joints(setting).items() if setting.bearer(link) == setting.train.frame}
 
 
 def _joints(setting: LoadCase) -> UnitLoads:
-    """Every link, against its turning on what bears it."""
+    """Return unit loads on every link, against its rotation in its bearing."""
     links = (link for link in setting.train.links if link != setting.train.frame)
     return {link: drag for link in links if (drag := _drag(setting, link, setting.bearer(link)))}
 
@@ -308,11 +313,11 @@ _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_shafts, ""),
     (_joints, ""),
 )
-"""What is asked in turn, and what is said of pairs through which it takes no power."""
+"""Assumed resistances in order of precedence, and the words for pairs through which they take no power."""
 
 
 def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
-    """A unit of torque between two links, against their turning on each other; nothing where they do not."""
+    """Return a unit torque between two links against their relative rotation, or nothing if it is 0."""
     own, other = setting.sense(of), setting.sense(base)
     relative = setting.relative(of, base) or Fraction(0)
     sign = (relative > 0) - (relative < 0)
@@ -323,7 +328,7 @@ def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 
 
 def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """The way of every pair under any mixture of some loads."""
+    """Return the direction of power in every pair under any positive combination of loads."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting) if loads else ():
         like = _peers(build_balance(setting, {}, requested))
@@ -340,7 +345,7 @@ def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """The links whose torques are unknown, as many as inputs: every choice, where a crank stands beside inputs."""
+    """Yield the links of unknown torque, as many as inputs: every combination if there is a crank besides inputs."""
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
         links = inputs  # a crank at rest
@@ -351,7 +356,7 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _peers(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
-    """The equal planets of each, itself among them."""
+    """Return the equal planets of each planet, including itself."""
     ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
     found: dict[str, tuple[str, ...]] = {}
     for group in balance.ties:
@@ -362,7 +367,7 @@ def _peers(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """The same load on every planet that is like the one it acts on, and as often on what bears them."""
+    """Apply a load equally to all planets equal to the loaded one, and as often to their carrier."""
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)
@@ -402,7 +407,7 @@ def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
 
 
 def _lesser(train: Train, circuit: Circuit) -> str:
-    """A wheel to go on with where nothing says which drives: that of fewer teeth, then by name; a pin."""
+    """Return the assumed driver where it is undetermined: the wheel of fewer teeth, then by name; or the pin."""
     if circuit.kind != "gear":
         return circuit.j
     return min(

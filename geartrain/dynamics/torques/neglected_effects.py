@@ -1,9 +1,10 @@
-"""What a balance of mean torques does not count, by name: the table in section 13 of docs/torques.md.
+"""Effects that a balance of mean torques neglects, by name: the table in section 13 of docs/torques.md.
 
-Bearings that turn back within a turn, though their mean speed does not show it, are found by interval bounds, equation
-(21). To the mean speed of every link each uneven pair adds g (tau(S) - m) w: g its gain there, tau its speed ratio at
-the angle S of its driver, m the mean of that, w the speed of its driver seen from the carrier. Gains are exact, and w
-lies within bounds that widen from pair to pair; so a bearing named here may turn back, and one not named does not.
+Some bearings reverse within a turn although their mean speed does not change. Interval bounds find them, equation (21).
+Each nonuniform pair adds g (tau(S) - m) w to the mean speed of every link. Here g is its gain at the link, tau its speed
+ratio at the angle S of its driver, m the mean ratio, and w the speed of its driver relative to the carrier. Gains are
+exact, and the bounds of w widen from pair to pair. A bearing named here may therefore reverse; a bearing not named does
+not.
 """
 
 from __future__ import annotations
@@ -38,39 +39,39 @@ _MEAN = "the torques given are means over a turn"
 
 @dataclass(frozen=True)
 class SpeedBounds:
-    """Least and greatest speed of a bearing."""
+    """Bounds of a speed, such as that of a bearing."""
 
     low: float
     high: float
     magnitude: float | None = None
-    """Mean and greatest of its magnitude, where one pair alone makes it uneven."""
+    """Mean magnitude of the speed, if a single pair causes its variation."""
     most: float | None = None
-    """Mean and greatest of its magnitude, where one pair alone makes it uneven."""
+    """Maximum magnitude of the speed, if a single pair causes its variation."""
 
     @property
     def turns_back(self) -> bool:
-        """True if there are speeds of both signs between them."""
+        """True if the bounds include speeds of both signs."""
         return self.low < -_SLACK * abs(self.high) and self.high > _SLACK * abs(self.low)
 
     def plus(self, other: SpeedBounds) -> SpeedBounds:
-        """Of the sum of two speeds."""
+        """Return the bounds of the sum of two speeds."""
         return SpeedBounds(self.low + other.low, self.high + other.high)
 
     def times(self, other: SpeedBounds) -> SpeedBounds:
-        """Of the product of two numbers."""
+        """Return the bounds of the product of two numbers."""
         ends = [_product(x, y) for x in (self.low, self.high) for y in (other.low, other.high)]
         return SpeedBounds(min(ends), max(ends))
 
 
 @dataclass(frozen=True)
 class _Uneven:
-    """A pair whose speed ratio is not constant: its row has factor (tau - m) times the speed of its driver."""
+    """Pair with a variable speed ratio. Its row has factor (tau - m) times the speed of its driver."""
 
     id: str
     transmission: TransmissionFunction | None
-    """None where it is not known: a pin without dimensions, teeth that cannot turn."""
+    """Transmission function; None if unknown, as for a pin without dimensions or teeth that cannot turn."""
     driver: str
-    """Seen from the carrier; `mean` is m."""
+    """Driver, moving relative to `carrier`. `mean` is m."""
     carrier: str
     factor: Fraction
     mean: Fraction
@@ -85,7 +86,7 @@ class _Uneven:
 
 
 def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, SpeedBounds] | None:
-    """The links among these that may turn back in their joints; None where there is too much to follow."""
+    """Return speed bounds of the links that may reverse in their bearings; None if there are too many pairs."""
     uneven = list(_uneven(setting))
     if len(uneven) > _MOST_UNEVEN:
         return None
@@ -122,7 +123,7 @@ def _uneven(setting: LoadCase) -> Iterator[_Uneven]:
 
 
 def _gains(setting: LoadCase, uneven: Sequence[_Uneven]) -> Mapping[str, Mapping[int, float]]:
-    """What a unit of each pair's deviation, by number, adds to each link's speed; inputs keep theirs."""
+    """Return the speed that a unit of each pair's deviation, by index, adds to each link, with input speeds fixed."""
     number = {each.id: at for at, each in enumerate(uneven)}
     system = setting.system
     column = {link: at for at, link in enumerate(system.links)}
@@ -140,7 +141,7 @@ def _gains(setting: LoadCase, uneven: Sequence[_Uneven]) -> Mapping[str, Mapping
 
 
 def _between(gains: Mapping[str, Mapping[int, float]], link: str, carrier: str) -> dict[int, float]:
-    """Gains at a link seen from another."""
+    """Return the gains at a link relative to another."""
     found = dict(gains[link])
     for number, gain in gains[carrier].items():
         found[number] = found.get(number, 0.0) - gain
@@ -150,7 +151,7 @@ def _between(gains: Mapping[str, Mapping[int, float]], link: str, carrier: str) 
 def _bounds(
     setting: LoadCase, gains: Mapping[str, Mapping[int, float]], added: Sequence[SpeedBounds], link: str, carrier: str
 ) -> SpeedBounds:
-    """Bounds of a link's speed seen from another."""
+    """Return the bounds of a link's speed relative to another."""
     mean = setting.relative(link, carrier)
     found = SpeedBounds(-inf, inf) if mean is None else SpeedBounds(_number(mean), _number(mean))
     for number, gain in _between(gains, link, carrier).items():
@@ -161,7 +162,7 @@ def _bounds(
 def _added(
     setting: LoadCase, uneven: Sequence[_Uneven], gains: Mapping[str, Mapping[int, float]]
 ) -> Sequence[SpeedBounds]:
-    """Bounds of what each pair adds, its driver's speed being bounded by what the others add."""
+    """Return bounds of the speed that each pair adds, from the bounds of its driver's speed."""
     swings = [each.swing for each in uneven]
     added = [SpeedBounds(0.0, 0.0)] * len(uneven)
     # where no pairs depend on each other in a circle each round settles one more, and the last sees no change
@@ -182,7 +183,7 @@ def _with_mean(
     link: str,
     bounds: SpeedBounds,
 ) -> SpeedBounds:
-    """With the mean magnitude, where one pair alone makes the link uneven and that pair's driver turns evenly."""
+    """Add the mean magnitude, if a single pair causes the variation of the link and its driver turns uniformly."""
     import numpy as np
 
     carrier = setting.tree.parent[link][0]
@@ -202,7 +203,7 @@ def _with_mean(
 
 
 def _number(value: Fraction) -> float:
-    """The nearest float, infinite where there is none."""
+    """Return the nearest float, or an infinity if it overflows."""
     number = as_float(value)
     if number is not None:
         return number
@@ -210,7 +211,7 @@ def _number(value: Fraction) -> float:
 
 
 def _product(x: float, y: float) -> float:
-    """x times y, 0 where one of them is 0 and the other has no bound."""
+    """Return x times y, with 0 times infinity equal to 0."""
     return x * y if x and y else 0.0
 
 
@@ -221,11 +222,11 @@ def find_neglected_effects(
     idle: Sequence[str],
     bearings: bool,
 ) -> tuple[NeglectedEffect, ...]:
-    """Everything that the torques of one case leave out.
+    """Return everything that the torques of one case neglect.
 
-    neither   pairs of whose torques neither is constant over a turn
-    idle      pairs that carry nothing: what they might lose is not missed
-    bearings  False where friction of bearings was not asked for
+    neither   pairs neither of whose torques is constant over a turn
+    idle      pairs without torque, whose losses are not neglected
+    bearings  False if friction of bearings was not requested
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
@@ -241,7 +242,7 @@ def find_neglected_effects(
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Viscous drag, which a balance of exact means does not count."""
+    """Yield viscous drag, which a balance of exact means does not include."""
     if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
         yield NeglectedEffect(
             "viscous drag", links, "it is by speed: torques over a turn count it where speeds are real"
@@ -249,9 +250,9 @@ def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
-    """What torques over a turn leave out: nothing of pins, bearings and swing, where what they need is declared.
+    """Return the effects neglected by torques over a turn. Pins, bearings and variations are neglected only if undeclared.
 
-    at_means   pairs with real teeth that lose their mean share everywhere
+    at_means   pairs with real teeth that have their mean efficiency at every position
     """
     found = [
         *_bare_pins(setting, setting.circuits),
@@ -265,7 +266,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Friction of pins that is no share of the power that passes."""
+    """Yield friction of pins that is not a fraction of the transmitted power."""
     couplings = setting.couplings
     rubbing = [circuit for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
     if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
@@ -275,7 +276,7 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
 
 
 def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Friction declared on pins that have no dimensions."""
+    """Yield friction declared on pins without dimensions."""
     couplings = setting.couplings
     rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
     if bare := tuple(name for name in rubbing if name not in setting.joints):
@@ -286,7 +287,7 @@ def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Friction declared on teeth that have no form, and on worms of unknown lead."""
+    """Yield friction declared on teeth without a form, and on worms of unknown lead."""
     bare: dict[str, list[str]] = {_NO_FORM: [], _NO_LEAD: []}
     for circuit in busy:
         gear = setting.gears.get(circuit.id)
@@ -301,7 +302,7 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """True for worms, and helical wheels on axes that are not parallel: no tooth form of theirs has a mean loss."""
+    """Return whether a pair is a worm or crossed helical gears, whose tooth forms have no mean loss."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
@@ -310,7 +311,7 @@ def _slides(setting: LoadCase, circuit: Circuit) -> bool:
 def _open(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Losses of pairs whose direction of rolling is not determined."""
+    """Yield losses of pairs whose direction of rolling is undetermined."""
     found = tuple(
         circuit.id
         for circuit in busy
@@ -322,7 +323,7 @@ def _open(
 
 
 def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
-    """True for teeth whose friction asks for a speed, which has no means where none is determined."""
+    """Return whether the friction of teeth depends on a speed."""
     tooth = setting.meshes.get(circuit.id)
     declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
     return tooth is not None and not declared and tooth.wheels.friction_law is not None
@@ -339,7 +340,7 @@ def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Bearings whose direction of turning is not determined, or changes within a turn."""
+    """Yield bearings whose sense of rotation is undetermined or changes within a turn."""
     rubbing = _rubbing(setting)
     free = tuple(link for link in rubbing if setting.relative(link, setting.tree.parent[link][0]) is None)
     if free:
@@ -356,7 +357,7 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
-    """How far a bearing's loss is from that at its mean speed."""
+    """Describe the ratio of a bearing's loss to its loss at mean speed."""
     reach = f"the speed goes from {bounds.low:.4g} to {bounds.high:.4g}"
     what = f"it is counted at the mean speed {decimal(mean, 4)}, and {reach}"
     if bounds.magnitude is None or bounds.most is None:
@@ -371,7 +372,7 @@ def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
 
 
 def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Pairs whose torques are not the same at every angle."""
+    """Yield pairs whose torques depend on their position."""
     found = []
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
@@ -383,7 +384,7 @@ def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffe
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Masses that uneven pairs set swinging."""
+    """Yield links with inertia that nonuniform pairs accelerate."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
     uneven = any(circuit.swings for circuit in setting.circuits)
     if heavy and (uneven or any(not tooth.rigid for tooth in setting.meshes.values())):

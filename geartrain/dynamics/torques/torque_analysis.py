@@ -1,6 +1,6 @@
-"""From a declared train in one case to its torques: what is known, requested and lost, and the verdict.
+"""Torques of a declared train in one case: known and unknown torques, losses, and the verdict.
 
-Verdicts state why nothing balances, which of several balances is given, and where the input must drive as well
+Verdicts state why nothing balances, which of several solutions is given, and where the input must drive as well
 (sections 5, 6, 8 and 11 of docs/torques.md).
 """
 
@@ -29,47 +29,49 @@ _GREAT = 10**12  # lambda of section 6: beside a load so many times as great, co
 
 @dataclass(frozen=True)
 class LoadedBalance:
-    """A balance with what stands behind its known torques: loads, and friction of bearings."""
+    """Balance with the two sources of its known torques: loads, and friction of bearings."""
 
     balance: TorqueBalance
     speeds: Mapping[str, Fraction]
     loads: Mapping[str, Fraction]
     rubbing: Mapping[str, Fraction]
     enough: bool = True
-    """As many torques are unknown as the train has freedoms; else the loads must balance of themselves."""
+    """True if as many torques are unknown as the train has degrees of freedom. Otherwise the loads must balance by
+    themselves.
+    """
     open: tuple[str, ...] = ()
-    """Links whose speed is not determined."""
+    """Links whose speed is undetermined."""
 
     @property
     def names(self) -> str:
-        """The links asked for."""
+        """Links of unknown torque, as text."""
         return ", ".join(self.balance.unknown) or "any link"
 
     @property
     def load(self) -> str:
-        """What the train works against, in words."""
+        """Load of the train, as text."""
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
     def driving(self) -> Fraction:
-        """Power that the loads put in, less what they take out."""
+        """Net power that the loads put in."""
         return self._power(self.loads)
 
     @property
     def rubs(self) -> bool:
-        """True if friction of bearings stands beside a load."""
+        """True if both a load and friction of bearings act."""
         return any(self.loads.values()) and any(self.rubbing.values())
 
     def power(self, flow: FlowPattern) -> Fraction:
-        """Power that the links asked for put in."""
+        """Return the power input of the unknown torques."""
         return self._power(flow.solved.external)
 
     def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
-        """Power at the links whose speed is determined."""
+        """Return the power of torques at the links of determined speed."""
         return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
-        """Flows where the load is so great that constant friction hardly matters."""
+        """Return the flows under a load so large that constant friction is negligible."""
         known = dict(self.rubbing)
         for link, torque in self.loads.items():
             known[link] = known.get(link, Fraction(0)) + _GREAT * torque
@@ -77,7 +79,7 @@ class LoadedBalance:
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
-    """The verdict on loads that the links asked for cannot hold, losses apart; None where they can."""
+    """Return the verdict on loads that the unknown torques cannot balance even without losses, or None."""
     motions = unbalanced_motions(setting.system, known, requested)
     if not motions:
         return None
@@ -97,7 +99,7 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
 
 
 def _some(links: Sequence[str]) -> str:
-    """Some links by name, and how many more."""
+    """Format up to three links by name, and the number of the others."""
     more = f" and {len(links) - 3} more" if links[3:] else ""
     return ", ".join(links[:3]) + more
 
@@ -105,7 +107,7 @@ def _some(links: Sequence[str]) -> str:
 def find_torque_verdict(
     question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, left_out: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
-    """The verdict on flows, the first of which is the one given: with least left open, and least lost."""
+    """Return the verdict on flows, sorted by undetermined torques and losses. The first flow is the one given."""
     if not flows:
         return _none(question, complete)
     but = _but(left_out)
@@ -125,7 +127,7 @@ def find_torque_verdict(
 
 
 def _but(left_out: Sequence[NeglectedEffect]) -> str:
-    """What is not counted, in a few words."""
+    """Summarise the neglected effects in a few words."""
     uncounted: dict[str, list[str]] = {}
     for each in left_out:
         if each.counts:
@@ -137,7 +139,7 @@ def _but(left_out: Sequence[NeglectedEffect]) -> str:
 
 
 def _none(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Why no torques balance: shares, bearings, or teeth."""
+    """Explain why no torques balance: shares, bearings, or teeth."""
     names = question.names
     if not question.enough:
         text = "the loads balance while nothing is lost, and do not with the losses: an unknown torque is lacking"
@@ -160,7 +162,7 @@ def _none(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _help(question: LoadedBalance, flow: FlowPattern) -> str:
-    """What to say where the load drives, and yet does not do it alone."""
+    """Describe a load that puts power in but cannot drive the train alone."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.rubs else ()
@@ -172,7 +174,7 @@ def _help(question: LoadedBalance, flow: FlowPattern) -> str:
 
 
 def _open(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdict:
-    """What redundant pairs, brakes and locks leave open."""
+    """Return the verdict on torques that redundant pairs, brakes and locks leave undetermined."""
     loose = tuple(dict.fromkeys(name for flow in flows for name in flow.solved.loose))
     links = list(flows[0].solved.open)
     locks = zip(question.balance.locks, flows[0].solved.locks, strict=True)
@@ -186,7 +188,7 @@ def _open(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdic
 
 
 def _several(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Name the flow that is given, and mention the others."""
+    """Return the verdict on several flows, which describes the given one and mentions the others."""
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_way(question, power, given < 0) for power in others)
     text = (
@@ -197,7 +199,7 @@ def _several(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVer
 
 
 def _way(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """One flow in words; `resisted` is said where power leaves in the flow that is given."""
+    """Describe one flow. `resisted` is True if power leaves in the given flow."""
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
     also = " as well, and all is lost" if resisted else ""
@@ -209,11 +211,11 @@ _EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits whose ratio i
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
-    """Declared parts of the torque on each wheel that two or more such pairs have in common.
+    """Return declared fractions of the torque on each wheel that two or more sharing pairs have in common.
 
-    loaded   links with a torque of their own, or that are held
+    loaded   links with an external torque, or that are braked
 
-    An idler hands on what it gets: nothing is shared there, though its pairs may share on their other wheels.
+    An idler passes on its torque, so nothing is shared there, though its pairs may share on their other wheels.
     """
     by_wheel: dict[str, dict[str, Fraction]] = {}
     for gear in train.gears:
@@ -234,9 +236,9 @@ def find_ties(
     known: Mapping[str, Fraction],
     singled: Collection[str],
 ) -> tuple[tuple[str, ...], ...]:
-    """Pairs of equal planets share alike: one carrier, the same mates, counts, efficiencies and own torque.
+    """Group pairs of equal planets: same carrier, mates, tooth counts, efficiencies and external torque.
 
-    singled   links that are not like others: the frame, held, locked, asked for, or with declared shares
+    singled   links unlike others: the frame, braked, locked or requested links, or those with declared shares
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
     apart |= {link for circuit in circuits if circuit.kind not in _EVEN for link in (circuit.i, circuit.j)}
@@ -262,27 +264,27 @@ def find_ties(
 
 @dataclass(frozen=True)
 class UnknownLinks:
-    """The links whose torque is unknown."""
+    """Links of unknown torque."""
 
     links: tuple[str, ...]
     enough: bool = True
-    """As many as the train has freedoms; with fewer the loads have to balance of themselves."""
+    """True if they are as many as the degrees of freedom. With fewer, the loads must balance by themselves."""
     undecided: TorqueVerdict | None = None
-    """Why more are needed than it is plain which, where the loads do not."""
+    """Verdict that asks for more unknown torques, given if the loads do not balance without them."""
 
 
 @dataclass(frozen=True)
 class TorqueQuestion:
-    """What is asked in one case: loads that act, and the links whose torque is to be found."""
+    """Loads in one case, and the links of unknown torque."""
 
     loads: Mapping[str, Fraction]
     requested: UnknownLinks
 
 
 def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
-    """Torques under the declared loads, or under the friction of bearings alone: equations (3) to (8) and (10).
+    """Compute torques under the declared loads, or under friction of bearings only: equations (3) to (8) and (10).
 
-    flows_only   what is left out is not looked for, which would make the teeth of every pair
+    flows_only   skip the search for neglected effects, which would build the teeth of every pair
     """
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
@@ -291,9 +293,9 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
-    """The pairs that carry no torque under the declared loads, at any losses; empty where no torques follow.
+    """Return the pairs without torque under the declared loads at any losses; empty if torques are undetermined.
 
-    They are zero-force members (statics of trusses).
+    They correspond to zero-force members of trusses.
     """
     # proof: nothing but such pairs acts on the links beyond them, so the balance of these links is homogeneous for all
     # efficiencies, which only scale its coefficients: the multipliers are 0, or open between redundant pairs
@@ -305,7 +307,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """What acts and what is asked for; a verdict where nothing acts, or nothing can be asked."""
+    """Return the loads and the links of unknown torque, or a verdict if there are no loads or no possible unknowns."""
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
@@ -318,12 +320,12 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
 
 
 def torques_unknown(state: str | None) -> Torques:
-    """What is said where no torques can be asked for: the speeds of the state are not determined."""
+    """Return the result for a state whose speeds are undetermined."""
     return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Torques while a resisting unit of power leaves at `load` and `source` is to drive it; bearings left out."""
+    """Compute torques while a unit of power leaves at `load`, driven from `source`. Bearings are neglected."""
     if (verdict := _summed(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
@@ -335,7 +337,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
-    """The links whose torque is unknown: as many as there are inputs, or fewer where that is all that is plain."""
+    """Choose the links of unknown torque: as many as inputs, or fewer if only those are certain."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -368,7 +370,9 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
-    """Where power may enter: the inputs, or, where only their speeds are given, the crank in place of one of them."""
+    """Return the links at which power may enter: the inputs, or the crank instead of an input of which only the speed
+    is given.
+    """
     inputs, crank = tuple(setting.case.inputs), setting.train.crank
     if crank is None or crank in inputs:
         return inputs
@@ -376,7 +380,9 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
 
 
 def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """A torque about an axis that moves does no work with a sum of joint speeds, which is no rotation."""
+    """Return a verdict on links whose axis moves, because a sum of joint speeds is not a rotation and torques do no
+    work with it.
+    """
     sums = setting.axes.joint_sums
     for link in links:
         if link in sums:
@@ -386,7 +392,7 @@ def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
 
 
 def _still(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
-    """A link at rest moves nothing; a single input at rest is a train at rest, which balances."""
+    """Return a verdict on a requested link at rest, unless the whole train is at rest."""
     speeds = setting.speeds
     if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
         return TorqueVerdict("still", f"'{requested[0]}' does not turn, so no torque on it does any work")
@@ -426,7 +432,9 @@ def _balanced(
 
 
 def _with_reason(requested: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Which torque might be named, before what is lacking without it; the latter alone where naming one is no help."""
+    """Combine two verdicts: which torque could be requested, and what fails without it. Omit the first if it cannot
+    help.
+    """
     if requested.undecided is None:
         return lacking
     untried = [link for link in requested.undecided.candidates if link not in requested.links]
@@ -442,7 +450,7 @@ def build_balance(
     requested: tuple[str, ...],
     means: Mapping[str, MeanEfficiencies] | None = None,
 ) -> TorqueBalance:
-    """The balance of a train with some torques known and some asked for; as if nothing rubbed where no means are."""
+    """Build the balance of a train with known and unknown torques, without losses if `means` is None."""
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
     locks = _locks(setting)
@@ -471,7 +479,7 @@ def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """A circuit as a path of power, with what its teeth lose; without loss where the way it rolls is not determined."""
+    """Return a circuit as a power path with its losses, or without loss if its rolling direction is undetermined."""
     i, j, k = circuit.i, circuit.j, circuit.carrier
     senses = (setting.sense(i), setting.sense(j), setting.sense(k))
     relative = setting.relative(i, k) or Fraction(0)
@@ -484,12 +492,12 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
 
 
 def _acting(loads: Mapping[str, Fraction], rubbing: Mapping[str, Fraction]) -> dict[str, Fraction]:
-    """What is known of the torque on each link."""
+    """Return the known torque on each link."""
     return {link: loads.get(link, Fraction(0)) + rubbing.get(link, Fraction(0)) for link in {**loads, **rubbing}}
 
 
 def _rubbing(setting: LoadCase) -> dict[str, Fraction]:
-    """What bearings do to each link: the one it turns in, and those of what turns on it."""
+    """Return the total friction torque of bearings on each link, whether it turns in a bearing or carries one."""
     found: dict[str, Fraction] = {}
     for bearing in setting.bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -548,7 +556,9 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 
 
 def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Brakes and locks with what they exert: on a link about its own axis, on the second of two the reaction."""
+    """Return brakes and locks with their torques: about the link's own axis, and for a lock the reaction on the second
+    link.
+    """
     solved = flow.solved
     found = []
     for link in _brakes(setting):

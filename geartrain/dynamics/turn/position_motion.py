@@ -119,7 +119,7 @@ class PositionMotion:
 
     @property
     def period(self) -> Fraction | None:
-        """Turns of the input after which every evaluated pair repeats its position; None if there is no such pair."""
+        """Turns of the input after which every evaluated pair repeats its position; None without such pairs."""
         return common_period(self.composition.used)
 
     @property

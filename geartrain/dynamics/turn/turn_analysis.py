@@ -55,7 +55,7 @@ _ODD = Fraction(1_414_213, 1_000_003)
 def find_extreme(
     value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
 ) -> tuple[float, float] | None:
-    """Return the position and value of a maximum (`way` 1) or minimum (-1), or None if there are no finite values.
+    """Return the position and value of a maximum (`way` 1) or minimum (-1), or None if no value is finite.
 
     value_at   function from positions to values; `values` are those of the run, NaN where the train is locked
     """

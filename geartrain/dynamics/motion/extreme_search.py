@@ -1,9 +1,9 @@
-"""The least and greatest errors and rates of outputs over a run of the input: branch and bound, then smooth pieces.
+"""Extreme errors and rates of outputs over a run of the input: branch and bound, then smooth pieces.
 
-The run is cut into steps, narrow beside the shortest pitch, and `rate_bounds` tells between which values errors and
-rates lie in each. Steps that cannot hold an extreme are dropped, the others cut in four, and again. Those that are left
-are cut at the corners of all laws; on each piece everything is smooth, and the extremes of its Chebyshev polynomials
-count, with the limits on both sides of a jump. Nothing of it depends on the positions at which a run is sampled.
+The run is divided into steps narrower than the shortest pitch, and `rate_bounds` bounds errors and rates in each. Steps
+that cannot contain an extreme are discarded and the others divided in four, repeatedly. The remaining steps are divided
+at the kinks of all transmission functions. Errors are smooth on each piece, and the extremes follow from Chebyshev
+polynomials and from the one-sided limits at jumps. The result does not depend on the sampled positions of a run.
 """
 
 from __future__ import annotations
@@ -47,55 +47,55 @@ _NO_PIECE = 4  # times as near: two corners so near are one
 
 
 def signed(error: Floats, rate: Floats) -> Floats:
-    """Errors, errors reversed, rates, rates reversed: what is sought is the greatest of each, (outputs, 4, n)."""
+    """Return errors, negated errors, rates, negated rates, (outputs, 4, n). The maximum of each is sought."""
     return np.stack([error, -error, rate, -rate], axis=1)
 
 
 class BoundedSteps(NamedTuple):
-    """Steps of the input with what the values sought cannot pass in them, (outputs, 4, n)."""
+    """Steps of the input with upper bounds of the values sought, (outputs, 4, n)."""
 
     steps: InputSteps
     above: Floats
 
     @classmethod
     def joined(cls, parts: Sequence[BoundedSteps]) -> BoundedSteps:
-        """All steps of some parts."""
+        """Join all steps of some parts."""
         low, high = (np.concatenate([part.steps[end] for part in parts]) for end in (0, 1))
         return cls(InputSteps(low, high), np.concatenate([part.above for part in parts], axis=2))
 
     def chosen(self, which: Bools | Indices | slice) -> BoundedSteps:
-        """Some of them."""
+        """Return a selection of the steps."""
         return BoundedSteps(InputSteps(self.steps.low[which], self.steps.high[which]), self.above[:, :, which])
 
     def of_outputs(self, outputs: list[int], search: StepSearch) -> BoundedSteps:
-        """Those that may hold more than was found, for some of the outputs."""
+        """Return the steps that may exceed the values found, for some of the outputs."""
         above = self.above[outputs]
         more = (above > (search.values + search.tolerance)[outputs, :, None]).any(axis=(0, 1))
         return BoundedSteps(InputSteps(self.steps.low[more], self.steps.high[more]), above[:, :, more])
 
     def before(self, end: float) -> BoundedSteps:
-        """Those that begin before a position of the input."""
+        """Return the steps that begin before a position of the input."""
         return self.chosen(self.steps.low < end)
 
     @property
     def number(self) -> int:
-        """How many they are."""
+        """Number of steps."""
         return len(self.steps.low)
 
     @property
     def width(self) -> float:
-        """Of the widest (turns)."""
+        """Width of the widest step [turns]."""
         return float(np.max(self.steps.high - self.steps.low, initial=0.0))
 
 
 class StepSearch:
-    """The extremes in steps of the input of what a composition gives, or of what it gives less what another does.
+    """Search for extremes of a composition, or of the difference of two compositions, in steps of the input.
 
-    parts         the composition, and the other if there is one
-    share         of the work on steps that are not narrow
-    values        (outputs, 4): the greatest errors, errors reversed, rates, rates reversed that were found
-    dropped       (outputs, 4): what they may be in steps that were not searched, or between places that were looked at
-    turned_back   pairs whose driver was seen turning against its mean
+    parts               the composition, and the one to subtract if there is one
+    share               fraction of the effort spent on steps that are not narrow
+    values              (outputs, 4): maxima found of errors, negated errors, rates, negated rates
+    dropped             (outputs, 4): upper bounds in steps not searched, or between evaluated positions
+    reversing_drivers   pairs whose driver turned against its mean at some position
     """
 
     def __init__(self, parts: tuple[ErrorComposition, ...], share: float = 1.0) -> None:
@@ -110,24 +110,24 @@ class StepSearch:
 
     @cached_property
     def step(self) -> float:
-        """Turns of the input that are narrow for every law."""
+        """Turns of the input that are narrow for every transmission function."""
         return min(corners.step for corners in self._corners)
 
     @cached_property
     def _rate(self) -> float:
-        """Corners in a turn of the input."""
+        """Mean number of kinks per turn of the input."""
         return sum(corners.rate for corners in self._corners)
 
     @property
     def tolerance(self) -> Floats:
-        """How much more is not sought."""
+        """Increments below which larger extremes are not sought."""
         ranges = np.repeat(self.values[:, ::2] + self.values[:, 1::2], 2, axis=1)
         return np.maximum(_SURE * ranges, _ROUNDING)
 
     # ------------------------------------------------------------------------------------------------ branch and bound
 
     def go(self, left: BoundedSteps) -> None:
-        """Search some steps."""
+        """Search some steps by branch and bound."""
         before = 0
         for division in range(_MOST_DIVISIONS):
             # narrow steps are divided twice at least, and as long as that leaves fewer of them
@@ -152,7 +152,7 @@ class StepSearch:
         self._cut_at_corners(InputSteps(low[high > low], high[high > low]))
 
     def _searched(self, steps: Iterator[InputSteps]) -> BoundedSteps:
-        """Those that may hold an extreme, the likeliest first, and not too many."""
+        """Return the steps that may contain an extreme, in order of their bounds, up to a maximum number."""
         parts = [self._worth_while(self.bounded(part)) for part in steps]
         left = self._worth_while(BoundedSteps.joined(parts))
         most = min(_MOST_LEFT, _NUMBERS // (4 * len(self.values))) if left.width <= self.step else self._most_wide
@@ -160,7 +160,7 @@ class StepSearch:
         return left.chosen(slice(most))
 
     def bounded(self, steps: InputSteps) -> BoundedSteps:
-        """With bounds; what is at their ends counts."""
+        """Return the steps with bounds. Values at their ends are included in the maxima."""
         found = self._bounds[0].over(*steps)
         if len(self._bounds) > 1:
             found = StepBounds.difference(found, self._bounds[1].over(*steps))
@@ -172,14 +172,14 @@ class StepSearch:
         return BoundedSteps(steps, np.where(np.isnan(above), -np.inf, above))
 
     def _worth_while(self, given: BoundedSteps) -> BoundedSteps:
-        """Steps that may hold more than was found, those that may hold most first."""
+        """Return the steps that may exceed the values found, largest bounds first."""
         excess = (given.above - self.values[:, :, None]) / self.tolerance[:, :, None]
         most = excess.max(axis=(0, 1), initial=-np.inf)
         order = np.argsort(-most, kind="stable")
         return given.chosen(order[: int(np.count_nonzero(most > 1))])
 
     def _drop(self, given: BoundedSteps) -> None:
-        """Leave steps unsearched."""
+        """Record the bounds of steps that are not searched."""
         self.dropped = np.maximum(self.dropped, given.above.max(axis=2, initial=-np.inf))
 
     def _count(self, passage: ErrorSamples) -> None:
@@ -192,7 +192,7 @@ class StepSearch:
     # --------------------------------------------------------------------------------------------------- smooth pieces
 
     def _cut_at_corners(self, steps: InputSteps) -> None:
-        """Count the extremes within some steps, apart from each other, piece by piece."""
+        """Include the extremes within disjoint steps, piece by piece between kinks."""
         order = np.argsort(steps.low)
         low, high = steps.low[order], steps.high[order]
         corners = [search.between(InputSteps(low, high)).turns for search in self._corners]
@@ -207,7 +207,7 @@ class StepSearch:
             self._take_pieces(middle[first : first + size], half[first : first + size])
 
     def _take_pieces(self, middle: Floats, half: Floats) -> None:
-        """Count the extremes of smooth pieces."""
+        """Include the extremes of smooth pieces."""
         found = self._at((middle[:, None] + half[:, None] * _NODES).ravel())
         self._count(found)
         values = signed(found.error, found.rate).reshape(len(self.values), 4, len(middle), -1)
@@ -225,7 +225,7 @@ class StepSearch:
         return found[0] if len(found) == 1 else error_difference(*found)
 
     def _peak(self, pieces: Floats, sought: tuple[int, ...]) -> tuple[int, float] | None:
-        """The piece and the place on it, from -1 to 1, where polynomials are greatest; None where at no such place.
+        """Return the piece, and the place on it from -1 to 1, of the maximum of polynomials; None if it is not in the interior.
 
         pieces    (n, nodes): their values at the nodes
         """
@@ -254,7 +254,7 @@ class StepSearch:
 
 
 def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
-    """Steps in equal parts, some of them at a time."""
+    """Yield steps divided in equal parts, one chunk at a time."""
     size = max(1, chunk // _PARTS)
     for first in range(0, len(steps.low), size):
         low, high = (each[first : first + size, None] for each in steps)
@@ -264,10 +264,10 @@ def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
 
 
 class ExtremeSearch:
-    """The extremes over a run of the input of what a composition gives, or of what it gives less what another does.
+    """Extremes of a composition, or of the difference of two compositions, over a run of the input.
 
-    values        (outputs, 4): the greatest errors, errors reversed, rates, rates reversed that were found
-    turned_back   pairs whose driver was seen turning against its mean
+    values              (outputs, 4): maxima found of errors, negated errors, rates, negated rates
+    reversing_drivers   pairs whose driver turned against its mean at some position
     """
 
     def __init__(self, composition: ErrorComposition, less: ErrorComposition | None = None) -> None:
@@ -279,13 +279,13 @@ class ExtremeSearch:
 
     @property
     def doubt(self) -> Floats:
-        """By how much a value of the run may be greater than those found, as far as is known; (outputs, 4)."""
+        """Bound on how far a value of the run may exceed the maxima found, (outputs, 4)."""
         beyond = self._dropped - self.values
         return np.where(beyond > 2 * self._whole.tolerance, beyond, 0.0)
 
     @cached_property
     def _groups(self) -> dict[tuple[int, ...], tuple[ErrorComposition, ...]]:
-        """Outputs that depend on the same pairs, by index, with the compositions of them alone."""
+        """Groups of outputs that depend on the same pairs, by index, with their compositions."""
         found: dict[frozenset[int], list[int]] = {}
         for at in range(len(self.values)):
             pairs = (source.pair for part in self._parts for source in _alone(part, (at,)).used)
@@ -293,7 +293,7 @@ class ExtremeSearch:
         return {tuple(each): tuple(_alone(part, each) for part in self._parts) for each in found.values()}
 
     def over(self, start: float, end: float) -> None:
-        """Search from one position of the input to a greater one."""
+        """Search from one position of the input to a later one."""
         if not len(self.values):
             return
         end = _period_end(self._parts, start, end)
@@ -309,7 +309,7 @@ class ExtremeSearch:
             self._take(group, search)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
-        """Search also near positions that promise much, (outputs, n), within a run."""
+        """Search near promising positions within a run, (outputs, n), in addition."""
         for group, parts in self._groups.items():
             search = StepSearch(parts)
             search.values = self.values[list(group)]
@@ -317,14 +317,14 @@ class ExtremeSearch:
             self._take(group, search)
 
     def _take(self, group: tuple[int, ...], search: StepSearch) -> None:
-        """Count what was found for some outputs."""
+        """Record the results for some outputs."""
         at = list(group)
         self.values[at] = self._whole.values[at] = np.maximum(self.values[at], search.values)
         self._dropped[at] = np.maximum(self._dropped[at], search.dropped)
         self.reversing_drivers |= search.reversing_drivers
 
     def _first(self, start: float, end: float) -> Iterator[InputSteps]:
-        """The whole run, in steps that are narrow if there are not too many."""
+        """Yield the whole run in steps, which are narrow unless there would be too many."""
         wanted = (end - start) / self._whole.step
         number = _MOST_STEPS if wanted > _MOST_STEPS else max(_FEWEST_STEPS, ceil(wanted))
         for first in range(0, number, self._whole.chunk):
@@ -335,13 +335,13 @@ class ExtremeSearch:
 
 
 def _alone(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
-    """A composition of some of its outputs only."""
+    """Return a composition restricted to some of its outputs."""
     seen = tuple(composition.outputs[at] for at in outputs)
     offsets = tuple(composition.offsets[at] for at in outputs) if composition.offsets else ()
     return ErrorComposition(composition.spread, composition.sources, seen, offsets)
 
 
 def _period_end(parts: tuple[ErrorComposition, ...], start: float, end: float) -> float:
-    """The end of a run, or of its first period."""
+    """Return the end of a run, or of its first period if that is earlier."""
     period = common_period([source for part in parts for source in part.used])
     return end if period is None or period >= end - start else start + float(period)

@@ -1,8 +1,7 @@
-"""From a solved train to its motion: which pairs ripple, who drives, where they start, and how their errors spread.
+"""Motion of a solved train: pairs with variable errors, driving sides, starting positions, and error propagation.
 
-At turn 0 every tooth and pin is where its phase says, and every pointer is set: section 3 of docs/motion.md. The angles
-of drivers are counted from turn 0, so that the errors of the pairs before a pair do not move the tooth with which it
-starts.
+At turn 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The angles of
+drivers are counted from turn 0, so that the errors of earlier pairs do not move the tooth with which a pair starts.
 """
 
 from __future__ import annotations
@@ -36,13 +35,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PointerCompositions:
-    """The compositions of some outputs of a train, from the errors of its pairs."""
+    """Compositions of some outputs of a train, from the errors of its pairs."""
 
     errors: PairErrors
     outputs: tuple[SeenLink, ...]
 
     def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """The composition while the input turns that way; `besides` as of `PairErrors.sources`."""
+        """Return the composition for one direction of the input. `besides` is that of `PairErrors.sources`."""
         backlash, (teeth, pins) = self.errors.backlash(way), self._start
         found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
         sources = tuple(
@@ -59,7 +58,9 @@ class PointerCompositions:
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """What teeth, and what pins add to the angle of each link at turn 0 (rad): linear, as all drivers are known."""
+        """Angles added to each link at turn 0 by teeth, and by pins [rad]. They are linear, because all drivers are
+        known.
+        """
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
         for each in self.errors.sources(1):
@@ -69,23 +70,23 @@ class PointerCompositions:
 
     @property
     def setting(self) -> Floats:
-        """By how much each link is turned on its wheels (rad), so that its teeth do not displace it at turn 0."""
+        """Angle by which each link is turned on its wheels so that its teeth do not displace it at turn 0 [rad]."""
         return -self._start[0]
 
 
 @dataclass(frozen=True)
 class TransmissionErrorCurve(Result):
-    """The transmission error of one output, position by position.
+    """Transmission error of one output, position by position.
 
     See Also
     --------
-    Motion.ripples : what gives these.
+    Motion.ripples : Method that returns these.
     """
 
     KEYS = (Key("", "tally"),)
 
     name: str
-    """The output."""
+    """Name of the output."""
     ratio: Fraction
     """Exact mean speed over the input's."""
     error: Floats
@@ -107,46 +108,47 @@ class TransmissionErrorCurve(Result):
 
     @property
     def peak_to_peak(self) -> float:
-        """Greatest less least error (rad)."""
+        """Peak-to-peak error [rad]."""
         return self.tally.peak_to_peak
 
     @property
     def rms(self) -> float:
-        """Root mean square of the error about its mean (rad)."""
+        """Root mean square of the error about its mean [rad]."""
         return self.tally.rms
 
 
 class Motion:
-    """A train's motion with real teeth and pins, as a function of the turns of its input.
+    """Motion of a train with real teeth and pins, as a function of the turns of its input.
 
-    Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At
-    turn 0 every tooth and pin is where its `phase` says, and every link where ideal teeth would have it (section 3
-    there).
+    Transmission functions are composed along the order of solution of the train: equations (2) and (3) of docs/motion.md. At
+    turn 0 every tooth and pin has its declared `phase`, and every link the position that ideal teeth would give it (section
+    3 there).
 
     Parameters
     ----------
     train : MotionProblem
-        Rows, mean speeds, laws of pairs, drivers: `GearTrain.motion` gathers them.
+        Equations, mean speeds, transmission functions and drivers, as collected by `GearTrain.motion`.
     outputs : mapping of str to tuple of str
-        Name -> the link, and the link it is seen from.
+        Link and reference link of each output, by name.
     tolerance : float, optional
-        Laws are read from tables of this accuracy [pitches, between 0 and 1]; by default the laws themselves are asked.
+        Accuracy of tables that replace the transmission functions [pitches, between 0 and 1]. By default they are evaluated
+        directly.
     fast : bool, optional
-        Whether compiled kernels follow the motion, the same to 1e-12; by default where numba is installed and there are
-        so many positions that it pays to load it.
+        Use compiled kernels, which agree to 1e-12. By default they are used if numba is installed and there are enough
+        positions to repay loading it.
 
     Raises
     ------
     MissingExtraError
-        If kernels are asked for and numba is not installed: when positions are first asked for.
+        If kernels are requested and numba is not installed; raised when positions are first requested.
     QuestionError
-        If the tolerance is no part of a pitch.
+        If the tolerance is not between 0 and 1.
     GearTrainError
-        If a redundant loop has teeth that cannot turn together, or the train has no solved order.
+        If the real teeth of a redundant loop cannot turn together, or the train has no order of solution.
 
     Examples
     --------
-    The four pairs of triangular teeth before the Moon stand as at the start after 95 turns of the crank:
+    The four pairs of triangular teeth before the Moon repeat their positions after 95 turns of the crank:
 
     >>> import geartrain
     >>> motion = geartrain.load("moon-triangular").motion(outputs=["moon"])
@@ -177,16 +179,21 @@ class Motion:
 
     @property
     def spread(self) -> ErrorPropagation:
-        """The solved order of the train, as far as its outputs depend on it."""
+        """Error propagation of the train, as far as its outputs depend on it."""
         return self._errors.spread
 
     def path(self, pair: str) -> ErrorPath:
-        """Where the sides of a pair or coupling stand, which says how its errors spread.
+        """Return the links of a pair or coupling, which determine how its errors propagate.
 
         Parameters
         ----------
         pair : str
-            Its name; one that closes a loop which others close has none: `QuestionError`.
+            Name of the pair.
+
+        Raises
+        ------
+        QuestionError
+            If the pair only closes a loop of other pairs, which has no unique path.
         """
         if pair in self.spread.pairs:
             return self.spread.joints[self.spread.pairs.index(pair)]
@@ -196,29 +203,29 @@ class Motion:
 
     @cached_property
     def ahead(self) -> ErrorComposition:
-        """The composition while the input turns as declared."""
+        """Composition while the input turns as declared."""
         return self._compositions.composed(1)
 
     def with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """The composition while the input turns as declared, some pairs that keep their ratio among its sources.
+        """Return the composition while the input turns as declared, with more pairs among its sources.
 
-        So that laws which do not keep it can be put in their place.
+        Pairs of constant ratio can thus be given other transmission functions.
 
         Parameters
         ----------
         pairs : collection of str
-            Names of pairs; others and those that ripple anyway change nothing.
+            Names of pairs to include; pairs with variable errors are included anyway.
         """
         return self._compositions.composed(1, pairs)
 
     @cached_property
     def hung(self) -> ErrorComposition:
-        """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
+        """Composition without set pointers: every link at the position given by its transmission functions."""
         return replace(self.ahead, offsets=())
 
     @cached_property
     def back(self) -> ErrorComposition:
-        """The composition while the input turns the other way: the other flanks drive."""
+        """Composition while the input turns the other way, with the other flanks driving."""
         return self._compositions.composed(-1)
 
     @cached_property
@@ -234,7 +241,7 @@ class Motion:
 
     @cached_property
     def setting(self) -> Mapping[str, float]:
-        """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
+        """Angle by which each output's pointer is turned on its wheels so that its teeth do not displace it [rad]."""
         found = self._compositions.setting
         return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
@@ -251,17 +258,17 @@ class Motion:
             )
 
     def at_random(self, random: Generator) -> Motion:
-        """The same train with a random phase for every pair with real teeth that declares none.
+        """Return the train with a random phase for every pair with real teeth that declares none.
 
         Parameters
         ----------
         random : numpy.random.Generator
-            Phases are drawn from it [pitches, 0 to 1].
+            Source of the phases [pitches, 0 to 1].
 
         Returns
         -------
         Motion
-            Of the same outputs and tolerance.
+            Motion with the same outputs and tolerance.
         """
         declared = self.train.phases
         # the first pair of a planet places its teeth in the second
@@ -273,43 +280,43 @@ class Motion:
 
     @cached_property
     def period(self) -> Fraction | None:
-        """Turns of the input after which every rippling pair stands as at the start; None where nothing ripples."""
+        """Turns of the input after which every pair repeats its position; None if every error is constant."""
         return common_period(self.ahead.used)
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Radians of each output per radian of error of the driven side of each pair, real teeth or not."""
+        """Sensitivity of each output to the error of the driven side of each pair, real teeth or not [rad per rad]."""
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
             found[name] = dict(zip(self.spread.pairs, self.spread.sensitivity(*seen).tolist(), strict=True))
         return found
 
     def tallies(self) -> list[RunningStatistics]:
-        """An empty tally for each output."""
+        """Return empty statistics for each output."""
         return [RunningStatistics(name, self.train.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()]
 
     @property
     def starts(self) -> list[float]:
-        """Starting angle of each output (rad), in the sense of the input as its motion is."""
+        """Starting angle of each output [rad], in the sense of the input's motion."""
         angles = self.train.way * np.array([self.train.angles.get(link, 0.0) for link in self.spread.links])
         return [seen.difference(angles) for seen in self._seen]
 
     def passages(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
-        """The run in stretches that fit in memory.
+        """Yield the run in stretches that fit in memory.
 
         Parameters
         ----------
         turns : float
-            Turns of the input from 0; negative turns go the other way, on the other flanks.
+            Turns of the input from 0. Negative turns are in the other direction, with the other flanks driving.
         samples : int
-            Positions, 2 or more, both ends included.
+            Number of positions including both ends, 2 or more.
         first : int
-            The position to begin with.
+            Index of the first position.
 
         Yields
         ------
         ErrorSamples
-            One stretch after the other.
+            Errors of consecutive stretches.
         """
         composition = self.sampler(turns, samples)
         chunk = composition.chunk
@@ -319,19 +326,19 @@ class Motion:
             yield composition.at(turns * (at / (samples - 1)))
 
     def sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """What is asked for errors at some positions.
+        """Return the object that computes errors for a run.
 
         Parameters
         ----------
         turns : float
-            Turns of the input; only their sign counts.
+            Turns of the input; only their sign matters.
         samples : int
-            How many positions there will be.
+            Number of positions of the run.
 
         Returns
         -------
         ErrorSampler
-            The composition, or its compiled kernel.
+            Composition, or its compiled kernel.
         """
         composition = self.ahead if turns >= 0 else self.back
         if not pays(composition, self.fast, samples):
@@ -347,7 +354,7 @@ class Motion:
         return compiled_composition(self.back)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Errors and rates of the outputs, turning as declared.
+        """Return errors and rates of the outputs while the input turns as declared.
 
         Parameters
         ----------
@@ -357,7 +364,7 @@ class Motion:
         Returns
         -------
         ErrorSamples
-            Errors [rad] and rates at them.
+            Errors [rad] and rates at these turns.
         """
         turns = np.asarray(turns, dtype=float)
         composition = self.sampler(1, len(turns))
@@ -367,19 +374,19 @@ class Motion:
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
-        """Where some pair that an output depends on is at a corner of its law: between them all errors are smooth.
+        """Return the positions at which a pair that an output depends on has a kink. All errors are smooth between them.
 
-        A speed may jump there. To take its values on either side, ask a little before and a little after.
+        A speed may jump at a kink. For its one-sided values, evaluate a little before and a little after.
 
         Parameters
         ----------
         start, end : float
-            Turns of the input; where the end is less than the start it turns back, on the other flanks.
+            Turns of the input. If the end is less than the start it turns back, with the other flanks driving.
 
         Returns
         -------
         KinkPositions
-            Turns from the lesser to the greater of the two, both included, in ascending order, with the pair at each.
+            Turns in ascending order between the two, ends included, with the pair at each.
 
         Raises
         ------
@@ -388,7 +395,7 @@ class Motion:
 
         Examples
         --------
-        A pair of triangular teeth has a corner a pitch, and the driver of the first makes 45 in one turn of the crank:
+        A pair of triangular teeth has one kink per pitch, and the driver of the first passes 45 in one turn of the crank:
 
         >>> import geartrain
         >>> kinks = geartrain.load("moon-triangular").motion(outputs=["moon"]).kink_positions(0, 1)
@@ -401,21 +408,21 @@ class Motion:
     def ripples(
         self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
     ) -> tuple[Floats, dict[str, TransmissionErrorCurve]]:
-        """The error of every output at equal steps of the input.
+        """Return the transmission error of every output at equal steps of the input.
 
         Parameters
         ----------
         turns, samples : float, int
-            As in `passages`.
+            Turns and number of positions, as in `passages`.
         on_done : callable
-            Called with the number of positions of each stretch that is done.
+            Callback, called with the number of positions of each stretch that is done.
 
         Returns
         -------
         angle : array of float, (samples,)
             Angle of the input [rad].
         curves : dict of str to TransmissionErrorCurve
-            By output.
+            Curves by output.
         """
         error = np.empty((len(self.outputs), samples))
         rate = np.empty_like(error)
@@ -434,28 +441,28 @@ class Motion:
         return angle, found
 
     def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
-        """Angles, errors and speeds over turns of the input, as a figure that notebooks show.
+        """Return a figure of angles, errors and speeds over turns of the input, for notebooks.
 
         Parameters
         ----------
         *outputs : str
-            Names of those to draw; all where none is given.
+            Names of the outputs to draw, by default all.
         turns : float
-            Of the input, from the position where ideal teeth stand as declared [turn].
+            Turns of the input, from the position where ideal teeth are as declared.
         samples : int
-            Positions, 2 or more, both ends included.
+            Number of positions including both ends, 2 or more.
 
         Returns
         -------
         matplotlib.figure.Figure
-            As `geartrain.drawing.outputs_figure` draws it.
+            Figure drawn by `geartrain.drawing.outputs_figure`.
 
         Raises
         ------
         MissingExtraError
-            Without matplotlib, which the extra `plot` brings.
+            If matplotlib is not installed (extra `plot`).
         QuestionError
-            For an output that is not followed.
+            If an output is not part of this motion.
 
         Examples
         --------

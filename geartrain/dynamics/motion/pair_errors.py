@@ -1,4 +1,4 @@
-"""The errors of each pair of a train that moves: who drives, where its teeth stand, and how its error spreads.
+"""Errors of each pair of a moving train: driving side, phase of the teeth, and propagation of the errors.
 
 Sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the phase at which its teeth start.
 """
@@ -33,22 +33,22 @@ _HALVINGS = 54  # of four pitches: the driver's start is found from its driven w
 
 @dataclass(frozen=True)
 class PairErrors:
-    """The pairs of a train with their laws, as paths of error."""
+    """Pairs of a train with their transmission functions, as sources of error."""
 
     train: MotionProblem
     tolerance: float | None
-    """Laws are read from tables of this accuracy (in pitches); None asks the laws themselves."""
+    """Accuracy of tables that replace the transmission functions [pitches]; None evaluates them directly."""
     links: Collection[str]
-    """Those whose errors are wanted: the teeth of pairs that they do not depend on are not made."""
+    """Links whose errors are wanted. The teeth of pairs that do not affect them are not built."""
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """The column of each link."""
+        """Column of each link."""
         return {link: at for at, link in enumerate(self.train.system.links)}
 
     @cached_property
     def spread(self) -> ErrorPropagation:
-        """The solved order of the train before the wanted links."""
+        """Error propagation of the train to the wanted links."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
         ends = {name: [self.index[link] for link in (each.i, each.j, each.carrier)] for name, each in circuits.items()}
@@ -75,23 +75,24 @@ class PairErrors:
         return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
 
     def driven_side(self, circuit: Circuit) -> int:
-        """0 where the circuit's first link is driven, 1 where its second is.
+        """Return 0 if the circuit's first link is driven, 1 if its second is.
 
-        A pin's law gives the angle of its slot, whichever of the two drives: there is no play between them.
+        The transmission function of a pin gives the angle of its slot, whichever of the two drives, because they have no
+        backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
     @cached_property
     def _meshes(self) -> list[GearMesh]:
-        """The pairs with real teeth that the wanted links depend on."""
+        """Pairs with real teeth that the wanted links depend on."""
         reached = self.spread.reached
         names = [name for at, name in enumerate(self.spread.pairs) if at in reached and name in self.train.meshes]
         return [self.train.meshes[name] for name in names]
 
     def backlash(self, way: int) -> Floats:
-        """What the play of teeth that keep their ratio adds to the angle of each link (rad): the same everywhere.
+        """Return the constant angle that the backlash of teeth with constant ratio adds to each link [rad].
 
-        Nothing while the input turns as declared.
+        It is 0 while the input turns as declared.
         """
         transmissions = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes if mesh.rigid}
         ahead = {name: transmission.error_moments()[0] for name, transmission in transmissions.items()}
@@ -100,15 +101,15 @@ class PairErrors:
         return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
 
     def sense(self, circuit: Circuit) -> int:
-        """1, or -1 where the driven wheel turns backwards on average, seen from its carrier."""
+        """Return -1 if the driven wheel turns backwards on average relative to its carrier, else 1."""
         driver = (circuit.i, circuit.j)[1 - self.driven_side(circuit)]
         forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
         return forward if circuit.a * circuit.b < 0 else -forward
 
     def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
-        """The pairs whose error changes as they turn, and pins, with their laws while the input turns that way.
+        """Yield the pairs with variable error, and the pins, with their transmission functions for one direction of the input.
 
-        besides   pairs that keep their ratio and are wanted as well
+        besides   pairs of constant ratio to include as well
         """
         meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
         transmissions: dict[str, TransmissionFunction] = {mesh.name: mesh.transmission for mesh in meshes}
@@ -157,11 +158,11 @@ class PairErrors:
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
-        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
+        """Return the driver's forward angle [rad] that puts a tooth of the first wheel at the pair's phase.
 
-        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards. A
-        planet between sun and ring has no phase of its own in its second pair: there its teeth are where the first puts
-        them, half a pitch off where their number is odd and the contacts lie on opposite sides.
+        The phase of a pin is that of the pin itself. If the first wheel is driven, its transmission function is inverted. A
+        planet between sun and ring has no independent phase in its second pair. There the first pair places its teeth, half a
+        pitch off if their number is odd and the contacts are on opposite sides.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:

@@ -117,8 +117,7 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return, by pair, 1 if the balance of its first link alone determines its torque, -1 if that of its second does.
-    """
+    """Return, by pair, 1 if the balance of its first link alone determines its torque, or -1 for its second link."""
     found: dict[str, int] = {}
     for block in balance.parts:
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):

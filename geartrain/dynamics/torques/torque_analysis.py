@@ -307,7 +307,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """Return the loads and the links of unknown torque, or a verdict if there are no loads or no possible unknowns."""
+    """Return the loads and the links of unknown torque, or a verdict if nothing acts or no torque can be requested."""
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"

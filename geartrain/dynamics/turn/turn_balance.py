@@ -497,7 +497,7 @@ class TurnBalance:
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
-        """Choose, at each position, the solution with minimum power input (`way` 1) or maximum power input (-1)."""
+        """Pick, at each position, the solution with minimum power input (`way` 1) or maximum power input (-1)."""
         if len(layers) == 1:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]

@@ -48,8 +48,8 @@ class PinMesh:
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
     """Return every gear pair with real teeth, by name.
 
-    The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built when the pair
-    is first read, which raises `GearTrainError` if they cannot be built.
+    The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built when the
+    pair is first read, which raises `GearTrainError` if they cannot be built.
 
     shaft_angle   function of a pair, called only where the teeth need the angle
     """

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 def radians_per_second(train: Train, case: StateCase) -> float | None:
     """Return the train's unit of speed in rad/s, or None if its speeds are plain numbers.
 
-    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs have
-    units.
+    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
+    have units.
     """
     driving_speed = next((speed for speed in case.inputs.values() if speed), None)
     if case.rate is not None and case.rate.unit is not None and driving_speed is not None:
@@ -59,13 +59,13 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
     unit, radius = radians_per_second(setting.train, setting.case), mesh.pitch_radius
     missing = []
     if unit is None:
-        missing.append(("how fast the train turns", "`rate`, such as `rate: 1 turn/s`"))
+        missing.append(("the speed of the train", "`rate`, such as `rate: 1 turn/s`"))
     if radius is None:
-        missing.append(("how large its wheels are", "the `module` of both wheels with a unit, such as `module: 1 mm`"))
+        missing.append(("the size of its wheels", "the `module` of both wheels with a unit, such as `module: 1 mm`"))
     if missing:
-        what = f"{mesh.label}: its friction depends on speed, and none is known"
-        why = f"nothing says {' or '.join(words for words, _ in missing)}"
-        fix = f"give {', and '.join(keys for _, keys in missing)}; or friction as a number"
+        what = f"{mesh.label}: friction depends on the pitch-line speed, which is unknown"
+        why = f"the declaration does not give {' or '.join(words for words, _ in missing)}"
+        fix = f"give {', and '.join(keys for _, keys in missing)}; or `friction` as a number"
         return PairSpeed(None, Problem(what, why, fix, mesh.place))
     assert unit is not None
     assert radius is not None

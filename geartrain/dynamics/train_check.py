@@ -37,5 +37,5 @@ def _outlines(train: TrainMechanics) -> Mapping[str, PairOutline]:
 
     try:
         return find_outlines(train.teeth)
-    except GearTrainError:  # teeth that cannot be made are reported as such
+    except GearTrainError:  # teeth that cannot be built are reported by another rule
         return {}

@@ -68,7 +68,7 @@ class TrainMechanics:
     @property
     def unfolded(self) -> TrainMechanics:
         """Train with each of its equal planets declared, so that they share loads; this train if it has no copies."""
-        # not kept where it is the train itself: that would hold itself
+        # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self
 
     @cached_property
@@ -90,11 +90,11 @@ class TrainMechanics:
     def undriven(self) -> Mapping[str, GearMesh]:
         """Gear pairs with real teeth by name, regardless of the driving side. Each is built when it is first read."""
         if not any(map(self.declaration.form_of, self.declaration.gears)):
-            return {}  # a train without tooth forms imports none
+            return {}  # avoids importing tooth forms for a train without any
         from geartrain.dynamics.gear_meshes import find_meshes
         from geartrain.kinematics.circuits.fundamental import shaft_angle
 
-        # the mapping must not hold the train: the two would wait for the garbage collector
+        # the mapping must not refer to the train, because a reference cycle delays the release of memory
         train, tree, circuits = self.declaration, self.tree, {circuit.id: circuit for circuit in self.circuits}
         return find_meshes(train, lambda gear: shaft_angle(train, tree, circuits[gear.name]))
 

@@ -99,7 +99,7 @@ def find_train_teeth(
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """Return, by plane wheel, why no teeth suit all of its pairs with a declared form."""
+    """Return problems by wheel: why no teeth suit all pairs with a declared form, for plane wheels."""
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
@@ -172,7 +172,7 @@ class _Toothing:
         flat = [(gear.name, self._gear(mate), self.standard[mate]) for gear, mate in mates if mate in self.standard]
         for name_of_pair, mate, its in flat or [("", lone_mate(own), teeth)]:
             form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
-            pair = conjugate_pair_of(form, wheels)  # refuses wheels that no teeth fit, before sizes are asked
+            pair = conjugate_pair_of(form, wheels)  # raises an error for impossible wheels, before sizes are computed
             required = ToothRequirement(pair, at, CHORD, max(form.bottom_clearance(wheels, at), 0.0))
             yield PairRequirement(name_of_pair, STANDARD, teeth.words, required)
 
@@ -192,7 +192,7 @@ class _Toothing:
     # ------------------------------------------------------------------------------------------------ declared forms
 
     def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
-        """Yield the requirements of declared pairs in one plane. Crown wheels count only if there is no spur mate."""
+        """Yield the requirements of declared pairs in one plane. Crown wheels count only without a spur mate."""
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
         for mesh in flat or meshes:
@@ -227,9 +227,10 @@ class _Toothing:
     def _requested(self, name: str) -> list[PairRequirement]:
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
-            kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm's wheel"
-            why = "its teeth are not straight in a plane"
-            raise GearTrainError(Problem(f"a {kind} has no flat outline", why, "take the solid for a likeness"))
+            kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
+            why = "its teeth are not straight and plane"
+            fix = "export a solid, which approximates it"
+            raise GearTrainError(Problem(f"a {kind} has no plane outline", why, fix))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
             check_size(self._wheel(each).count or 1)
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
@@ -254,13 +255,13 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """Return, by wheel with declared teeth, why its pairs require different teeth."""
+        """Return problems by wheel with declared teeth: why its pairs require different teeth."""
         found = {}
         for name in self.pairs:
             try:
                 problem = disagreement(self._requested(name)) if name in self.shaped else None
             except GearTrainError:
-                continue  # faulty teeth, or teeth in no plane
+                continue  # faulty teeth, or teeth that are not plane
             if problem is not None:
                 found[name] = problem
         return found
@@ -328,7 +329,7 @@ class _Toothing:
 def _half_declared(name: str, gear: GearPair, mate: str, other: str) -> GearTrainError:
     return GearTrainError(
         Problem(
-            f"nothing says what teeth run with '{mate}'",
+            f"the teeth that mesh with '{mate}' are not declared",
             f"pair '{gear.name}' declares no form, and '{mate}' has the teeth of pair '{other}'",
             f"declare a `tooth_form` for pair '{gear.name}' too",
         )

@@ -10,10 +10,10 @@ from geartrain.teeth.outlines.tooth_outline import Vertex, repeated
 from geartrain.teeth.outlines.wheel_outline import lantern, pin_seats
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
-CHORD = 1e-3  # modules: how far a chord may leave a flank or a round
-_RIM = 2.0  # modules round the roots of a ring
-_PIN = 48  # points round a pin
-_SAME = 1e-9  # rad
+CHORD = 1e-3  # modules: chordal tolerance of flanks and fillets
+_RIM = 2.0  # modules: rim thickness of a ring outside the roots
+_PIN = 48  # points of the polygon of a pin
+_SAME = 1e-9  # rad: angles closer than this coincide
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +64,6 @@ class WheelTeeth:
             return tuple((hypot(x, y) / R, atan2(y, x)) for x, y in round_)
         points = Contour.of((*self.tooth[:-1], (*self.tooth[-1][:2], 0.0))).flattened(CHORD).tolist()
         half = pi / self.z
-        # without the points on the borders of the pitch, which stand at both ends below
+        # points on the borders of the pitch are omitted, because both ends are added below
         inside = [(hypot(x, y) / R, atan2(y, x)) for x, y in points if abs(atan2(y, x)) < half - _SAME]
         return ((self.root / R, -half), *inside, (self.root / R, half))

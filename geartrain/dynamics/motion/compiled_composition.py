@@ -1,10 +1,10 @@
 """Composition evaluated by a compiled kernel: the same errors to 1e-12, about ten times as fast.
 
 This module has the arrays that the kernel reads, the kernel, and the composition that calls it. `ErrorComposition`
-evaluates equations (2) to (4) of docs/motion.md with arrays of all positions, one transmission function after the other.
-The kernel evaluates blocks of about two thousand positions, whose angles and errors stay in the processor's cache. A
-pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair. Short of dead
-centres, delta is a periodic function of S, which is tabulated like any transmission function.
+evaluates equations (2) to (4) of docs/motion.md with arrays of all positions, one transmission function after the
+other. The kernel evaluates blocks of about two thousand positions, whose angles and errors stay in the processor's
+cache. A pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair. Short
+of dead centres, delta is a periodic function of S, which is tabulated like any transmission function.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission_table import TransmissionTable, TransmissionTables
 
 
-BLOCK = 2048  # positions: so many that what is done once a block does not count, and their angles stay in a cache
-_PACE = 2e6  # links a second that numpy goes through, in most trains
+BLOCK = 2048  # positions: enough to amortise the overhead of a block, few enough for the processor's cache
+_PACE = 2e6  # link positions per second evaluated by numpy in typical trains
 
 
 @dataclass(frozen=True)
@@ -313,7 +313,7 @@ def _phase(
     for at in range(len(turns)):
         turned = turns[at]
         product = turned * factor
-        # Dekker's product of two floats, as `rounding_bounds.split` and `InputPhase.cycles` have it
+        # Dekker's product of two floats, as in `rounding_bounds.split` and `InputPhase.cycles`
         wide = SPLITTER * turned
         left = wide - (wide - turned)
         right = turned - left
@@ -387,9 +387,9 @@ def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: F
 class CompiledComposition:
     """Composition with all transmission functions in tables and without coupled pairs.
 
-    Coupled pairs are evaluated with numpy. A kernel for their Newton's method was 4 to 7 times faster in the composition
-    itself (`planetary-24-18-60-triangular`, `pennestri-2002-teeth`), where other trains gain 9 to 27 times, but no faster in
-    complete runs. In plain Python it was 13 to 20 times slower than numpy.
+    Coupled pairs are evaluated with numpy. A kernel for their Newton's method was 4 to 7 times faster in the
+    composition itself (`planetary-24-18-60-triangular`, `pennestri-2002-teeth`), where other trains gain 9 to 27 times,
+    but no faster in complete runs. In plain Python it was 13 to 20 times slower than numpy.
     """
 
     composition: ErrorComposition

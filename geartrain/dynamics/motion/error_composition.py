@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_CHUNK = 32768  # most positions worked on at once
-_NUMBERS = 1 << 23  # most angles kept at once: longer trains take shorter chunks
-PLAIN = 1  # period up to which a plain product tells where in it the driver stands, to rounding
+_CHUNK = 32768  # maximum number of positions evaluated at once
+_NUMBERS = 1 << 23  # maximum number of stored angles: longer trains use smaller chunks
+PLAIN = 1  # periods up to which a plain product gives the phase of the driver to rounding
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
     cycles = [source.cycles for source in sources if source.cycles]
     if not cycles:
         return None
-    # the least common multiple of the periods 1 / cycles, which are in lowest terms
+    # least common multiple of the periods 1 / cycles, which are in lowest terms
     return Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
 
 
@@ -233,7 +233,7 @@ class ErrorComposition:
     @cached_property
     def chunk(self) -> int:
         """Positions evaluated at once. It bounds the memory for trains of any length."""
-        # errors and rates of the links, and of coupled pairs a Jacobian at each position
+        # stored numbers: errors and rates of the links, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
         return max(64, min(_CHUNK, _NUMBERS // (2 * (self.rows + widest) + 1)))
 
@@ -262,7 +262,7 @@ class ErrorComposition:
         rate[own] = step.from_known @ rate[known] if known else 0.0
         if not step.sources:
             return
-        # angles of the drivers and their speeds, without what the step's own pairs add
+        # driver angles and speeds, without the errors of the step's own pairs
         where = [self._driver_angle(source, angle, error, rate) for source in step.sources]
         sources = [self.sources[source] for source in step.sources]
         if step.coupled:
@@ -329,23 +329,24 @@ class InputPhase:
     def cycles(self, ratio: Fraction) -> Floats:
         """Return turns times an exact ratio with Dekker's product, reduced modulo 1 where there are many periods.
 
-        The result is accurate to the rounding of one period at any length: after 1e12 turns the teeth are still in place.
+        The result is accurate to the rounding of one period at any length: after 1e12 turns the teeth are still in
+        place.
         """
         factor = float(ratio)
         product: Floats = self.turns * factor
         if factor * self.most <= PLAIN:
             return product
-        # Dekker's product: what rounding took from it is found exactly
+        # Dekker's product: the rounding error of the product is computed exactly
         high, low = split(factor)
         left, right = self._halves
-        # largest first: in this order no sum rounds
+        # in this order, largest term first, no sum is rounded
         lost = left * high - product
         lost += left * low
         lost += right * high
         lost += right * low
         if rest := float(ratio - Fraction(factor)):
             lost += self.turns * rest
-        # exact; before the remainder is added, which many periods would swallow
+        # exact; must precede the addition of the remainder, which a large product would round away
         product -= np.floor(product)
         product += lost
         return product

@@ -1,13 +1,13 @@
 """Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved block by block (its section 2).
 
-a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that of the pair's driven side. This
-is the Willis system with its mean speeds subtracted. Blocks (matching and strongly connected components) are solved once,
-exactly. After that every link is a sum over a few earlier links.
+a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that of the pair's driven side.
+This is the Willis system with its mean speeds subtracted. Blocks (matching and strongly connected components) are
+solved once, exactly. After that every link is a sum over a few earlier links.
 
 Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
 docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Transmission functions have
-kinks, so a step that does not reduce the residual is halved. If that fails, a single pair is solved by bisection, because
-no Newton step leaves a dwell, in which the driven wheel rests while its driver turns.
+kinks, so a step that does not reduce the residual is halved. If that fails, a single pair is solved by bisection,
+because no Newton step leaves a dwell, in which the driven wheel rests while its driver turns.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ if TYPE_CHECKING:
     Flags = NDArray[np.bool_]
     from geartrain.kinematics.willis_system import WillisSystem
 
-_MOST_STEPS = 120  # halved steps count too
-_CONVERGED = 2e-15  # rad, over the scale of the angles added
-_FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
-_HALVINGS = 64  # of four pitches, or of four turns of cut wheels: to rounding
+_MOST_STEPS = 120  # maximum iterations, including halved steps
+_CONVERGED = 2e-15  # rad: tolerance of the residual, relative to the scale of the angles
+_FORGIVEN = 1e-9  # rad: accepted residual if no step reduces it further, as at a kink
+_HALVINGS = 64  # bisections of four pitches, or of four turns for cut wheels, to rounding
 
-_NO_FIT = "no angles of theirs fit all laws at once"
-_DEAD_CENTRE = "past a dead centre: one of them drives another faster than it is driven by it"
+_NO_FIT = "no angles satisfy all transmission functions simultaneously"
+_DEAD_CENTRE = "it is past a dead centre: an error moves its own driver by more than the error itself"
 
 
 @dataclass(frozen=True)
@@ -75,12 +75,12 @@ def solve_coupled_errors(
 
     base      (pairs, n) rad; `turning` is the speed by pair over the input's
 
-    Raises `GearTrainError` if there is no unique solution: the train would jump or lock there.
+    Raises `GearTrainError` if the solution is not unique: the train would jump or lock there.
     """
     delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
     speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
-    # 1 for ideal teeth: not positive any more means past a dead centre
+    # the determinant is 1 for ideal teeth and changes sign at a dead centre
     if not (_determinant(jacobian) > 0).all():
         raise _refusal(pairs.names, _DEAD_CENTRE)
     rate = _solve_coupled(jacobian, slope * speed)
@@ -97,12 +97,12 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
     for _ in range(_MOST_STEPS):
         trial = now - length * step
-        # at first the step is 0 and the size infinite: the first trial is the start itself
+        # the initial step is 0 and the initial residual infinite, so the first trial is the starting point
         error, slope = pairs.transmissions_at(base[:, active] + pairs.gain @ trial, active)
         residual = trial - error
         found = np.max(np.abs(residual), axis=0)
         better = found < size
-        # where nothing lessens it any more the residual is rounding, or the last of a corner
+        # a residual that no step reduces is rounding, or due to a kink
         done = (better & (found <= tolerance)) | (~better & (length < 1e-9) & (size <= _FORGIVEN))
         length = np.where(better, 1.0, length / 2)
         now, size = np.where(better, trial, now), np.where(better, found, size)
@@ -125,8 +125,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
     """Solve for the error of a single pair by bisection: delta - error increases short of a dead centre.
 
-    A transmission function may jump past the solution, as for cut teeth that clash. The error is then at the jump, with slope
-    0. Where nothing touches, the error is infinite like that of the transmission function.
+    A transmission function may jump past the solution, as for cut teeth that clash. The error is then at the jump, with
+    slope 0. Where nothing touches, the error is infinite like that of the transmission function.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -158,7 +158,7 @@ def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
     if matrices.shape[1] == 1:
         return np.asarray(right / matrices[:, 0, 0])
     if matrices.shape[1] == 2:
-        # all positions in a few array operations, where LAPACK would be called once a position
+        # a few array operations over all positions, instead of a LAPACK call per position
         (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
         whole = a * d - b * c
         return np.stack([(right[0] * d - b * right[1]) / whole, (a * right[1] - c * right[0]) / whole])
@@ -175,11 +175,10 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
     """Return the error for pairs that cannot be solved, with the cause."""
     names = ", ".join(pairs)
     if len(pairs) == 1:
-        what = f"the driver of pair {names} is moved by what it drives, and cannot be followed"
-        return GearTrainError(Problem(what, why, "give it ideal teeth, or say who drives it with `driver`"))
-    return GearTrainError(
-        Problem(f"the pairs {names} depend on each other and cannot be followed", why, "give some of them ideal teeth")
-    )
+        what = f"the motion of pair {names}, which moves its own driver, has no unique solution"
+        return GearTrainError(Problem(what, why, "give it ideal teeth, or declare its driving wheel with `driver`"))
+    what = f"the motion of the coupled pairs {names} has no unique solution"
+    return GearTrainError(Problem(what, why, "give some of them ideal teeth"))
 
 
 class ErrorPath(NamedTuple):
@@ -239,7 +238,7 @@ class ErrorPropagation:
         weight[link] += 1.0
         weight[base] -= sense
         found = np.zeros(len(self.pairs))
-        with np.errstate(over="ignore", invalid="ignore"):  # judged at the end, once
+        with np.errstate(over="ignore", invalid="ignore"):  # overflow is checked once at the end
             for part in reversed(self.parts):
                 own = weight[list(part.links)]
                 if own.any():
@@ -247,8 +246,8 @@ class ErrorPropagation:
                     weight[list(part.known)] += own @ part.from_known
         if not np.isfinite(found).all():
             what = f"'{self.links[link]}' turns more than 1e308 times as far as a pair's error"
-            why = "motion is followed in float64, which holds 1e-308 to 1e308"
-            raise RangeError(Problem(what, why, "drive the train nearer to this output, or ask `solve`"))
+            why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
+            raise RangeError(Problem(what, why, "drive the train nearer to this output, or use `solve`"))
         return found
 
 
@@ -258,7 +257,7 @@ def find_error_propagation(
     """Return the order of solution of a square system for some links, or None if its rows do not determine them.
 
     ends     both sides and the carrier of each pair, by the label of its row; other rows have no error (inputs, locks)
-    path     function from label to `ErrorPath`, called for pairs that the wanted links depend on, and for others when read
+    path     function from label to `ErrorPath`, called for pairs that the wanted links depend on, else when read
     wanted   links by index
     """
     at = {link: number for number, link in enumerate(system.links)}
@@ -268,7 +267,7 @@ def find_error_propagation(
     own = [pair_of.get(row.label, -1) for row in system.equations]
     if len(rows) != len(at):
         return None
-    # the angle of a pair depends on its driver and its carrier even where the row does not hold them
+    # the angle of a pair depends on its driver and its carrier even if its row does not contain them
     also = [ends[pairs[pair]] if pair >= 0 else () for pair in own]
     blocks = find_blocks([tuple(row) for row in rows], also)
     if blocks is None:
@@ -324,6 +323,6 @@ def _matrix(forms: Sequence[LinearForm], first: int, count: int) -> Floats:
     found = np.zeros((len(forms), count))
     for at, form in enumerate(forms):
         for number in range(count):
-            # exact up to here, and rounded once
+            # exact up to here, rounded only once
             found[at, number] = float(form.get(-1 - first - number, 0))
     return found

@@ -25,25 +25,25 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
-_MOST_STEPS = 200_000  # of a run at first: those of a longer run are wider than a pitch
+_MOST_STEPS = 200_000  # maximum number of initial steps: those of a longer run are wider than a pitch
 _FEWEST_STEPS = 64
-_MOST_LEFT = 50_000  # narrow steps divided at once; of more those with the highest bounds
-_MOST_WIDE = 16_000  # wide ones, of all outputs: most of these would be divided for nothing
-_NUMBERS = 1 << 23  # most bounds kept at once
-_PARTS = 4  # of a step that is divided
-_FEW = 1024  # so few steps are cut at corners without being divided further
+_MOST_LEFT = 50_000  # maximum number of narrow steps kept, those with the largest bounds (beam search)
+_MOST_WIDE = 16_000  # maximum number of wide steps kept for all outputs: bounds of wide steps are rarely useful
+_NUMBERS = 1 << 23  # maximum number of stored bounds
+_PARTS = 4  # subdivisions of a step
+_FEW = 1024  # steps that are cut at kinks without further division
 _MINIMUM_DIVISIONS, _MOST_DIVISIONS = 2, 16
-_BATCH = 4096  # steps cut at corners at once
+_BATCH = 4096  # steps cut at kinks at once
 _BATCHES = 16
-_MOST_CORNERS = 200_000  # in a batch
-_SURE = 1e-9  # of the range of an output's errors or rates: so little more is not sought
-_ROUNDING = 1e-12  # rad: nor what may be rounding
-_NODES, _TO_SERIES = points(8)  # on a smooth piece
+_MOST_CORNERS = 200_000  # maximum number of kinks in a batch
+_SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
+_ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
+_NODES, _TO_SERIES = points(8)  # Chebyshev nodes on a smooth piece, and the matrix from values to coefficients
 _PLACES = np.linspace(-1, 1, 49)
 _TO_PLACES = chebyshev.chebvander(_PLACES, len(_NODES) - 1) @ _TO_SERIES
-_BESIDE = 1e-9  # of a step: so near to the end of a piece is a limit from one side
-_ULPS = 32  # of the turns: or so near, so that rounding does not lead beyond a corner
-_NO_PIECE = 4  # times as near: two corners so near are one
+_BESIDE = 1e-9  # of a step: distance from the end of a piece at which its one-sided limit is taken
+_ULPS = 32  # units in the last place of the turns: minimum distance, so that rounding does not pass a kink
+_NO_PIECE = 4  # times that distance: kinks closer than this are not separated
 
 
 def signed(error: Floats, rate: Floats) -> Floats:
@@ -130,13 +130,13 @@ class StepSearch:
         """Search some steps by branch and bound."""
         before = 0
         for division in range(_MOST_DIVISIONS):
-            # narrow steps are divided twice at least, and as long as that leaves fewer of them
+            # narrow steps are divided at least twice, and then as long as their number decreases
             enough = division >= _MINIMUM_DIVISIONS and (left.number <= _FEW or left.number > before)
             if not left.number or (left.width <= self.step and enough):
                 break
             before, left = left.number, self._searched(_divided(left.steps, self.chunk))
         for _ in range(_BATCHES):
-            # a step that is not narrow has too many corners to list
+            # a wide step has too many kinks to list
             size = min(_BATCH, int(_MOST_CORNERS / max(self._rate * left.width, 1.0)))
             if not left.number or not size:
                 break
@@ -168,7 +168,7 @@ class StepSearch:
             self._count(passage)
         errors = found.errors()
         above = np.stack([errors.high, -errors.low, found.rate.high, -found.rate.low], axis=1)
-        # where no teeth touch there is no error
+        # the error is undefined where no teeth touch
         return BoundedSteps(steps, np.where(np.isnan(above), -np.inf, above))
 
     def _worth_while(self, given: BoundedSteps) -> BoundedSteps:
@@ -184,7 +184,7 @@ class StepSearch:
 
     def _count(self, passage: ErrorSamples) -> None:
         for first, values in ((0, passage.error), (2, passage.rate)):
-            # NaN where no teeth touch
+            # ignores NaN, where no teeth touch
             extremes = np.fmax.reduce(values, axis=1), -np.fmin.reduce(values, axis=1)
             self.values[:, first : first + 2] = np.fmax(self.values[:, first : first + 2], np.stack(extremes, axis=1))
         self.reversing_drivers |= passage.reversing_drivers
@@ -225,11 +225,12 @@ class StepSearch:
         return found[0] if len(found) == 1 else error_difference(*found)
 
     def _peak(self, pieces: Floats, sought: tuple[int, ...]) -> tuple[int, float] | None:
-        """Return the piece, and the place on it from -1 to 1, of the maximum of polynomials; None if it is not in the interior.
+        """Return the piece, and the place on it from -1 to 1, of the maximum of polynomials; None if it is not in the
+        interior.
 
         pieces    (n, nodes): their values at the nodes
         """
-        # an eighth degree goes little beyond its nodes: pieces that stay far below are not looked at
+        # a polynomial of degree 8 hardly exceeds its values at the nodes, so pieces far below the maximum are skipped
         with np.errstate(invalid="ignore"):
             looked = np.flatnonzero(pieces.max(axis=1) + np.ptp(pieces, axis=1) > self.values[sought])
         if not len(looked):
@@ -244,7 +245,7 @@ class StepSearch:
             peaks = np.where(inner, two + (three - one) ** 2 / (8 * bend), places.max(axis=1))
         best = int(np.argmax(peaks))
         series = _TO_SERIES @ pieces[looked[best]]
-        # what the last terms of the series leave open
+        # the last coefficients of the series estimate the truncation error
         self.dropped[sought] = max(self.dropped[sought], peaks[best] + float(np.abs(series[-2:]).max()))
         if not inner[best]:
             return None

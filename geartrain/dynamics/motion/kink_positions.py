@@ -1,4 +1,5 @@
-"""Positions of the input at which a pair passes a kink of its transmission function. All errors are smooth between them.
+"""Positions of the input at which a pair passes a kink of its transmission function. All errors are smooth between
+them.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
 equation (3) of docs/motion.md, which includes the errors of earlier pairs. S_m(x) = kink + a whole number of periods is
@@ -27,14 +28,14 @@ if TYPE_CHECKING:
 MOST_KINKS = 20_000_000
 """Maximum number of kinks listed at once."""
 
-_STEPS = 4  # a period of the fastest law: so narrow a step is monotonic, or its driver turns slowly at an end
-_FEWEST = 16  # steps of a run
-_SLOW = 0.25  # of the mean speed: a driver so slow may turn back within the step
-_PARTS = 16  # of a step in which a driver may turn back
-_HALVINGS = 40  # of a step, to find where its driver turns
-_FINE = 1e-14  # of a step: what a corner's place is off by
-_SAME = 1e-9  # of a period: two corners so near are one found twice, from either side
-_NEAR = 1e-11  # of a period beyond a step, in which its corners are sought too: rounding must lose none at its end
+_STEPS = 4  # steps per period of the fastest pair: the driver is monotonic in a step, or slow at one of its ends
+_FEWEST = 16  # minimum number of steps in a run
+_SLOW = 0.25  # of the mean speed: a slower driver may reverse within the step
+_PARTS = 16  # subdivisions of a step in which a driver may reverse
+_HALVINGS = 40  # bisections of a step to locate a reversal
+_FINE = 1e-14  # of a step: tolerance of a kink's position
+_SAME = 1e-9  # of a period: closer kinks are the same kink found from both sides
+_NEAR = 1e-11  # of a period: overlap of neighbouring steps, so that rounding loses no kink at their ends
 
 
 class KinkPositions(NamedTuple):
@@ -79,7 +80,7 @@ class PairKinks:
         """Driver angles at which the transmission function has a kink [rad], within one period, each once."""
         period = self.source.transmission.period
         found = folded_kinks(self.source.transmission)
-        # one at 0 may be told again, by rounding, just before the period ends
+        # a kink at 0 may be listed again just before the end of the period, due to rounding
         apart = np.diff(found, append=found[:1] + period) > _NEAR * period
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
@@ -136,7 +137,7 @@ class PairKinks:
         minimum, most = np.minimum(0, travel) - _NEAR * period, np.maximum(0, travel) + _NEAR * period
         first = np.ceil((phase[:, None] + minimum[:, None] - self.kinks) / period)
         count = np.floor((phase[:, None] + most[:, None] - self.kinks) / period) - first + 1
-        # an angle that is not known, where no teeth touch, passes none
+        # the angle is undefined where no teeth touch; no kink is passed there
         count = np.where(np.isfinite(count), np.maximum(count, 0), 0).astype(np.intp)
         step, kink = (np.repeat(each, count.ravel()) for each in np.indices(count.shape).reshape(2, -1))
         nth = np.arange(len(step)) - np.repeat(np.cumsum(count) - count.ravel(), count.ravel())
@@ -212,9 +213,9 @@ class KinkSearch:
     def over(self, start: float, end: float) -> KinkPositions:
         """Return the kinks from one position of the input to a later one, both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
-            what = f"from {start:g} to {end:g} turns pairs pass some {expected:.2g} corners of their laws"
+            what = f"from {start:g} to {end:g} turns, pairs pass about {expected:.2g} kinks"
             why = f"at most {MOST_KINKS:g} are listed"
-            raise QuestionError(Problem(what, why, "ask for fewer turns at a time"))
+            raise QuestionError(Problem(what, why, "request fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]
         for steps in self.steps(start, end):
             for pair, parts in zip(self.pairs, found, strict=True):

@@ -1,7 +1,7 @@
 """Motion of a solved train: pairs with variable errors, driving sides, starting positions, and error propagation.
 
-At turn 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The angles of
-drivers are counted from turn 0, so that the errors of earlier pairs do not move the tooth with which a pair starts.
+At turn 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The angles
+of drivers are counted from turn 0, so that the errors of earlier pairs do not move the tooth with which a pair starts.
 """
 
 from __future__ import annotations
@@ -120,9 +120,9 @@ class TransmissionErrorCurve(Result):
 class Motion:
     """Motion of a train with real teeth and pins, as a function of the turns of its input.
 
-    Transmission functions are composed along the order of solution of the train: equations (2) and (3) of docs/motion.md. At
-    turn 0 every tooth and pin has its declared `phase`, and every link the position that ideal teeth would give it (section
-    3 there).
+    Transmission functions are composed along the order of solution of the train: equations (2) and (3) of
+    docs/motion.md. At turn 0 every tooth and pin has its declared `phase`, and every link the position that ideal teeth
+    would give it (section 3 there).
 
     Parameters
     ----------
@@ -131,8 +131,8 @@ class Motion:
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
     tolerance : float, optional
-        Accuracy of tables that replace the transmission functions [pitches, between 0 and 1]. By default they are evaluated
-        directly.
+        Accuracy of tables that replace the transmission functions [pitches, between 0 and 1]. By default they are
+        evaluated directly.
     fast : bool, optional
         Use compiled kernels, which agree to 1e-12. By default they are used if numba is installed and there are enough
         positions to repay loading it.
@@ -170,8 +170,8 @@ class Motion:
         self._errors = PairErrors(train, tolerance, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
         if tolerance is not None and not 0 < tolerance < 1:
-            why = "a table's accuracy is a part of a pitch"
-            fix = "give a part of a pitch such as 1e-9, or none"
+            why = "the accuracy of tables is a fraction of a pitch, between 0 and 1"
+            fix = "give a fraction such as 1e-9, or omit it"
             raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
         self._refuse_loops()
 
@@ -197,9 +197,12 @@ class Motion:
         """
         if pair in self.spread.pairs:
             return self.spread.joints[self.spread.pairs.index(pair)]
-        why = "other pairs say already how its wheels turn; which of them bears how much is a matter of play and errors"
-        fix = f"leave it out: --without {pair}; or declare one of equal planets, with `copies: 3`"
-        raise QuestionError(Problem(f"the motion in time of '{pair}' is not worked out", why, fix))
+        why = (
+            "other pairs already determine the motion of its wheels, and backlash and errors decide how they share the "
+            "load"
+        )
+        fix = f"leave it out with --without {pair}, or declare one of several equal planets, with `copies: 3`"
+        raise QuestionError(Problem(f"the dynamics of the redundant pair '{pair}' cannot be simulated", why, fix))
 
     @cached_property
     def ahead(self) -> ErrorComposition:
@@ -250,10 +253,9 @@ class Motion:
             path = " - ".join((*loop.links, loop.links[0]))
             raise GearTrainError(
                 Problem(
-                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that real teeth do not let turn",
-                    f"the loop holds in the mean, and the errors of {', '.join(real)} would have to cancel at "
-                    "every instant",
-                    f"leave out one of the loop's pairs: `--without {loop.pairs[-1]}` follows the rest",
+                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that locks with real teeth",
+                    f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
+                    f"leave out one of the loop's pairs, such as `--without {loop.pairs[-1]}`",
                 )
             )
 
@@ -271,7 +273,7 @@ class Motion:
             Motion with the same outputs and tolerance.
         """
         declared = self.train.phases
-        # the first pair of a planet places its teeth in the second
+        # the phase of a planet's second pair follows from its first pair
         free = [mesh.name for mesh in self.train.rippling if self.train.placed_by(mesh.name) is None]
         drawn = {name: float(random.random()) for name in free if name not in declared}
         return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
@@ -322,7 +324,7 @@ class Motion:
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
-            # divided first: the last position is `turns` to the last bit, wherever stretches begin
+            # division first: the last position is exactly `turns`, wherever stretches begin
             yield composition.at(turns * (at / (samples - 1)))
 
     def sampler(self, turns: float, samples: int) -> ErrorSampler:
@@ -374,7 +376,8 @@ class Motion:
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
-        """Return the positions at which a pair that an output depends on has a kink. All errors are smooth between them.
+        """Return the positions at which a pair that an output depends on has a kink. All errors are smooth between
+        them.
 
         A speed may jump at a kink. For its one-sided values, evaluate a little before and a little after.
 
@@ -393,9 +396,8 @@ class Motion:
         QuestionError
             If there are more than twenty million.
 
-        Examples
-        --------
-        A pair of triangular teeth has one kink per pitch, and the driver of the first passes 45 in one turn of the crank:
+        Examples -------- A pair of triangular teeth has one kink per pitch, and the driver of the first passes 45 in
+        one turn of the crank:
 
         >>> import geartrain
         >>> kinks = geartrain.load("moon-triangular").motion(outputs=["moon"]).kink_positions(0, 1)

@@ -1,9 +1,9 @@
 """Run of a motion over some turns of the input, sampled at some positions, with its statistics and spectrum.
 
 The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per turn of
-the input, an exact rational number, so its harmonics have the orders k cycles. To first order the amplitude of a line is
-the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is measured as well, by a
-Fourier sum with a Hann window. What these lines do not explain comes from modulation of pairs by each other.
+the input, an exact rational number, so its harmonics have the orders k cycles. To first order the amplitude of a line
+is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is measured as well, by
+a Fourier sum with a Hann window. What these lines do not explain comes from modulation of pairs by each other.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ if TYPE_CHECKING:
 
     OnDone = Callable[[int], None]
 
-_SAMPLES = 1 << 14  # of one period of a law
-_HARMONICS = 24  # of each pair that are looked at
-_FAINT = 1e-6  # of the strongest line
+_SAMPLES = 1 << 14  # samples of one period of a transmission function
+_HARMONICS = 24  # harmonics evaluated for each pair
+_FAINT = 1e-6  # of the strongest line: weaker lines are omitted
 
 
 class HarmonicShare(NamedTuple):
@@ -77,8 +77,8 @@ def find_spectrum(
 ) -> dict[str, list[SpectrumLine]]:
     """Return the strongest lines of every output, strongest first, measured over `samples` positions.
 
-    Lines are resolved if they differ by two periods over the run. Over a whole number of common periods the measurement is
-    exact except for harmonics above half the sampling rate.
+    Lines are resolved if they differ by two periods over the run. Over a whole number of common periods the measurement
+    is exact except for harmonics above half the sampling rate.
     """
     superposed = Superposition(motion.ahead if turns >= 0 else motion.back)
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
@@ -106,7 +106,7 @@ def _harmonics(superposed: Superposition, at: int) -> Complex:
     u = np.arange(_SAMPLES) / _SAMPLES
     shift = source.start + superposed.lags[at]
     error = source.sense * source.transmission.error(u * source.transmission.period + shift)
-    # twice, for half of a real wave stands at the negative frequency
+    # factor 2, because half of the amplitude of a real signal is at the negative frequency
     return np.asarray(2 * np.fft.rfft(error)[1 : _HARMONICS + 1] / _SAMPLES)
 
 
@@ -127,7 +127,7 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
         )
         for order, parts in phasors.items()
     ]
-    # of equal amplitudes the lower order first, so that the list is the same each time
+    # lines of equal amplitude are ordered by order, so that the list is reproducible
     lines.sort(key=lambda line: (-line.expected, line.order))
     strongest = lines[0].expected if lines else 0.0
     return [line for line in lines[:most] if line.expected > _FAINT * strongest]
@@ -146,7 +146,7 @@ def _measure(
     for passage in motion.passages(turns, samples):
         at = np.arange(done, done + len(passage.turns)) / (samples - 1)
         done += len(passage.turns)
-        # over whole periods every line closes, and the last position repeats the first; else Hann against leakage
+        # whole periods need no window, but the last position repeats the first; otherwise Hann reduces leakage
         window = np.where(at < 1, 1.0, 0.0) if closes else 1 - np.cos(2 * np.pi * at)
         angle = InputPhase(passage.turns)
         waves = np.exp(-2j * np.pi * np.stack([angle.cycles(order) for order in orders])) * window
@@ -155,7 +155,7 @@ def _measure(
         centre += passage.error @ window
         weights += float(window.sum())
         on_done(len(passage.turns))
-    # the mean, a lag of no frequency, leaks into no line
+    # the mean is subtracted, so that it does not leak into any line
     return np.asarray(2 * np.abs(sums - (centre / weights)[:, None] * means) / weights)
 
 
@@ -213,15 +213,14 @@ class MotionRun(Tabular, Pictured):
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
-            why = "so far away positions do not tell the teeth of one turn apart"
-            raise QuestionError(
-                Problem(
-                    f"a motion over {self.turns:g} turns", why, f"give turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
-                )
-            )
+            why = "beyond that, positions in float64 do not resolve the teeth of one turn"
+            fix = f"pass turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
+            raise QuestionError(Problem(f"turns = {self.turns:g}", why, fix))
         if self.samples < 2:
             raise QuestionError(
-                Problem(f"{self.samples} positions of the input", "from one to the next it turns", "give 2 or more")
+                Problem(
+                    f"samples = {self.samples}", "at least two positions of the input are needed", "pass samples >= 2"
+                )
             )
 
     @property
@@ -278,7 +277,7 @@ class MotionRun(Tabular, Pictured):
         """
         self.seed = seed if count else None
         if seed < 0:
-            raise QuestionError(Problem(f"a seed of {seed}", "random numbers begin at 0 or more", "give 0 or more"))
+            raise QuestionError(Problem(f"seed = {seed}", "a random seed is not negative", "pass seed >= 0"))
         random = np.random.default_rng(seed)
         for _ in range(count):
             other = MotionRun(self.motion.at_random(random), self.turns, self.samples)
@@ -312,7 +311,8 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the columns of one stretch: turns, and angle [rad], error [rad] and speed over the input's of each output.
+        """Return the columns of one stretch: turns, and angle [rad], error [rad] and speed over the input's of each
+        output.
 
         An angle is the sum of starting angle, mean motion and error.
 
@@ -348,10 +348,9 @@ class MotionRun(Tabular, Pictured):
         GearTrainError
             If this run has other turns in this row, or fewer positions.
         """
-        # the operations of `passages` in their order: the same float, and so the same text
+        # same order of operations as in `passages`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):
-            what = f"its row {rows} stands at {row.split(',')[0]} turns, and this run has {turns!r} there"
-            raise GearTrainError(
-                Problem("the partial file is of another run", what, "give the same turns and samples, or begin again")
-            )
+            why = f"its row {rows} is at {row.split(',')[0]} turns, but this run has {turns!r} there"
+            fix = "give the same turns and samples, or omit --resume to start again"
+            raise GearTrainError(Problem("the partial file is of another run", why, fix))

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_FASTEST = 2**90  # periods a turn: a position is a float, and its product with the ratio is kept to 106 bits
-_HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
+_FASTEST = 2**90  # periods per turn: the product of a position and the ratio has a precision of 106 bits
+_HALVINGS = 54  # bisections of four pitches, to rounding
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,9 @@ class PairErrors:
         if found is None:
             raise GearTrainError(
                 Problem(
-                    "the motion of this train has no solved order",
-                    "some of its pairs say what others say already, though they close no loop on one carrier",
-                    "leave out a pair that is redundant (`geartrain check` names the link at which they meet)",
+                    "the motion of this train has no order of solution",
+                    "some of its pairs are redundant, although they do not close a loop on one carrier",
+                    "leave out a redundant pair with --without (`geartrain check` names the link at which they meet)",
                 )
             )
         return found
@@ -77,8 +77,8 @@ class PairErrors:
     def driven_side(self, circuit: Circuit) -> int:
         """Return 0 if the circuit's first link is driven, 1 if its second is.
 
-        The transmission function of a pin gives the angle of its slot, whichever of the two drives, because they have no
-        backlash.
+        The transmission function of a pin gives the angle of its slot, whichever of the two drives, because they have
+        no backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
@@ -107,7 +107,8 @@ class PairErrors:
         return forward if circuit.a * circuit.b < 0 else -forward
 
     def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
-        """Yield the pairs with variable error, and the pins, with their transmission functions for one direction of the input.
+        """Yield the pairs with variable error, and the pins, with their transmission functions for one direction of the
+        input.
 
         besides   pairs of constant ratio to include as well
         """
@@ -136,22 +137,21 @@ class PairErrors:
         forward = -1 if driver < 0 else 1
         sense = self.sense(circuit)
         teeth = 1
-        if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
+        if circuit.kind != "gear":  # the error of a pin counts in the sense of the slot's own angle
             sense = forward
         else:
             teeth = abs((circuit.b, circuit.a)[driven])
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
-        # phases count forwards, angles about declared axes
+        # phases count in the forward sense, angles about declared axes
         turned = self.train.way * forward * (senses[0] * angles[0] - senses[1] * angles[1])
         phase = self._phase(circuit, ahead, driven) + turned
         cycles = abs(driver) * teeth
         if cycles > _FASTEST:
             raise GearTrainError(
                 Problem(
-                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while "
-                    f"'{self.train.driving_link}' turns once",
-                    "no position of the input can be told so finely that it says where these teeth stand",
+                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth per turn of '{self.train.driving_link}'",
+                    "positions of the input in float64 do not resolve these teeth",
                     "drive the train nearer to this pair, or give it ideal teeth",
                 )
             )
@@ -160,9 +160,9 @@ class PairErrors:
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
         """Return the driver's forward angle [rad] that puts a tooth of the first wheel at the pair's phase.
 
-        The phase of a pin is that of the pin itself. If the first wheel is driven, its transmission function is inverted. A
-        planet between sun and ring has no independent phase in its second pair. There the first pair places its teeth, half a
-        pitch off if their number is odd and the contacts are on opposite sides.
+        The phase of a pin is that of the pin itself. If the first wheel is driven, its transmission function is
+        inverted. A planet between sun and ring has no independent phase in its second pair. There the first pair places
+        its teeth, half a pitch off if their number is odd and the contacts are on opposite sides.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:
@@ -183,7 +183,7 @@ class PairErrors:
         phase -= self.train.meshes[circuit.id].stands
         wanted = phase * float(transmission.ratio) * transmission.period
         low, high = (phase - 2) * transmission.period, (phase + 2) * transmission.period
-        # bisection: an angle grows with its driver's, and laws have corners that other methods stumble on
+        # bisection: the driven angle increases with the driver's, and kinks would disturb faster methods
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
             low, high = (middle, high) if float(transmission.angle(middle)) < wanted else (low, middle)

@@ -74,9 +74,9 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:
     """Return energies of the impacts in one pitch [J]: transferred to the driven side, dissipated, and their sum.
 
-    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts. The driver has the constant
-    speed omega1 [rad/s], so the sum is its work. J is the `inertia` of all that turns with the driven wheel [kg m2]. The
-    source of triangular teeth counts the first term as lost; the energy actually lost is the second.
+    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts. The driver has the
+    constant speed omega1 [rad/s], so the sum is its work. J is the `inertia` of all that turns with the driven wheel
+    [kg m2]. The source of triangular teeth counts the first term as lost; the energy actually lost is the second.
     """
     leaps, scale = tuple(leaps), inertia * omega1**2
     handed = sum((leap.after**2 - leap.before**2) / 2 for leap in leaps) * scale

@@ -1,8 +1,8 @@
 """Bounds on errors and rates of outputs over steps of the input, by interval arithmetic along the order of solution.
 
-The angle S_m of every driver is known at both ends of a step. Within the step it is between these two, or beyond them by
-what its minimum speed allows if it can turn back. A table of each transmission function gives bounds of the speed ratio
-tau_m there. Rates follow as intervals: rate(driven) = sigma (tau - mean tau) S', summed by equation (2) of
+The angle S_m of every driver is known at both ends of a step. Within the step it is between these two, or beyond them
+by what its minimum speed allows if it can turn back. A table of each transmission function gives bounds of the speed
+ratio tau_m there. Rates follow as intervals: rate(driven) = sigma (tau - mean tau) S', summed by equation (2) of
 docs/motion.md. For coupled pairs they follow from Krawczyk's operator. An error with a rate between r and R is bounded
 by its values at the ends (Piyavskii's bounds).
 """
@@ -55,11 +55,11 @@ class RangeExtremes:
         )
 
 
-_CELLS = 1024  # of a period, of a table of the speed ratio
-_A_KINK = 64  # cells for each corner of a law, where that is more
-_WITHIN = 4  # values of the speed ratio in a cell
-_MARGIN = 0.25  # of what it changes within a cell: it may go so far beyond these values
-_BESIDE = 1e-9  # of a period: so near to a corner is its limit from one side
+_CELLS = 1024  # minimum number of cells per period in a table of the speed ratio
+_A_KINK = 64  # cells per kink of a transmission function, if that is more
+_WITHIN = 4  # samples of the speed ratio in a cell
+_MARGIN = 0.25  # of the change within a cell: allowance for values beyond these samples
+_BESIDE = 1e-9  # of a period: distance from a kink at which its one-sided limits are taken
 
 
 class Interval(NamedTuple):
@@ -115,7 +115,7 @@ class SpeedRanges:
         """Return bounds from the angle `phase` + travel.low to `phase` + travel.high [rad]."""
         scale = self.cells / self.period
         first, last = (np.floor((phase + end) * scale) for end in travel)
-        # a whole period has all values: how many makes no difference
+        # one period includes all values, so that more periods need not be counted
         last = np.minimum(last, first + self.cells)
         return Interval(*self._extremes.over(first.astype(np.int64), last.astype(np.int64)))
 
@@ -145,7 +145,7 @@ class StepBounds(NamedTuple):
         angle = 2 * np.pi * (self.high.turns - self.low.turns)
         start, end, (minimum, most) = self.low.error, self.high.error, self.rate
         with np.errstate(all="ignore"):
-            # two lines from the ends, as steep as may be, meet at the bound (Piyavskii)
+            # the steepest lines from both ends intersect at the bound (Piyavskii)
             up = np.clip((end - start - minimum * angle) / (most - minimum), 0, angle)
             down = np.clip((most * angle - (end - start)) / (most - minimum), 0, angle)
             above = np.where(most > minimum, start + most * up, np.maximum(start, end))
@@ -190,7 +190,7 @@ class RateBounds:
 
     def over(self, low: Floats, high: Floats) -> StepBounds:
         """Return bounds over steps from turns `low` to turns `high` of the input, (n,) each, at most one chunk."""
-        # most steps begin where others end
+        # most steps begin where others end, so that shared ends are evaluated once
         edges, at_edge = np.unique(np.concatenate([low, high]), return_inverse=True)
         found = self._whole.at(edges)
         ends = [
@@ -251,7 +251,7 @@ class RateBounds:
         found = _coupled_rates(self._slopes(step, turning, phase, angle, shifts), turning, gain)
         whole = [speed + _summed(row, found, speed.scaled(0.0)) for speed, row in zip(turning, gain, strict=True)]
         if any((speed.low < 0).any() for speed in whole):
-            # a driver may turn back, and come by angles beyond those at the ends
+            # a driver may reverse, and pass angles beyond those at the ends
             found = _coupled_rates(self._slopes(step, whole, phase, angle, shifts), turning, gain)
         return found
 

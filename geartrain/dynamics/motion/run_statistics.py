@@ -1,7 +1,7 @@
 """Peaks and moments of an output, accumulated stretch by stretch, and its extremes at any position.
 
-Moments of stretches are combined with the update of Chan, Golub and LeVeque (1983). Transmission errors have sharp peaks
-that samples miss, so extremes are searched separately (docs/motion.md, section 5).
+Moments of stretches are combined with the update of Chan, Golub and LeVeque (1983). Transmission errors have sharp
+peaks that samples miss, so extremes are searched separately (docs/motion.md, section 5).
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ def mean_speed(name: str, ratio: Fraction) -> float:
     found = as_float(ratio)
     if found is None:
         what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the input's"
-        why = "motion is followed in float64, which holds 1e-308 to 1e308"
-        raise RangeError(Problem(what, why, "drive the train nearer to this output, or ask `solve`"))
+        why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
+        raise RangeError(Problem(what, why, "drive the train nearer to this output, or use `solve`"))
     return found
 
 
@@ -103,7 +103,7 @@ class RunningStatistics(Result):
         """
         new = len(error)
         centre = float(error.mean())
-        # differences from each stretch's own mean: a sum of squares would lose a small error beside a large lag
+        # deviations from each stretch's own mean: a plain sum of squares would cancel for a small error on a large lag
         gap = centre - self.centre
         total = self.count + new
         self.square += float(((error - centre) ** 2).sum()) + gap**2 * self.count * new / total
@@ -150,8 +150,8 @@ class RunningStatistics(Result):
         return low, high
 
 
-_BIN = 1024  # positions of which the greatest is kept
-_KEPT = 10  # of them, for each output and each extreme
+_BIN = 1024  # positions per bin, each of which keeps its maximum
+_KEPT = 10  # bins kept for each output and each extreme
 
 
 class ErrorSampler(Protocol):

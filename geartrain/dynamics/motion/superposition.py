@@ -1,9 +1,9 @@
 """Fast estimates of transmission error, equation (6) of docs/motion.md, and their accuracy: sums over pairs.
 
-The estimates neglect the effect of pairs on each other. To first order an output's error is the sum of its sensitivities
-times the pairs' errors. The sum of their ranges bounds its range. For independent phases the squares of their rms values
-add. Superposition in phase approximates the motion as far as the errors of drivers do not change their angles. Including
-the mean of these errors relative to turn 0 (lag) corrects a part of the rest.
+The estimates neglect the effect of pairs on each other. To first order an output's error is the sum of its
+sensitivities times the pairs' errors. The sum of their ranges bounds its range. For independent phases the squares of
+their rms values add. Superposition in phase approximates the motion as far as the errors of drivers do not change their
+angles. Including the mean of these errors relative to turn 0 (lag) corrects a part of the rest.
 """
 
 from __future__ import annotations

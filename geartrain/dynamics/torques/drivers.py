@@ -7,10 +7,10 @@ power flows in one direction for any torques of the pointers; otherwise the dire
 which no pointer takes power, resistance is assumed at the outputs on shafts, then at all outputs, all shafts, and
 finally every joint. The order of declaration does not matter.
 
-The coefficients c_o are exact (point 3 there). One elimination treats all loads at once, with a symbol for each load and
-every unknown torque as a linear form of symbols. Where loads continue through a single torque, with one sign, only their
-sum matters beyond it. That sum becomes a symbol, which keeps the cost of long trains and the length of their numbers
-small.
+The coefficients c_o are exact (point 3 there). One elimination treats all loads at once, with a symbol for each load
+and every unknown torque as a linear form of symbols. Where loads continue through a single torque, with one sign, only
+their sum matters beyond it. That sum becomes a symbol, which keeps the cost of long trains and the length of their
+numbers small.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 UnitLoads = Mapping[str, Mapping[str, Fraction]]
 """Torques by link under a unit load, by the name of the resisting output or link."""
 
-_NAMED = 3  # loads named; of the others it is said how many they are
+_NAMED = 3  # loads listed by name; the others are only counted
 
 
 @dataclass(frozen=True)
@@ -250,9 +250,9 @@ class _Drivers:
 
 
 def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
-    why = "power flows so under the loads"
+    why = "power flow under the loads"
     if loaded.verdict.kind == "ambiguous":
-        why += ", in the flow that loses least"
+        why += ", in the pattern with minimum loss"
     return {name: MeshDriver(pair.driver, why) for name, pair in loaded.pairs.items() if pair.driver and not pair.loose}
 
 
@@ -334,7 +334,7 @@ def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
         like = _peers(build_balance(setting, {}, requested))
         spread = {name: _spread(each, like) for name, each in loads.items()}
         loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
-        # equal planets stay equal under equal loads; the numbers only tell apart what is loaded
+        # equal planets remain equal under equal loads; the numbers only distinguish the loaded links
         number = {peer: Fraction(at) for at, link in enumerate(loaded, 2) for peer in like.get(link, (link,))}
         shares = find_load_influence(balance := build_balance(setting, number, requested), spread)
         for mesh in balance.meshes if shares is not None else ():
@@ -348,7 +348,7 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
     """Yield the links of unknown torque, as many as inputs: every combination if there is a crank besides inputs."""
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
-        links = inputs  # a crank at rest
+        links = inputs  # the crank is at rest and passes no power
     if len(links) == len(inputs):
         yield links
     else:
@@ -382,22 +382,23 @@ def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -
 def _judged(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: str) -> MeshDriver:
     first, second = circuit.wheels
     if way.shared:
-        return _open(setting, circuit, "redundant pairs share the load in no certain way; `share` or `loads` decide")
+        why = "redundant pairs share the load in an unknown ratio; declare `share` or `loads`"
+        return _open(setting, circuit, why)
     if way.ahead.count and way.back.count:
-        # the way that more of them would have it is taken; else nothing speaks for either
+        # the direction with more loads is assumed; with equal numbers neither is preferred
         ways = sorted([(-way.ahead.count, first, second, way.ahead), (-way.back.count, second, first, way.back)])
         (more, likely, other, most), (less, *_, rest) = ways
-        why = f"{way.note}power flows from {likely} to {other} for {most}, the other way for {rest}; `loads` decide"
+        why = f"{way.note}power flows from {likely} to {other} for {most}, and back for {rest}; declare `loads`"
         found = _open(setting, circuit, why)
         return replace(found, wheel=likely) if more < less else found
     if way:
         taker = way.ahead if way.ahead.count else way.back
-        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flows so from {source} to {taker}")
+        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flow {source} -> {taker}")
     turn = setting.turn(circuit)
     if turn is None:
-        return _open(setting, circuit, "nothing says how fast its two sides turn against each other")
+        return _open(setting, circuit, "the relative speed of its two sides is not determined")
     if not turn:
-        what = "its slot swings and stays" if circuit.swings else "its two sides do not turn against each other"
+        what = "its slot only oscillates" if circuit.swings else "its two sides have no relative motion"
         return _open(setting, circuit, f"{what}, so no power flows on average")
     return _open(setting, circuit, "no power flows through it")
 

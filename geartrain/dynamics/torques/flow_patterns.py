@@ -28,15 +28,15 @@ Sides = Mapping[int, int]
 
 KnownTorques = Mapping[int, LinearForm]
 """Known torques by row, as linear forms of symbols (columns below 0)."""
-_MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried: 2^14 small solutions
-_MOST_OPEN = 10  # the same where torques stay open anyway, and the iteration has found some that balance
-_FEW = 4  # lossy torques whose patterns are not worth a trial in floats
-_CHUNK = 2**21  # numbers in the matrices tried at once: 16 MB of float64
-_MOST_ROUNDS = 50  # of the iteration; a pattern that comes again ends it sooner
-_MOST_FLOWS = 256  # kept while blocks are gone through
+_MOST_TRIED = 14  # lossy torques of a block with exhaustive enumeration: 2^14 small systems
+_MOST_OPEN = 10  # the same if torques remain undetermined anyway and the iteration has found a solution
+_FEW = 4  # with fewer lossy torques, a floating-point filter does not pay
+_CHUNK = 2**21  # matrix entries solved at once: 16 MB of float64
+_MOST_ROUNDS = 50  # maximum iterations; a repeated pattern ends them sooner
+_MOST_FLOWS = 256  # maximum number of partial solutions
 NEAR = 1e-9
 """Fraction of the maximum torque below which a torque may have either sign."""
-_KNOWN = -1  # the column in which known torques stand
+_KNOWN = -1  # column of the known torques
 
 Values = dict[int, Fraction | None]
 """Torque by column; None if it is undetermined."""
@@ -60,7 +60,7 @@ def solve_block(
     The result as a whole is None if nothing balances.
     """
     if len(block.rows) == len(block.columns) == 1:
-        # an ordinary train has thousands of such blocks: one division each
+        # fast path: an ordinary train may have thousands of such blocks
         (row,), (column,) = block.rows, block.columns
         if coefficient := columns[column].pieces[sides[column]].get(row):
             return {column: {symbol: -value / coefficient for symbol, value in known[row].items()}}
@@ -174,7 +174,7 @@ def _solutions(
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
     if not any(known.values()):
-        # nothing acts: nothing answers, whoever might drive
+        # without known torques all torques of a regular block are 0, for any driving sides
         values = _solve(columns, block, base, known)
         if values is not None and None not in values.values():
             return [(base, values)], True
@@ -187,7 +187,7 @@ def _solutions(
         values = _solve(columns, block, sides, known)
         if values is None or not _is_consistent(columns, block, sides, values, known):
             continue
-        # an idle mesh may be taken either way: the torques are the same
+        # both sides of an idle mesh give the same torques
         if all(values != each for _, each in found):
             found.append((sides, values))
     return found, tried
@@ -254,7 +254,7 @@ def _iterate(
         values = _solve(columns, block, sides, known)
         if values is None:
             return None
-        # the first round is without losses, which is no pattern
+        # the first round has no losses, so it is not a pattern
         if seen and _is_consistent(columns, block, sides, values, known):
             return sides
         wanted = {column: -1 if (values[column] or 0) * columns[column].turn > 0 else 1 for column in lossy}
@@ -273,7 +273,7 @@ class _Floats:
 
         self.block = block
         self.turns = np.array([columns[column].turn for column in block.columns])
-        # patterns depend on signs alone; loads of any size are brought within the range of floats
+        # patterns depend only on signs, so loads of any magnitude are scaled into the range of floats
         maximum = max(map(abs, known.values()))
         self.right = np.array([-float(known[row] / maximum) for row in block.rows])
         size = len(block.rows)
@@ -293,7 +293,7 @@ class _Floats:
         except np.linalg.LinAlgError:
             yield from chunk
             return
-        # a direction that fails by rounding only is left to the fractions
+        # a sign that fails only by rounding is left to exact arithmetic
         against = contradicts(found.T, -(self.turns * sides).T)
         yield from (each for each, bad in zip(chunk, against.tolist(), strict=True) if not bad)
 

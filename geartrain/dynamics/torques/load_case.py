@@ -1,7 +1,8 @@
 """A train in one load case: determined speeds, real teeth and pins, loads.
 
 Equilibrium by virtual work: equations (14) to (16) of docs/torques.md. Loads balance if they do no work in any motion
-compatible with the constraints. Speeds do not enter, so the torque on a link may be determined even if its speed is not.
+compatible with the constraints. Speeds do not enter, so the torque on a link may be determined even if its speed is
+not.
 """
 
 from __future__ import annotations
@@ -104,7 +105,8 @@ class MeanEfficiencies:
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return forward and backward efficiency for constant torque on the first link (1), the second (-1) or neither (0).
+        """Return forward and backward efficiency for constant torque on the first link (1), the second (-1) or neither
+        (0).
 
         driving   True if loads put power in; decides the case of neither
         """

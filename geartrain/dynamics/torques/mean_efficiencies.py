@@ -21,7 +21,7 @@ from geartrain.teeth.pair_results import SlidingEfficiency
 
 NORMAL_ANGLE = radians(20)
 """Normal pressure angle [rad] if no tooth form specifies it."""
-_ROUNDING = 1e-9  # by so much the quadrature of a mean may pass 1
+_ROUNDING = 1e-9  # amount by which rounding in the quadrature may make a mean exceed 1
 
 
 def all_mean_efficiencies(setting: LoadCase) -> Mapping[str, MeanEfficiencies]:
@@ -92,7 +92,7 @@ def _mean(efficiency: float | None) -> Fraction:
     """Return a mean over teeth as a fraction to 15 digits, or 0 if friction locks."""
     if efficiency is None:
         return Fraction(0)
-    # rounding of a quadrature may pass 1 by a little; digits in decimal, so that 0.98 stays 49/50
+    # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
     return Fraction(1) if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")
 
 
@@ -117,14 +117,16 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return, by pair, 1 if the balance of its first link alone determines its torque, or -1 for its second link."""
+    """Return the constant side of each pair: 1 if the balance of its first link alone determines its torque, -1 if the
+    second's.
+    """
     found: dict[str, int] = {}
     for block in balance.parts:
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):
             continue
         link, column = balance.links[block.rows[0]], balance.columns[block.columns[0]]
         side = next((_side(mesh, link) * mesh.turn for mesh in column.meshes if link in mesh.links), 0)
-        # equal planets have one torque between them, and may name their wheels in another order
+        # equal planets share one unknown torque, and may name their wheels in different orders
         found |= {mesh.id: side * mesh.turn for mesh in column.meshes}
     return found
 

@@ -1,10 +1,10 @@
 """Effects that a balance of mean torques neglects, by name: the table in section 13 of docs/torques.md.
 
 Some bearings reverse within a turn although their mean speed does not change. Interval bounds find them, equation (21).
-Each nonuniform pair adds g (tau(S) - m) w to the mean speed of every link. Here g is its gain at the link, tau its speed
-ratio at the angle S of its driver, m the mean ratio, and w the speed of its driver relative to the carrier. Gains are
-exact, and the bounds of w widen from pair to pair. A bearing named here may therefore reverse; a bearing not named does
-not.
+Each nonuniform pair adds g (tau(S) - m) w to the mean speed of every link. Here g is its gain at the link, tau its
+speed ratio at the angle S of its driver, m the mean ratio, and w the speed of its driver relative to the carrier. Gains
+are exact, and the bounds of w widen from pair to pair. A bearing named here may therefore reverse; a bearing not named
+does not.
 """
 
 from __future__ import annotations
@@ -26,13 +26,15 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_MOST_UNEVEN = 300  # pairs followed: the gains of n pairs at n links are n squared numbers
+_MOST_UNEVEN = 300  # nonuniform pairs: the gains of n pairs at n links are n squared numbers
 _SAMPLES = 1 << 14  # angles at which a speed is averaged, for three digits
-_SLACK = 1e-12  # of a speed: less than this backwards is rounding
-_NO_FORM = "these teeth have no form of which it could take anything: give a `tooth_form`, or an `efficiency`"
+_SLACK = 1e-12  # of a speed: smaller reversals are rounding
+_NO_FORM = (
+    "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
+)
 _NO_LEAD = (
-    "these teeth slide along each other: declare the `helix_angle` of the worm, or of both wheels, on axes that cross, "
-    "and a constant `friction`; or an `efficiency`"
+    "these teeth slide along their length, and their helix angles or their friction are not known: declare the "
+    "`helix_angle` of the worm, or of both wheels on crossed axes, and a constant `friction`; or an `efficiency`"
 )
 _MEAN = "the torques given are means over a turn"
 
@@ -165,14 +167,14 @@ def _added(
     """Return bounds of the speed that each pair adds, from the bounds of its driver's speed."""
     swings = [each.swing for each in uneven]
     added = [SpeedBounds(0.0, 0.0)] * len(uneven)
-    # where no pairs depend on each other in a circle each round settles one more, and the last sees no change
+    # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
     for _ in range(len(uneven) + 1):
         turning = [_bounds(setting, gains, added, each.driver, each.carrier) for each in uneven]
         wider = [swing.times(speed) for swing, speed in zip(swings, turning, strict=True)]
         if wider == added:
             return added
         added = wider
-    # pairs that depend on each other in a circle: no bound was found
+    # cyclic dependencies: no bound was found
     return [SpeedBounds(-inf, inf)] * len(uneven)
 
 
@@ -196,7 +198,7 @@ def _with_mean(
     speed = setting.relative(pair.driver, pair.carrier)
     if pair.transmission is None or speed is None or _between(gains, pair.driver, pair.carrier):
         return bounds
-    # midpoint rule: for a periodic function with kinks as good as any
+    # the midpoint rule is as accurate as any other for a periodic function with kinks
     S = (np.arange(_SAMPLES) + 0.5) * (pair.transmission.period / _SAMPLES)
     found = np.abs(_number(mean) + gain * (pair.transmission.speed(S) - float(pair.mean)) * _number(speed))
     return SpeedBounds(bounds.low, bounds.high, float(found.mean()), max(-bounds.low, bounds.high))
@@ -234,8 +236,8 @@ def find_neglected_effects(
     shared = tuple(circuit.id for circuit in busy if circuit.id in set(neither))
     if shared:
         why = (
-            "neither torque of these pairs is constant within a turn, so that their mean efficiency depends on the "
-            "others; the one at a constant load, or a constant driver's torque where loads drive, is taken"
+            "neither torque of these pairs is constant within a turn, so their mean efficiency depends on other pairs; "
+            "the value for a constant load torque is used, or for a constant driving torque where loads drive"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
     return (*found, *_drag(setting), *_swing(setting, busy), *_inertia(setting))
@@ -245,12 +247,13 @@ def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
     """Yield viscous drag, which a balance of exact means does not include."""
     if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
         yield NeglectedEffect(
-            "viscous drag", links, "it is by speed: torques over a turn count it where speeds are real"
+            "viscous drag", links, "it depends on speed: torques over a turn include it if speeds have units"
         )
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
-    """Return the effects neglected by torques over a turn. Pins, bearings and variations are neglected only if undeclared.
+    """Return the effects neglected by torques over a turn. Pins, bearings and variations are neglected only if
+    undeclared.
 
     at_means   pairs with real teeth that have their mean efficiency at every position
     """
@@ -260,8 +263,8 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
         *_inertia(setting),
     ]
     if at_means:
-        why = "they are redundant, and nothing says at which part of its pitch each of them works: the mean is taken"
-        found.append(NeglectedEffect("swing within a turn", tuple(at_means), why))
+        why = "these pairs are redundant, so the phase of their teeth is not known: mean efficiencies are used"
+        found.append(NeglectedEffect("variation within a turn", tuple(at_means), why))
     return tuple(found)
 
 
@@ -270,7 +273,7 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
     couplings = setting.couplings
     rubbing = [circuit for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
     if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
-        why = "a follower only swings: it passes no power on average, of which its friction could be a share"
+        why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
     yield from _bare_pins(setting, [circuit for circuit in rubbing if circuit.b])
 
@@ -319,7 +322,7 @@ def _open(
         and setting.relative(circuit.i, circuit.carrier) is None
     )
     if found:
-        yield NeglectedEffect("losses of pairs", found, "who drives there depends on speeds that are not determined")
+        yield NeglectedEffect("losses of pairs", found, "their driving side depends on speeds that are not determined")
 
 
 def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
@@ -335,7 +338,7 @@ def _rubbing(setting: LoadCase) -> list[str]:
 
 def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
     if rubbing := _rubbing(setting):
-        why = "it does not grow with the load, and is no share of it"
+        why = "it does not depend on the load, so it is not part of an efficiency"
         yield NeglectedEffect("friction of bearings", tuple(rubbing), why)
 
 
@@ -344,30 +347,30 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
     rubbing = _rubbing(setting)
     free = tuple(link for link in rubbing if setting.relative(link, setting.tree.parent[link][0]) is None)
     if free:
-        yield NeglectedEffect("friction of bearings", free, "which way they turn is not determined")
+        yield NeglectedEffect("friction of bearings", free, "their sense of rotation is not determined")
     known = [link for link in rubbing if link not in free]
     back = find_reversing_bearings(setting, known)
     if back is None:
-        why = "it is counted at the mean speeds; too many uneven pairs stand before them to ask whether they turn back"
-        yield NeglectedEffect("friction of bearings that turn back", tuple(known), why)
+        why = "it is computed at the mean speeds; the train has too many nonuniform pairs to find reversing bearings"
+        yield NeglectedEffect("friction of reversing bearings", tuple(known), why)
         return
     for link, bounds in back.items():
         mean = setting.relative(link, setting.tree.parent[link][0])
-        yield NeglectedEffect("friction of bearings that turn back", (link,), _turns(bounds, mean or Fraction(0)))
+        yield NeglectedEffect("friction of reversing bearings", (link,), _turns(bounds, mean or Fraction(0)))
 
 
 def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
     """Describe the ratio of a bearing's loss to its loss at mean speed."""
-    reach = f"the speed goes from {bounds.low:.4g} to {bounds.high:.4g}"
-    what = f"it is counted at the mean speed {decimal(mean, 4)}, and {reach}"
+    reach = f"the speed varies from {bounds.low:.4g} to {bounds.high:.4g} within a turn"
+    what = f"it is computed at the mean speed {decimal(mean, 4)}, but {reach}"
     if bounds.magnitude is None or bounds.most is None:
-        return f"{what} within a turn"
+        return what
     if not mean:
-        return f"{what} within a turn: nothing is counted of a mean magnitude of {bounds.magnitude:.4g}"
+        return f"{what}: it counts as 0, although the mean magnitude of the speed is {bounds.magnitude:.4g}"
     size = abs(as_float(mean) or inf)
     return (
-        f"{what} within a turn: what it takes is {bounds.magnitude / size:.3f} times as much on average, and "
-        f"{bounds.most / size:.3f} times at its greatest"
+        f"{what}: the actual loss is {bounds.magnitude / size:.3f} times as large on average, and "
+        f"{bounds.most / size:.3f} times at its maximum"
     )
 
 
@@ -380,7 +383,7 @@ def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffe
         if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.rubs and not declared))):
             found.append(circuit.id)
     if found:
-        yield NeglectedEffect("swing within a turn", tuple(found), f"{_MEAN}: at single angles they are more and less")
+        yield NeglectedEffect("variation within a turn", tuple(found), f"{_MEAN}, about which they vary with position")
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
@@ -388,6 +391,4 @@ def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
     uneven = any(circuit.swings for circuit in setting.circuits)
     if heavy and (uneven or any(not tooth.rigid for tooth in setting.meshes.values())):
-        yield NeglectedEffect(
-            "inertia", heavy, "torques are those of slow turning: no acceleration and no blow is counted"
-        )
+        yield NeglectedEffect("inertia", heavy, "torques are quasi-static: accelerations and impacts are neglected")

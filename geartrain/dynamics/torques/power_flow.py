@@ -144,7 +144,7 @@ def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
     done: set[PowerNode] = set()
     for start in after:
         way: list[int] = []
-        ahead = {start: iter(after[start])}  # the nodes of the way with what is still to be tried from each
+        ahead = {start: iter(after[start])}  # nodes on the current path, with the streams not yet tried from each
         while ahead:
             for at in ahead[next(reversed(ahead))]:
                 target = streams[at].target
@@ -332,7 +332,7 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
         )
     for bearing in found.bearings:
         ends = ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction))
-        # a bearing that rests, or whose speed is open, has no torque, and need have no speed
+        # a bearing at rest or of undetermined speed has no torque, and its speed may be missing
         yield PowerNode("bearing", bearing.link), [(link, -torque * speed[link]) for link, torque in ends if torque]
 
 
@@ -346,8 +346,8 @@ def has_torque_units(train: Train, state: str | None) -> bool:
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
     """Return the watts in one unit of power: N m times the train's unit of speed; None if either has no units.
 
-    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs have
-    units.
+    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
+    have units.
     """
     if not has_torque_units(train, case.state):
         return None

@@ -24,7 +24,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import decimal
 from geartrain.train import Train
 
-_GREAT = 10**12  # lambda of section 6: beside a load so many times as great, constant friction hardly matters
+_GREAT = 10**12  # lambda of section 6: factor of the load that makes constant friction negligible
 
 
 @dataclass(frozen=True)
@@ -92,9 +92,9 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
     amounts = [f"{decimal(torque, 6)} at {link}" for link, torque in helpful.items()] or [
         f"{decimal(torque, 6)} more at {link}" for link, torque in torques.items()
     ]
-    fix = f"; it would take {' or '.join(amounts[:3])}" if amounts else ""
-    held = f"with {', '.join(requested)} held still they" if requested else "they"
-    text = f"the loads do not balance: {held} set {_some(likely or sorted(moving))} turning{fix}"
+    fix = f"; a torque of {' or '.join(amounts[:3])} would balance them" if amounts else ""
+    held = f"with {', '.join(requested)} at rest, they" if requested else "they"
+    text = f"the loads do not balance: {held} set {_some(likely or sorted(moving))} in motion{fix}"
     return TorqueVerdict("unbalanced", text, tuple(helpful))
 
 
@@ -134,29 +134,31 @@ def _but(left_out: Sequence[NeglectedEffect]) -> str:
             uncounted.setdefault(each.what, []).extend(each.where)
     if uncounted:
         named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
-        return f", but for {', '.join(named)}"
-    return ", as a mean over a turn" if left_out else ""
+        return f"; not included: {', '.join(named)}"
+    return " (mean over a turn)" if left_out else ""
 
 
 def _none(question: LoadedBalance, complete: bool) -> TorqueVerdict:
     """Explain why no torques balance: shares, bearings, or teeth."""
     names = question.names
     if not question.enough:
-        text = "the loads balance while nothing is lost, and do not with the losses: an unknown torque is lacking"
+        text = "the loads balance without losses, but not with them: one more unknown torque is needed"
         return TorqueVerdict("unbalanced", text)
     if shares := question.balance.shares:
         pairs = dict.fromkeys(name for _, parts in shares for name in parts)
         if find_flow_patterns(replace(question.balance, shares=()))[0]:
-            text = f"the declared shares of {', '.join(pairs)} contradict the balance, which holds without them"
+            text = (
+                f"the declared shares of {', '.join(pairs)} contradict the balance, which has a solution without them"
+            )
             return TorqueVerdict("contradictory", text)
     if question.rubs and question.heavily_loaded():
         text = (
-            f"the load is too small to overcome the friction of the bearings, and no torque on {names} makes up for "
-            "it while the train turns this way; its teeth do not lock: a greater load turns it"
+            f"the load is too small to overcome the friction of the bearings, and no torque on {names} compensates for "
+            "it while the train turns this way; the teeth do not lock: a larger load turns the train"
         )
         return TorqueVerdict("stalled", text)
     sure = "" if complete else " (not every pattern of power flow was tried)"
-    great = ", however great: its teeth lock, not its bearings" if question.rubs else ""
+    great = ", however large: the teeth lock, not the bearings" if question.rubs else ""
     text = f"no torque on {names} balances {question.load} while the train turns this way{great}{sure}"
     return TorqueVerdict("self-locking", text)
 
@@ -170,7 +172,10 @@ def _help(question: LoadedBalance, flow: FlowPattern) -> str:
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
         )
-    return f"; no load this way round drives the train, for its teeth lose it all: {question.names} must drive as well"
+    return (
+        "; no load in this sense drives the train, because the teeth dissipate all of its power: "
+        f"{question.names} must drive as well"
+    )
 
 
 def _open(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdict:
@@ -180,10 +185,13 @@ def _open(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdic
     locks = zip(question.balance.locks, flows[0].solved.locks, strict=True)
     links += [f"the lock of {a} and {b}" for ((a, _), (b, _)), torque in locks if torque is None]
     if not loose:
-        text = f"the torque on {', '.join(links)} is not determined: brakes and locks share it in no certain way"
+        text = f"the torque on {', '.join(links)} is not determined: brakes and locks share it in an unknown ratio"
         return TorqueVerdict("indeterminate", text, flows[0].solved.open)
     also = f", nor is the torque on {', '.join(links)}" if links else ""
-    text = f"how {', '.join(loose)} share their load is not determined{also}: redundant pairs; `share` declares it"
+    text = (
+        f"how {', '.join(loose)} share their load is not determined{also}: they are redundant, and `share` is not "
+        "declared"
+    )
     return TorqueVerdict("indeterminate", text, loose)
 
 
@@ -192,7 +200,7 @@ def _several(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVer
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_way(question, power, given < 0) for power in others)
     text = (
-        f"{len(flows)} patterns of power flow balance {question.load}: in the one given, which loses least, "
+        f"{len(flows)} patterns of power flow balance {question.load}: in the one given, with minimum loss, "
         f"{_way(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
     )
     return TorqueVerdict("ambiguous", text)
@@ -202,12 +210,12 @@ def _way(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
     """Describe one flow. `resisted` is True if power leaves in the given flow."""
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
-    also = " as well, and all is lost" if resisted else ""
+    also = " as well, and all power is lost" if resisted else ""
     return f"{question.names} drives with power {decimal(power, 6)}{also}"
 
 
 _Key = tuple[object, ...]
-_EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits whose ratio is the same at every instant
+_EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits with a constant ratio
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
@@ -310,7 +318,7 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
     """Return the loads and the links of unknown torque, or a verdict if nothing acts or no torque can be requested."""
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
-        text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
+        text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     requested = _requested(setting, loads, solve_for)
     verdict = _summed(setting, (*loads, *requested.links))
@@ -342,14 +350,14 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
     if setting.forms and len(free) <= needed:
-        # what turns freely has no torque but what is declared, unless one is asked for
+        # a freely turning link has no torque except a declared or requested one
         named = (solve_for,) if solve_for is not None and solve_for not in free else ()
         return UnknownLinks((*free, *named), enough=False)
     if needed == 1 and solve_for is not None:
         free = (solve_for,)
     if len(free) == needed:
         return UnknownLinks(free)
-    if len(free) > needed:  # the crank, and inputs of which one has no torque
+    if len(free) > needed:  # a crank besides the inputs: one of the inputs has no torque
         certain, candidates = free[:1], free[1:]
     else:
         links = dict.fromkeys(output.of or name for name, output in setting.case.outputs.items())
@@ -360,10 +368,10 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
     if len(candidates) == lacking:
         return UnknownLinks(certain + candidates, enough=not setting.forms)
     loaded = ", ".join(link for link in enter if link in loads)
-    why = f"{loaded} carries a load" if loaded else f"power enters at {enter[0]}, which is no input"
+    why = f"{loaded} carries a load" if loaded else f"power enters at {enter[0]}, which is not an input"
     text = (
-        f"{why}, so {lacking} other torque{'s' if lacking > 1 else ''} must be unknown, and "
-        f"{len(candidates)} can be: name one with `solve_for`"
+        f"{why}, so {lacking} other torque{'s' if lacking > 1 else ''} must be unknown (number of candidates: "
+        f"{len(candidates)}): name one with `solve_for`"
     )
     certain += candidates if len(candidates) < lacking else ()
     return UnknownLinks(certain, False, TorqueVerdict("undecided", text, candidates))
@@ -386,8 +394,8 @@ def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
     sums = setting.axes.joint_sums
     for link in links:
         if link in sums:
-            why = "the axes between it and the frame are not parallel, and its sum of joint speeds is no rotation"
-            return TorqueVerdict("undecided", f"a torque on '{link}' has no one axis: {why}")
+            why = "the axes between it and the frame are not parallel, and its sum of joint speeds is not a rotation"
+            return TorqueVerdict("undecided", f"a torque on '{link}' has no unique axis: {why}")
     return None
 
 
@@ -416,7 +424,7 @@ def _balanced(
     balance, neither = settle_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
     question = LoadedBalance(balance, setting.speeds, loads, rubbing, requested.enough, setting.open)
-    # all else being known, the power asked for tells the order of losses
+    # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
@@ -485,7 +493,8 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
     relative = setting.relative(i, k) or Fraction(0)
     forward, backward = means.given(0, driving=False) if means else (Fraction(1), Fraction(1))
     a, b = circuit.a, circuit.b
-    # the sign of a row is free: one for both orders of a planet and its ring, and for planets whose axes point apart
+    # the sign of a row is arbitrary: normalised, so that equal planets have equal rows for either order of their
+    # wheels and for opposite axes
     if min(a * senses[0], b * senses[1], key=abs) < 0:
         a, b = -a, -b
     return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
@@ -519,7 +528,7 @@ def _torques(
     for found in (solved.external, solved.brakes):
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
-    # friction of a bearing is no power from outside; what it takes depends on the speeds in the joints alone
+    # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
     for link, torque in rubbing.items():
         external[link] -= torque
     return Torques(

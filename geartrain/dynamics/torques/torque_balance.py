@@ -22,7 +22,7 @@ DrivingSides = Mapping[str, int]
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
 """Link, and the meshes on one of its wheels with their fractions of its torque."""
-_SCALES = 1_000_003, 1_414_213  # of the coefficients of a row, so that nothing in it cancels by chance
+_SCALES = 1_000_003, 1_414_213  # factors of the coefficients of a row, so that nothing cancels by chance
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class LoadedPair:
         """Raise `GearTrainError` if an efficiency exceeds 1."""
         if max(self.forward, self.backward) > 1:
             what = f"pair '{self.id}' has an efficiency of {float(max(self.forward, self.backward)):g}"
-            raise GearTrainError(Problem(what, "above 1 it would create power", "give an efficiency of at most 1"))
+            raise GearTrainError(Problem(what, "above 1 it would generate power", "give an efficiency of at most 1"))
 
     @property
     def loses(self) -> bool:
@@ -80,7 +80,7 @@ class LoadedPair:
     def signs_beside(self, lead: LoadedPair, alike: bool) -> tuple[int, int]:
         """Return the signs of the torques on both links relative to those of a tied pair with the same unknown.
 
-        alike   True if both name their links in the same order; a planet whose axis points the other way changes the sign
+        alike   True if both name their links in the same order; a planet with reversed axis changes the sign
         """
         led = (lead.a, lead.b) if alike else (lead.b, lead.a)
         first, second = (-1 if own * other < 0 else 1 for own, other in zip((self.a, self.b), led, strict=True))

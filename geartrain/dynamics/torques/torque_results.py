@@ -146,7 +146,7 @@ class PairTorque(Result):
         """Power input of the driver in the carrier's frame [torque times the train's unit of speed]; None if
         undetermined.
         """
-        # worked out when asked for: both factors have many digits in a long train
+        # computed on demand, because both factors have many digits in a long train
         if self.rolling is None:
             return None if self.multiplier else Fraction(0)
         return abs(self.multiplier * self.rolling)
@@ -229,7 +229,7 @@ class NeglectedEffect(Result):
     @property
     def counts(self) -> bool:
         """False for effects that change no mean: variation within a turn, and the choice between two means."""
-        return self.what not in ("swing within a turn", "mean efficiency")
+        return self.what not in ("variation within a turn", "mean efficiency")
 
     def __str__(self) -> str:
         return f"{self.what} ({', '.join(self.where)})"
@@ -255,13 +255,12 @@ class DrivenWay(NamedTuple):
 class Torques(FrozenFields, Tabular, Result):
     """Torques and powers of a train in one state, all exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
-    Torques are in N m if loads have units, else in the plain unit of the loads. Powers are torques times the train's unit of
-    speed, positive into the train.
+    Torques are in N m if loads have units, else in the plain unit of the loads. Powers are torques times the train's
+    unit of speed, positive into the train.
 
-    Examples
-    --------
-    Both pairs of a planetary set have an efficiency of 0.98, and the ring is fixed. The efficiency from sun to carrier is
-    (1 + p e) / (1 + p), with p = 60/24 and e = 0.98^2 (the table in section 10 of docs/torques.md):
+    Examples -------- Both pairs of a planetary set have an efficiency of 0.98, and the ring is fixed. The efficiency
+    from sun to carrier is (1 + p e) / (1 + p), with p = 60/24 and e = 0.98^2 (the table in section 10 of
+    docs/torques.md):
 
     >>> import geartrain
     >>> found = geartrain.load('''

@@ -147,7 +147,7 @@ class PositionMotion:
             {name: FlankChoice(self.sources[name].transmission, where) for name, where in coasting.items()}
         )
         found = composition.at(turns)
-        # a pointer that is set turns no driver
+        # the offset of a set pointer does not turn any driver
         own = found.error - np.array(composition.offsets or (0.0,))[:, None]
         error = dict(zip(self._columns, own, strict=True))
         phase = InputPhase(turns)

@@ -34,7 +34,8 @@ class TorqueExtreme(NamedTuple):
 
 
 class CycleFigures(NamedTuple):
-    """Figures of a run for tolerance trials: mean, maximum and starting torque, and efficiency. Unknown figures are None.
+    """Figures of a run for tolerance trials: mean, maximum and starting torque, and efficiency. Unknown figures are
+    None.
 
     See Also
     --------
@@ -146,14 +147,12 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 16 to 18.
 
     The run has about `samples` even positions. More are added at both sides of every kink and jump of the transmission
-    functions, where a motion reverses or the touching flank changes, and where integrals need them. Arrays over positions
-    are read-only. Where nothing balances the train is locked, and the torque is NaN. A torque of 1 N m over one turn of its
-    own link does 2 pi J of work.
+    functions, where a motion reverses or the touching flank changes, and where integrals need them. Arrays over
+    positions are read-only. Where nothing balances the train is locked, and the torque is NaN. A torque of 1 N m over
+    one turn of its own link does 2 pi J of work.
 
-    Examples
-    --------
-    A pin at 10 mm drives a slot whose axis is offset by 8 mm, with friction, against 10 N m. The mean has a closed form,
-    10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
+    Examples -------- A pin at 10 mm drives a slot whose axis is offset by 8 mm, with friction, against 10 N m. The mean
+    has a closed form, 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
 
     >>> import geartrain
     >>> found = geartrain.load('''
@@ -190,10 +189,10 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     verdict: TorqueVerdict
     """Verdict on the torques.
 
-    `determined`: all torques follow. `incomplete`: some effects are neglected. `ambiguous`: several patterns of power flow
-    balance at some position. `self-locking`: nothing balances at some position. `indeterminate`: redundant pairs share a
-    load in an undetermined way, and the minimum-norm torques are given. If the question itself has no answer, this is the
-    verdict of `Torques`, and the result has nothing else.
+    `determined`: all torques follow. `incomplete`: some effects are neglected. `ambiguous`: several patterns of power
+    flow balance at some position. `self-locking`: nothing balances at some position. `indeterminate`: redundant pairs
+    share a load in an undetermined way, and the minimum-norm torques are given. If the question itself has no answer,
+    this is the verdict of `Torques`, and the result has nothing else.
     """
     link: str = ""
     """Link whose torque is requested."""
@@ -208,7 +207,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     torque: Floats | None = None
     """Torque at the link in the solution with minimum loss [N m, or plain], shape (n,).
 
-    It is positive where it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed is 0.
+    It is positive where it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed
+    is 0.
     """
     highest: Floats | None = None
     """Torque at the link in the solution with maximum loss [N m, or plain], shape (n,)."""
@@ -345,7 +345,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
             "maximum": self.maximum_torque,
             "minimum": self.minimum_torque,
             "starting": self.starting_torque,
-            "efficiency": self.efficiency or None,  # where nothing is taken out there is none
+            "efficiency": self.efficiency or None,  # 0 without output is not an efficiency
         }
         rows = "".join(f"<tr><td>{name}</td><td>{_shown(value)}</td></tr>" for name, value in figures.items())
         turns = f"{self.span:g} turn{'' if self.span == 1 else 's'}"

@@ -1,4 +1,5 @@
-"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side (docs/torques.md, 17).
+"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side (docs/torques.md,
+17).
 
 The multiplier x of a pair is the torque that presses its driven side forward. At x >= 0 the drive flanks touch, at
 x <= 0 the coast flanks. Let tau be the ratio of the touching flank at this position. The driven side then gets x n and
@@ -84,7 +85,7 @@ class ContactLosses(ABC):
         """Return the torques per unit of the multiplier.
 
         tau   ratio of the touching flank, given by `transmission`
-        way   1 where the driver of the transmission function drives, -1 where the other side drives, 0 without relative motion
+        way   1 if the driver of the transmission function drives, -1 if the other side does, 0 without relative motion
         """
 
     def kinks(self, at: DriverState) -> Floats | None:
@@ -158,7 +159,7 @@ class ToothFriction(ContactLosses):
         f = (self.static if static else self._coefficient(sliding, at.turning)) * way
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + f * into, 1 + f * out
-            # the side that drives: a contact whose force it cannot press together locks the pair
+            # driving side: if friction exceeds the driving component of the contact force, the pair locks
             driving = np.where(way > 0, into, out)
             given = np.where(way > 0, out, into) / driving
         locks = (touching & (driving <= 0)).any(axis=0) | ((way > 0) & (touching & (given <= 0)).any(axis=0))
@@ -197,7 +198,7 @@ class PinFriction(ContactLosses):
         del transmission
         r, e = self.transmission.r, self.transmission.e
         half = np.sin(at.S / 2)
-        # rho^2 as a sum: near r = e the difference would cancel
+        # rho^2 as a sum of squares, because the difference cancels near r = e
         square = (r - e) ** 2 + 4 * r * e * half**2
         arm = r * e * np.abs(np.sin(at.S)) / square
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)

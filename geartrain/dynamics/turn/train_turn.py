@@ -1,9 +1,9 @@
 """Torque of a train over turns of its input, with the ratio and the friction of every position.
 
-A friction study repeats one run with other coefficients of friction. Motion, kinks, tables and the order of solution are
-computed once, because friction does not change the motion for given flanks. It changes which flanks touch and the power
-that is transmitted. Where torques of opposite senses meet, friction may also change the driver of a pair; then nothing
-can be reused.
+A friction study repeats one run with other coefficients of friction. Motion, kinks, tables and the order of solution
+are computed once, because friction does not change the motion for given flanks. It changes which flanks touch and the
+power that is transmitted. Where torques of opposite senses meet, friction may also change the driver of a pair; then
+nothing can be reused.
 """
 
 from __future__ import annotations
@@ -173,9 +173,8 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
         Period [turns of the input]. None if no pair that carries torque has a variable ratio or friction, so that the
         torque is constant, or if torques are unknown.
 
-    Examples
-    --------
-    A clock with identical teeth, whose friction depends on the position of the contact, repeats after a quarter of an hour:
+    Examples -------- A clock with identical teeth, whose friction depends on the position of the contact, repeats after
+    a quarter of an hour:
 
     >>> import geartrain
     >>> train = geartrain.load('''

@@ -44,8 +44,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_CELLS = 12  # cells that are looked at more closely
-_PARTS = 16  # of a cell, and then of what is left of it
+_CELLS = 12  # candidate cells in which an extreme is refined
+_PARTS = 16  # subdivisions per round of refinement
 _ROUNDS = 6
 DEFAULT_SAMPLES = 20_000
 MOST_TURNS = 1e9
@@ -77,7 +77,7 @@ def find_extreme(
             at = float(grid[np.argmax(peak), which[np.argmax(peak)]])
         rows = np.arange(len(which))
         low, high = grid[rows, np.maximum(which - 1, 0)], grid[rows, np.minimum(which + 1, _PARTS)]
-    return at, way * best + 0.0  # no negative zero
+    return at, way * best + 0.0  # avoids -0.0
 
 
 def find_torque_cycle(
@@ -95,15 +95,16 @@ def find_torque_cycle(
     on_done   callback, called with the number of positions computed since the last call
     """
     if not 0 < turns <= MOST_TURNS:
-        what, why = f"torques over {turns:g} turns", "a run goes forward"
-        raise QuestionError(Problem(what, why, f"give turns above 0, up to {MOST_TURNS:g}"))
+        what, why = f"turns = {turns:g}", "a run has a positive number of turns"
+        raise QuestionError(Problem(what, why, f"pass turns above 0, up to {MOST_TURNS:g}"))
     if samples < 2:
         raise QuestionError(
-            Problem(f"{samples} positions of the input", "from one to the next it turns", "give 2 or more")
+            Problem(f"samples = {samples}", "at least two positions of the input are needed", "pass samples >= 2")
         )
     if of is not None and of in setting.case.loads:
         why = f"'{of}' carries a load of {setting.case.loads[of]}"
-        raise QuestionError(Problem(f"the torque at '{of}' is asked for", why, "ask at a link without a load"))
+        fix = "request the torque at a link without a load"
+        raise QuestionError(Problem(f"the torque at '{of}' is requested, but it is known", why, fix))
     train = find_turn_balance(setting, problem, of)
     if isinstance(train, TorqueVerdict):
         return TorqueCycle(setting.case.state, train, of or "")
@@ -124,7 +125,7 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
     if isinstance(question, TorqueVerdict):
         return question
     if not question.requested.enough:
-        text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
+        text = "fewer torques are unknown than the train has degrees of freedom: the loads cannot balance at every position"
         return question.requested.undecided or TorqueVerdict("undecided", text)
     return build_turn_balance(setting, problem, question)
 
@@ -134,7 +135,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     bearings, frame = find_bearings(setting), setting.train.frame
     known = dict(question.loads)
     for link, friction in bearings.items():
-        # only whether something acts there counts, whichever way it turns; it may not cancel a load by chance
+        # only the presence of friction matters here; the odd factor prevents it from cancelling a load by chance
         for end in (link, setting.tree.parent[link][0]):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
@@ -243,31 +244,38 @@ class _Answer:
             train.setting, tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
         )
         if links := dragging_links(train.setting):
-            why = "it is by speed, and torques or speeds are plain numbers: give `rate` or inputs a unit, and loads"
+            why = (
+                "it depends on speed, and torques or speeds have no units: give `rate` or the inputs a unit, and the "
+                "loads too"
+            )
             found += (NeglectedEffect("viscous drag", links, why),)
         if share := self.run.share(self.run.found.adrift):
             why = (
-                f"over {share:.2%} of the run a link would turn back on drive flanks and forward on coast flanks; "
-                "it is taken to rest in its play there and to ask for nothing: how far within it stands is not followed"
+                f"over {share:.2%} of the run a link would turn backwards on drive flanks and forwards on coast "
+                "flanks; it is assumed to rest within its backlash and to need no torque, and its position there is "
+                "not computed"
             )
-            found += (NeglectedEffect("rest within the play", train.flanked, why),)
+            found += (NeglectedEffect("rest within the backlash", train.flanked, why),)
         return found
 
     def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
         requested = ", ".join(self.run.train.requested)
         if locked:
-            text = f"no torque on {requested} balances over {locked:.4%} of the run: the train locks there"
+            text = f"no torque on {requested} balances the loads over {locked:.4%} of the run: the train locks there"
             return TorqueVerdict("self-locking", text)
         if shared := self.run.train.shared:
-            text = f"how {', '.join(shared)} share their load is not determined: redundant pairs; `share` declares it"
-            return TorqueVerdict("indeterminate", f"{text}; the least torques that balance are given", shared)
+            text = (
+                f"how {', '.join(shared)} share their load is not determined: they are redundant, and `share` is not "
+                "declared"
+            )
+            return TorqueVerdict("indeterminate", f"{text}; the minimum-norm torques are given", shared)
         if ambiguous:
             text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
-            return TorqueVerdict("ambiguous", f"{text}; the one that loses least is given")
+            return TorqueVerdict("ambiguous", f"{text}; the one with minimum loss is given")
         if left_out:
             what = ", ".join(map(str, left_out))
-            return TorqueVerdict("incomplete", f"the torque of every position follows, but for {what}")
-        return TorqueVerdict("determined", "the torque of every position follows")
+            return TorqueVerdict("incomplete", f"the torque at every position is determined; not included: {what}")
+        return TorqueVerdict("determined", "the torque at every position is determined")
 
     def _place(self, turns: float) -> PlaceInRun:
         train = self.run.train.setting.train

@@ -27,14 +27,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.numerics.block_triangular import Block
 
-MOST_TRIED = 7  # two-sided torques of a block whose patterns are all tried: 128 small solutions a position
-_MOST_ROUNDS = 30  # of the iteration where there are more
-_MOST_LAYERS = 16  # solutions kept a position
-SINGULAR = 1e-13  # of the product of its rows' lengths: a determinant so small is 0
-SAME = 1e-8  # of the greatest torque: solutions so near are one
-AT_REST = 1e-12  # of the fastest speed: slower stands still
-FAINT = 1e-9  # of the greatest torque through a pair: less presses on no flank
-ROUNDS = 6  # of finding flanks and speeds that agree
+MOST_TRIED = 7  # two-sided torques of a block with exhaustive enumeration: 2^7 small systems per position
+_MOST_ROUNDS = 30  # maximum iterations for blocks with more two-sided torques
+_MOST_LAYERS = 16  # maximum number of solutions kept per position
+SINGULAR = 1e-13  # of the product of the row norms (Hadamard's bound): a smaller determinant counts as 0
+SAME = 1e-8  # of the maximum torque: solutions closer than this are equal
+AT_REST = 1e-12  # of the maximum speed: slower links are at rest
+FAINT = 1e-9  # of the maximum torque through a pair: smaller torques do not press on a flank
+ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 
 
 @dataclass(frozen=True)
@@ -228,7 +228,7 @@ def _take(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: B
             layer.rows[row, where] += piece[where] * value[where]
 
 
-_CHUNK = 8192  # positions worked on at once
+_CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
@@ -356,8 +356,9 @@ class TurnBalance:
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
         """Solve with the drive flanks touching, then repeat the positions where other flanks touch.
 
-        If a link would turn backwards on its drive flanks and forwards on its coast flanks, it rests in the backlash between
-        them, and its bearing needs no torque. If no choice of flanks agrees even then, the result with drive flanks is kept.
+        If a link would turn backwards on its drive flanks and forwards on its coast flanks, it rests in the backlash
+        between them, and its bearing needs no torque. If no choice of flanks agrees even then, the result with drive
+        flanks is kept.
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
@@ -481,8 +482,8 @@ class TurnBalance:
     def beside_lead(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
         """Relation of each pair to the first pair of its column.
 
-        It is True if both name their links in the same order, and has the signs of its two torques relative to those of the
-        first pair.
+        It is True if both name their links in the same order, and has the signs of its two torques relative to those of
+        the first pair.
         """
         found = {}
         for lead, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
@@ -497,7 +498,7 @@ class TurnBalance:
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
-        """Pick, at each position, the solution with minimum power input (`way` 1) or maximum power input (-1)."""
+        """Pick the solution with minimum power input (`way` 1) or maximum power input (-1) at each position."""
         if len(layers) == 1:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]

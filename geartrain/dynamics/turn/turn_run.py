@@ -1,9 +1,9 @@
 """Run over several turns: positions at which torques are computed, chosen so that integrals are accurate.
 
 The run is divided into cells at even steps and at both sides of every kink. Each cell has three more positions inside.
-Torques are smooth within a cell, and Boole's rule integrates them. A cell ends where a transmission function has a kink,
-a motion reverses or the touching flank changes; the two one-sided limits there are two positions. A cell is bisected
-while halving it changes the result of Simpson's rule.
+Torques are smooth within a cell, and Boole's rule integrates them. A cell ends where a transmission function has a
+kink, a motion reverses or the touching flank changes; the two one-sided limits there are two positions. A cell is
+bisected while halving it changes the result of Simpson's rule.
 """
 
 from __future__ import annotations
@@ -26,19 +26,21 @@ NODES = 5
 """Positions per cell: its ends, its middle, and the middles of its halves."""
 
 _BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90
-_HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180  # Simpson's rule on both halves less that on the whole, over 15
-_ASIDE = 1e-10  # of the narrowest period: how far from a corner its two limits are taken
-_LAST_PLACES = 16  # units in the last place of the run's end: positions nearer than that are one
-_PARTS = 16  # of what is left of a cell in which something changes its sign
+# error estimate: Simpson's rule on both halves less that on the whole, over 15 (Richardson extrapolation)
+_HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180
+_ASIDE = 1e-10  # of the shortest period: distance from a kink at which its one-sided limits are taken
+_LAST_PLACES = 16  # units in the last place of the run's end: closer positions are not distinct
+_PARTS = 16  # subdivisions per round of the search for a sign change in a cell
 _MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4
-_EFFORT = 20_000  # positions that may be asked for in one search of kinks, unless there are many
-_PROBES = 300  # positions at which it is asked which flanks touch
-_MOST_SETS = 3  # sets of coast flanks that touch at once, whose corners are looked for
-_ROUNDS = 3  # of looking for kinks: those of one cell come one after another
-_ACCURACY, _ROUNDING = 1e-8, 1e-13  # of all energy, spread evenly over the run, and what a cell may be off by at least
-_DEPTH = 13  # cuts of a cell one after another
-_MOST_TIMES = 12  # as many positions as at first: the rest stays as coarse as it is
-_NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cells, and places
+_EFFORT = 20_000  # target for the positions evaluated in one search for kinks
+_PROBES = 300  # positions at which the touching flanks are determined first
+_MOST_SETS = 3  # most frequent sets of touching coast flanks, whose kinks are searched
+_ROUNDS = 3  # rounds of the search for kinks: each round finds one kink per cell
+# tolerance relative to the total energy: distributed evenly over the run, and the rounding error allowed in any cell
+_ACCURACY, _ROUNDING = 1e-8, 1e-13
+_DEPTH = 13  # maximum depth of bisection
+_MOST_TIMES = 12  # refinement stops when this multiple of the initial positions is exceeded
+_NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cell indices and places
 FAINT = 1e-9
 """Fraction of the maximum torque or power of a run below which a value has no sign."""
 
@@ -123,23 +125,23 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
     """
     turns = cells.requested
     changed = (signs[:, 1:] != signs[:, :-1]).any(axis=0) & (np.diff(turns) > 0)
-    # over the break between two cells nothing new is to be found
+    # a change across the boundary between two cells is already a boundary
     changed[NODES - 1 :: NODES] = False
     at = np.flatnonzero(changed)
     if not len(at):
         return at, np.zeros(0)
     low, high, first = turns[at], turns[at + 1], signs[:, at]
-    # few calls with many positions: each call asks every law, whatever the number of positions
+    # few calls with many positions, because each call has the overhead of all transmission functions
     rounds = int(np.clip(_EFFORT // (len(at) * _PARTS), _FEWEST_ROUNDS, _MOST_ROUNDS))
     for _ in range(rounds):
         inner = low[:, None] + (high - low)[:, None] * (np.arange(1, _PARTS) / _PARTS)
         same = (signs_at(inner.ravel()).reshape(len(signs), *inner.shape) == first[:, :, None]).all(axis=0)
-        # the part in which the first change lies
+        # the subdivision with the first change
         part = np.where(same.all(axis=1), _PARTS - 1, np.argmin(same, axis=1))
         width = (high - low) / _PARTS
         low, high = low + part * width, low + (part + 1) * width
     places, cell = (low + high) / 2, at // NODES
-    # a hair from an end of the cell, or from another kink, nothing is to be gained
+    # a cut this close to an end of the cell or to another kink would give an empty cell
     apart = np.minimum(places - cells.low[cell], cells.high[cell] - places) > 4 * cells.aside
     apart &= np.append(True, (np.diff(places) > 4 * cells.aside) | (np.diff(cell) > 0))
     return cell[apart], places[apart]

@@ -64,7 +64,7 @@ def find_odd_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
 
 def not_cut(wheel: str, problem: Problem) -> Problem:
     """Return the reason why a wheel is not cut, with the wheel's name."""
-    return replace(problem, what=f"wheel '{wheel}' cannot be cut: {problem.what}")
+    return replace(problem, what=f"wheel '{wheel}' is not cut: {problem.what}")
 
 
 def _places(declared: Train) -> Mapping[str, _Place]:

@@ -144,8 +144,7 @@ class CompositionArrays(NamedTuple):
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
-    """Return the arrays of a composition, or None if a transmission function has no table or several pairs are coupled.
-    """
+    """Return the arrays of a composition, or None if a transmission function has no table or several pairs are coupled."""
     transmissions: list[TransmissionTable | None] = []
     gains: list[float] = []
     for step in composition.steps:

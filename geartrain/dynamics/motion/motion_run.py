@@ -100,8 +100,7 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period, with the phase of the run.
-    """
+    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period, with the phase of the run."""
     source = superposed.sources[at]
     u = np.arange(_SAMPLES) / _SAMPLES
     shift = source.start + superposed.lags[at]
@@ -136,8 +135,7 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Measure the amplitudes of the composed errors, (outputs, orders), with a Hann window unless the run is periodic.
-    """
+    """Measure the amplitudes of the composed errors, (outputs, orders), with a Hann window unless the run is periodic."""
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
     centre, weights = np.zeros(len(motion.outputs)), 0.0

@@ -127,8 +127,7 @@ def error_difference(one: ErrorSamples, other: ErrorSamples) -> ErrorSamples:
 
 
 class StepBounds(NamedTuple):
-    """Errors and rates of outputs over steps, (outputs, n): values at the ends, and bounds on the rates between them.
-    """
+    """Errors and rates of outputs over steps, (outputs, n): values at the ends, and bounds on the rates between them."""
 
     low: ErrorSamples
     high: ErrorSamples

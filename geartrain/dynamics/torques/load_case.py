@@ -35,8 +35,7 @@ class VirtualMotion:
 
 
 def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
-    """Return the speed of every link as a linear form of the free speeds, with prescribed terms in column `PRESCRIBED`.
-    """
+    """Return the speed of every link as a linear form of the free speeds, with prescribed terms in column `PRESCRIBED`."""
     return _forms(system.links, system.equations)
 
 

@@ -297,8 +297,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output over energy input in the run; None if the train locks or the net energy input is not positive.
-        """
+        """Energy output over energy input in the run; None if the train locks or the net energy input is not positive."""
         return None if self.energy is None else self.energy.efficiency
 
     @property

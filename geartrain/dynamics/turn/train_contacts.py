@@ -133,8 +133,7 @@ class BasicEfficiency(ContactLosses):
 
 @dataclass(frozen=True)
 class ToothFriction(ContactLosses):
-    """Friction of real teeth: each contact transmits (1 + f out)/(1 + f into), with f < 0 where its flanks slide back.
-    """
+    """Friction of real teeth: each contact transmits (1 + f out)/(1 + f into), with f < 0 where its flanks slide back."""
 
     sliding: float | Callable[[Floats, Floats], Floats]
     """Coefficient of sliding friction: a number, or a function of two speeds.

@@ -125,7 +125,7 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
     if isinstance(question, TorqueVerdict):
         return question
     if not question.requested.enough:
-        text = "fewer torques are unknown than the train has degrees of freedom: the loads cannot balance at every position"
+        text = "fewer torques are unknown than the train has degrees of freedom: loads cannot balance everywhere"
         return question.requested.undecided or TorqueVerdict("undecided", text)
     return build_turn_balance(setting, problem, question)
 

@@ -232,8 +232,7 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at some positions; the last axis has length n. Powers and losses are divided by the speed of the input.
-    """
+    """Torques at some positions; the last axis has length n. Powers and losses are divided by the speed of the input."""
 
     turns: Floats
     """Turns of the input."""
@@ -439,8 +438,7 @@ class TurnBalance:
         return layers
 
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
-        """Return the friction torques of a bearing on its link and on the bearing's carrier, each about its own axis.
-        """
+        """Return the friction torques of a bearing on its link and on the bearing's carrier, each about its own axis."""
         carrier, setting = self.setting.tree.parent[link][0], self.setting
         speed = self._speed(state.motion, link, carrier)
         torque = np.sign(speed) * self._rubbing(state, link, speed)

@@ -93,8 +93,9 @@ class CompositionOrder(NamedTuple):
     from_known_start: Ints
     from_known: Floats
     sources: Ints
-    """Index of the first source of each step, and one past the last source. Coefficients `from_sources`, (own, sources)
-    flat.
+    """Index of the first source of each step, and one past the last source.
+
+    Their coefficients are `from_sources`, (own, sources) flattened.
     """
     from_sources_start: Ints
     from_sources: Floats
@@ -144,7 +145,7 @@ class CompositionArrays(NamedTuple):
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
-    """Return the arrays of a composition, or None if a transmission function has no table or several pairs are coupled."""
+    """Return the arrays of a composition, or None if a transmission function has no table or pairs are coupled."""
     transmissions: list[TransmissionTable | None] = []
     gains: list[float] = []
     for step in composition.steps:

@@ -40,8 +40,9 @@ class PairErrorSource:
     pair: int
     """Index of the pair in the error propagation."""
     driver_sense: int
-    """Sense of the driver's axis: -1 if it points against its parallels, else 1. `carrier_sense` is that of the
-    carrier.
+    """Sense of the driver's axis: -1 if it points against its parallels, else 1.
+
+    `carrier_sense` is that of the carrier.
     """
     carrier_sense: int
     cycles: Fraction
@@ -182,18 +183,14 @@ class ErrorComposition:
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
-        """Return the forward angle of a source's driver [rad], from errors of links about their own axes [rad, by
-        index].
-        """
+        """Return the forward angle of a source's driver [rad], from errors of links [rad, by index]."""
         S = phase.cycles(source.cycles) * source.transmission.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the links whose errors turn a source's driver, itself and its carrier, each with its sign: equation
-        (3).
-        """
+        """Return the two links whose errors turn a source's driver, itself and its carrier, with signs: (3)."""
         joint = self.spread.joints[source.pair]
         return (
             (joint.driver, source.forward * source.driver_sense),
@@ -280,8 +277,9 @@ class ErrorComposition:
         yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)
 
     def _driver_angle(self, at: int, angle: InputPhase, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
-        """Return the forward angle [rad] and speed of a source's driver, including current errors of links of its own
-        step.
+        """Return the forward angle [rad] and speed of a source's driver.
+
+        Links of its own step count with their current errors.
         """
         source = self.sources[at]
         S = angle.cycles(source.cycles) * source.transmission.period

@@ -53,7 +53,7 @@ class CoupledErrors:
     """Change of driver m's forward angle per radian of pair n's driven error."""
 
     def transmissions_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
-        """Return driven errors and their slopes over the drivers' angles, both signed, (pairs, n), at some positions."""
+        """Return driven errors and their slopes over the drivers' angles, both signed, (pairs, n)."""
         error, slope = np.empty_like(S), np.empty_like(S)
         for at, transmission in enumerate(self.transmissions):
             error[at], tau = transmission.picked(columns).error_and_speed(S[at])

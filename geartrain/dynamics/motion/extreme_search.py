@@ -225,8 +225,9 @@ class StepSearch:
         return found[0] if len(found) == 1 else error_difference(*found)
 
     def _peak(self, pieces: Floats, sought: tuple[int, ...]) -> tuple[int, float] | None:
-        """Return the piece, and the place on it from -1 to 1, of the maximum of polynomials; None if it is not in the
-        interior.
+        """Return the index of the highest polynomial and the place of its maximum, from -1 to 1.
+
+        The result is None if the maximum is not in the interior.
 
         pieces    (n, nodes): their values at the nodes
         """

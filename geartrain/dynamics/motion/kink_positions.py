@@ -1,5 +1,4 @@
-"""Positions of the input at which a pair passes a kink of its transmission function. All errors are smooth between
-them.
+"""Positions of the input at which pairs pass kinks. All errors are smooth between them.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
 equation (3) of docs/motion.md, which includes the errors of earlier pairs. S_m(x) = kink + a whole number of periods is

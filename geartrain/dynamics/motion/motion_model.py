@@ -58,8 +58,9 @@ class PointerCompositions:
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles added to each link at turn 0 by teeth, and by pins [rad]. They are linear, because all drivers are
-        known.
+        """Angles added to each link at turn 0 by teeth, and by pins [rad].
+
+        They are linear, because all driver angles are known.
         """
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
@@ -376,8 +377,9 @@ class Motion:
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
-        """Return the positions at which a pair that an output depends on has a kink. All errors are smooth between
-        them.
+        """Return the positions at which some pair has a kink. All errors are smooth between them.
+
+        Only pairs that an output depends on are included.
 
         A speed may jump at a kink. For its one-sided values, evaluate a little before and a little after.
 

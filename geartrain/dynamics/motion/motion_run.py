@@ -100,7 +100,10 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period, with the phase of the run."""
+    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period.
+
+    Phases are those at the start of the run.
+    """
     source = superposed.sources[at]
     u = np.arange(_SAMPLES) / _SAMPLES
     shift = source.start + superposed.lags[at]
@@ -135,7 +138,10 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Measure the amplitudes of the composed errors, (outputs, orders), with a Hann window unless the run is periodic."""
+    """Measure the amplitudes of the composed errors, (outputs, orders).
+
+    A Hann window is applied unless the run is periodic.
+    """
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
     centre, weights = np.zeros(len(motion.outputs)), 0.0
@@ -309,8 +315,7 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the columns of one stretch: turns, and angle [rad], error [rad] and speed over the input's of each
-        output.
+        """Return the columns of one stretch: turns, then angle [rad], error [rad] and speed of each output.
 
         An angle is the sum of starting angle, mean motion and error.
 

@@ -107,8 +107,7 @@ class PairErrors:
         return forward if circuit.a * circuit.b < 0 else -forward
 
     def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
-        """Yield the pairs with variable error, and the pins, with their transmission functions for one direction of the
-        input.
+        """Yield the pairs with variable error, and the pins, for one direction of the input.
 
         besides   pairs of constant ratio to include as well
         """

@@ -124,9 +124,7 @@ class PairImpacts(Result):
 
 
 def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:
-    """Return the impact energies of a pair, or None if its inertia or the jumps of its transmission function are
-    unknown.
-    """
+    """Return the impact energies of a pair, or None if its inertia or its speed jumps are unknown."""
     inertia, load, omega1 = operation.inertia, operation.load, operation.omega1
     leaps, steepest = transmission.speed_leaps(), transmission.steepest_fall()
     if inertia is None or leaps is None or steepest is None:

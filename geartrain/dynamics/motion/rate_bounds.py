@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 
 
 class RangeExtremes:
-    """Extremes over ranges of cells in constant time (sparse table), for n cyclic cells with a minimum and a maximum
-    each.
-    """
+    """Minimum and maximum over ranges of cyclic cells in constant time (sparse table)."""
 
     def __init__(self, minimum: Floats, most: Floats) -> None:
         self.count = len(minimum)
@@ -127,7 +125,7 @@ def error_difference(one: ErrorSamples, other: ErrorSamples) -> ErrorSamples:
 
 
 class StepBounds(NamedTuple):
-    """Errors and rates of outputs over steps, (outputs, n): values at the ends, and bounds on the rates between them."""
+    """Errors and rates of outputs over steps, (outputs, n): end values, and bounds on the rates between them."""
 
     low: ErrorSamples
     high: ErrorSamples

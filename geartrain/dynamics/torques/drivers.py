@@ -280,7 +280,10 @@ def _pointers(setting: LoadCase) -> UnitLoads:
 
 
 def _outer(setting: LoadCase) -> UnitLoads:
-    """Return unit loads on every output shaft in the frame. Outputs on carriers, or relative to one, are only readings."""
+    """Return unit loads on every output shaft in the frame.
+
+    Outputs on carriers, or relative to one, are only readings.
+    """
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     outer = {name for name, (of, base) in ends.items() if base == frame == setting.bearer(of)}

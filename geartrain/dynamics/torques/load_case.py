@@ -35,7 +35,7 @@ class VirtualMotion:
 
 
 def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
-    """Return the speed of every link as a linear form of the free speeds, with prescribed terms in column `PRESCRIBED`."""
+    """Return the speed of every link as a linear form of the free speeds and the column `PRESCRIBED`."""
     return _forms(system.links, system.equations)
 
 
@@ -104,9 +104,9 @@ class MeanEfficiencies:
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return forward and backward efficiency for constant torque on the first link (1), the second (-1) or neither
-        (0).
+        """Return forward and backward efficiency, depending on which torque is constant.
 
+        side      1 for the torque of the first link, -1 for that of the second, 0 for neither
         driving   True if loads put power in; decides the case of neither
         """
         if side > 0:
@@ -203,8 +203,9 @@ class LoadCase:
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
-        """Return the link that takes the reaction of an unknown torque. Pallets react on the link that carries the
-        escape wheel.
+        """Return the link that takes the reaction of an unknown torque: usually the frame.
+
+        Pallets react on the link that carries the escape wheel.
         """
         escapement = self.train.escapement
         return self.train.frame if escapement is None or link != escapement.link else self.bearer(link)

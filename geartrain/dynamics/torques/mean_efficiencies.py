@@ -58,9 +58,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Return the efficiencies of a worm or of crossed helical gears, if helix angles and a coefficient of friction are
-    known.
-    """
+    """Return the efficiencies of a worm or of crossed helical gears, or None if angles or friction are unknown."""
     gear = setting.gears[circuit.id]
     friction = setting.train.friction_of(gear)
     if friction is None or friction.sliding is None:
@@ -117,9 +115,7 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return the constant side of each pair: 1 if the balance of its first link alone determines its torque, -1 if the
-    second's.
-    """
+    """Return the link whose own balance determines a pair: 1 for its first link, -1 for its second, by pair."""
     found: dict[str, int] = {}
     for block in balance.parts:
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):

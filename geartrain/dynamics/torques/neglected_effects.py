@@ -252,8 +252,9 @@ def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
-    """Return the effects neglected by torques over a turn. Pins, bearings and variations are neglected only if
-    undeclared.
+    """Return the effects neglected by torques over a turn.
+
+    Friction of pins and bearings and variation within a turn are included there, as far as their data are declared.
 
     at_means   pairs with real teeth that have their mean efficiency at every position
     """

@@ -36,8 +36,9 @@ class LoadedBalance:
     loads: Mapping[str, Fraction]
     rubbing: Mapping[str, Fraction]
     enough: bool = True
-    """True if as many torques are unknown as the train has degrees of freedom. Otherwise the loads must balance by
-    themselves.
+    """True if as many torques are unknown as the train has degrees of freedom.
+
+    Otherwise the loads must balance by themselves.
     """
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
@@ -378,8 +379,9 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
-    """Return the links at which power may enter: the inputs, or the crank instead of an input of which only the speed
-    is given.
+    """Return the links at which power may enter: the inputs, and the crank if it is another link.
+
+    A crank replaces a single input, which then only prescribes the speed.
     """
     inputs, crank = tuple(setting.case.inputs), setting.train.crank
     if crank is None or crank in inputs:
@@ -388,8 +390,9 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
 
 
 def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """Return a verdict on links whose axis moves, because a sum of joint speeds is not a rotation and torques do no
-    work with it.
+    """Return a verdict on links with moving axes, or None.
+
+    Their speed is a sum of joint speeds, which is not a rotation, so a torque has no unique power.
     """
     sums = setting.axes.joint_sums
     for link in links:
@@ -440,8 +443,9 @@ def _balanced(
 
 
 def _with_reason(requested: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Combine two verdicts: which torque could be requested, and what fails without it. Omit the first if it cannot
-    help.
+    """Combine two verdicts: which torque could be requested, and what fails without it.
+
+    The first is omitted if no further torque could help.
     """
     if requested.undecided is None:
         return lacking
@@ -565,8 +569,9 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 
 
 def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Return brakes and locks with their torques: about the link's own axis, and for a lock the reaction on the second
-    link.
+    """Return brakes and locks with their torques, each about the link's own axis.
+
+    A lock exerts the reaction on its second link.
     """
     solved = flow.solved
     found = []

@@ -143,8 +143,9 @@ class PairTorque(Result):
 
     @cached_property
     def power(self) -> Fraction | None:
-        """Power input of the driver in the carrier's frame [torque times the train's unit of speed]; None if
-        undetermined.
+        """Power input of the driver in the carrier's frame; None if undetermined.
+
+        It is a torque times the train's unit of speed.
         """
         # computed on demand, because both factors have many digits in a long train
         if self.rolling is None:
@@ -388,8 +389,9 @@ class Torques(FrozenFields, Tabular, Result):
 
     @property
     def circulating(self) -> Fraction | None:
-        """Maximum power through a pair over the power input. Above 1 power recirculates. None if a power is
-        undetermined.
+        """Maximum power through a pair over the power input; None if a power is undetermined.
+
+        Power recirculates if it exceeds 1.
         """
         powers = [None if pair.loose else pair.power for pair in self.pairs.values()]
         known = [power for power in powers if power is not None]

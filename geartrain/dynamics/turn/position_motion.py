@@ -124,7 +124,7 @@ class PositionMotion:
 
     @property
     def way(self) -> int:
-        """Sign of the input's motion: -1 if it turns backwards about its own axis. Motion counts in the input's sense."""
+        """Sign of the input's speed about its own axis. Motion counts in the input's sense."""
         return self.motion.train.way
 
     @cached_property

@@ -34,8 +34,9 @@ class TorqueExtreme(NamedTuple):
 
 
 class CycleFigures(NamedTuple):
-    """Figures of a run for tolerance trials: mean, maximum and starting torque, and efficiency. Unknown figures are
-    None.
+    """Figures of a run for tolerance trials: mean, maximum and starting torque, and efficiency.
+
+    Figures that do not exist are None.
 
     See Also
     --------
@@ -254,9 +255,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each position: turns of the input, and the torques at the link of the attributes so
-        named.
-        """
+        """Table with a row for each position: `turns`, `torque`, `highest` and `standing`."""
         names = ("turns", "torque", "highest", "standing")
         return {name: getattr(self, name).tolist() for name in names}
 
@@ -297,7 +296,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output over energy input in the run; None if the train locks or the net energy input is not positive."""
+        """Energy output over energy input in the run; None if the train locks or has no net energy input."""
         return None if self.energy is None else self.energy.efficiency
 
     @property

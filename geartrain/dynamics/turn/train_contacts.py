@@ -1,5 +1,6 @@
-"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side (docs/torques.md,
-17).
+"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side.
+
+They follow section 17 of docs/torques.md.
 
 The multiplier x of a pair is the torque that presses its driven side forward. At x >= 0 the drive flanks touch, at
 x <= 0 the coast flanks. Let tau be the ratio of the touching flank at this position. The driven side then gets x n and
@@ -35,9 +36,7 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques per unit of the multiplier, shape (n,) each, in the forward senses: on the driven side, and from the
-    driver.
-    """
+    """Torques per unit of the multiplier, (n,) each: on the driven side, and from the driver, in forward senses."""
 
     driven: Floats
     driver: Floats
@@ -46,9 +45,7 @@ class ContactTorques(NamedTuple):
 
 
 class PairForce(NamedTuple):
-    """Torques on the first and second link of a circuit per unit of the multiplier, about the parallels' direction,
-    (n,).
-    """
+    """Torques on both links of a circuit per unit of the multiplier, about the parallels' direction, (n,)."""
 
     first: Floats
     second: Floats
@@ -89,9 +86,7 @@ class ContactLosses(ABC):
         """
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values whose sign changes where torques have kinks that the transmission function has not; None by
-        default.
-        """
+        """Return values whose sign changes at kinks of torques that are not kinks of the ratio; None by default."""
         del at
         return None
 
@@ -133,7 +128,7 @@ class BasicEfficiency(ContactLosses):
 
 @dataclass(frozen=True)
 class ToothFriction(ContactLosses):
-    """Friction of real teeth: each contact transmits (1 + f out)/(1 + f into), with f < 0 where its flanks slide back."""
+    """Friction of real teeth: each contact transmits (1 + f out)/(1 + f into), f < 0 where flanks slide back."""
 
     sliding: float | Callable[[Floats, Floats], Floats]
     """Coefficient of sliding friction: a number, or a function of two speeds.

@@ -118,8 +118,9 @@ def tell_run(run: TurnRun, of: str | None) -> TorqueCycle:
 
 
 def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
-    """Return the balance of a train at any positions, or the verdict if there is none. `of` is the link of unknown
-    torque.
+    """Return the balance of a train for any positions, or the verdict if it has none.
+
+    of   link of unknown torque, by default that of the declaration
     """
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):

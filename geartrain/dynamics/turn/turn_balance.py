@@ -232,7 +232,7 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at some positions; the last axis has length n. Powers and losses are divided by the speed of the input."""
+    """Torques at some positions; the last axis has length n. Powers and losses are over the speed of the input."""
 
     turns: Floats
     """Turns of the input."""
@@ -412,8 +412,9 @@ class TurnBalance:
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def outside_speeds(self, speeds: Floats) -> Floats:
-        """Return speeds of the links with external torques, about their own axes, relative to the reacting links,
-        (outside, n).
+        """Return speeds of the links with external torques relative to the reacting links, (outside, n).
+
+        They are about the links' own axes.
         """
         setting, row = self.setting, self.motion.links
         bases = [setting.reacts_on(link) if link in self.requested else setting.train.frame for link in self.outside]
@@ -438,7 +439,7 @@ class TurnBalance:
         return layers
 
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
-        """Return the friction torques of a bearing on its link and on the bearing's carrier, each about its own axis."""
+        """Return the friction torques of a bearing on its link and on its carrier, each about its own axis."""
         carrier, setting = self.setting.tree.parent[link][0], self.setting
         speed = self._speed(state.motion, link, carrier)
         torque = np.sign(speed) * self._rubbing(state, link, speed)

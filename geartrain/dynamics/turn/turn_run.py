@@ -74,8 +74,9 @@ class RunCells:
         return found
 
     def roughness(self, values: Floats) -> Floats:
-        """Return the estimated error of Simpson's rule on the halves of each cell, (cells,), from values at its
-        positions.
+        """Return the estimated error of Simpson's rule on the halves of each cell, (cells,).
+
+        values   at the positions of the cells
         """
         found: Floats = np.abs(values.reshape(-1, NODES) @ _HALVED) * (self.high - self.low)
         return found
@@ -157,9 +158,7 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks of transmission functions, with drive flanks and with the most frequent sets of coast
-        flanks.
-        """
+        """Positions of kinks of transmission functions, for the most frequent sets of touching coast flanks."""
         train = self.train
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
         sets = {frozenset[str](): 0}
@@ -203,9 +202,7 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return where cells are divided: at their kinks, and in the middle if too wide. Arrays of cell indices and
-        places.
-        """
+        """Return where to divide cells, as cell indices and places: at kinks, and in the middle if too wide."""
         if depth == _DEPTH:
             return _NONE
         kinks, places = _NONE

@@ -139,14 +139,14 @@ class ErrorComposition:
         """Order of solution, without links that have no error and without links on which no output depends."""
         wanted = {link for seen in self.outputs for link in (seen.of, seen.base)}
         kept = []
-        for step in reversed(self._lively):
+        for step in reversed(self._steps_with_errors):
             if wanted.intersection(step.links):
                 wanted.update(step.known, *(self._ends(source) for source in step.sources))
                 kept.append(step)
         return tuple(reversed(kept))
 
     @cached_property
-    def _lively(self) -> tuple[CompositionStep, ...]:
+    def _steps_with_errors(self) -> tuple[CompositionStep, ...]:
         """Order of solution, without links that have no error."""
         of_pair = {source.pair: at for at, source in enumerate(self.sources)}
         lively: set[int] = set()

@@ -35,7 +35,7 @@ _FEW = 1024  # steps that are cut at kinks without further division
 _MINIMUM_DIVISIONS, _MOST_DIVISIONS = 2, 16
 _BATCH = 4096  # steps cut at kinks at once
 _BATCHES = 16
-_MOST_CORNERS = 200_000  # maximum number of kinks in a batch
+_MOST_KINKS = 200_000  # maximum number of kinks in a batch
 _SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
 _ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
 _NODES, _TO_SERIES = points(8)  # Chebyshev nodes on a smooth piece, and the matrix from values to coefficients
@@ -102,7 +102,7 @@ class StepSearch:
         self._parts = parts
         self._most_wide = int(_MOST_WIDE * share)
         self._bounds = tuple(RateBounds(part) for part in parts)
-        self._corners = tuple(KinkSearch(part) for part in parts)
+        self._kink_searches = tuple(KinkSearch(part) for part in parts)
         self.chunk = min(bounds.chunk for bounds in self._bounds)
         self.values = np.full((len(parts[0].outputs), 4), -np.inf)
         self.dropped = self.values.copy()
@@ -111,12 +111,12 @@ class StepSearch:
     @cached_property
     def step(self) -> float:
         """Turns of the input that are narrow for every transmission function."""
-        return min(corners.step for corners in self._corners)
+        return min(kinks.step for kinks in self._kink_searches)
 
     @cached_property
     def _rate(self) -> float:
         """Mean number of kinks per turn of the input."""
-        return sum(corners.rate for corners in self._corners)
+        return sum(kinks.rate for kinks in self._kink_searches)
 
     @property
     def tolerance(self) -> Floats:
@@ -137,11 +137,11 @@ class StepSearch:
             before, left = left.number, self._searched(_divided(left.steps, self.chunk))
         for _ in range(_BATCHES):
             # a wide step has too many kinks to list
-            size = min(_BATCH, int(_MOST_CORNERS / max(self._rate * left.width, 1.0)))
+            size = min(_BATCH, int(_MOST_KINKS / max(self._rate * left.width, 1.0)))
             if not left.number or not size:
                 break
-            self._cut_at_corners(left.chosen(slice(size)).steps)
-            left = self._worth_while(left.chosen(slice(size, None)))
+            self._cut_at_kinks(left.chosen(slice(size)).steps)
+            left = self._promising(left.chosen(slice(size, None)))
         self._drop(left)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
@@ -149,12 +149,12 @@ class StepSearch:
         width = min(step, self.step)
         low = np.unique(np.clip(turns - width, start, end))
         high = np.minimum(low + 2 * width, np.append(low[1:], end))
-        self._cut_at_corners(InputSteps(low[high > low], high[high > low]))
+        self._cut_at_kinks(InputSteps(low[high > low], high[high > low]))
 
     def _searched(self, steps: Iterator[InputSteps]) -> BoundedSteps:
         """Return the steps that may contain an extreme, in order of their bounds, up to a maximum number."""
-        parts = [self._worth_while(self.bounded(part)) for part in steps]
-        left = self._worth_while(BoundedSteps.joined(parts))
+        parts = [self._promising(self.bounded(part)) for part in steps]
+        left = self._promising(BoundedSteps.joined(parts))
         most = min(_MOST_LEFT, _NUMBERS // (4 * len(self.values))) if left.width <= self.step else self._most_wide
         self._drop(left.chosen(slice(most, None)))
         return left.chosen(slice(most))
@@ -171,7 +171,7 @@ class StepSearch:
         # the error is undefined where no teeth touch
         return BoundedSteps(steps, np.where(np.isnan(above), -np.inf, above))
 
-    def _worth_while(self, given: BoundedSteps) -> BoundedSteps:
+    def _promising(self, given: BoundedSteps) -> BoundedSteps:
         """Return the steps that may exceed the values found, largest bounds first."""
         excess = (given.above - self.values[:, :, None]) / self.tolerance[:, :, None]
         most = excess.max(axis=(0, 1), initial=-np.inf)
@@ -191,12 +191,12 @@ class StepSearch:
 
     # --------------------------------------------------------------------------------------------------- smooth pieces
 
-    def _cut_at_corners(self, steps: InputSteps) -> None:
+    def _cut_at_kinks(self, steps: InputSteps) -> None:
         """Include the extremes within disjoint steps, piece by piece between kinks."""
         order = np.argsort(steps.low)
         low, high = steps.low[order], steps.high[order]
-        corners = [search.between(InputSteps(low, high)).turns for search in self._corners]
-        edges = np.unique(np.concatenate([low, high, *corners]))
+        kinks = [search.between(InputSteps(low, high)).turns for search in self._kink_searches]
+        edges = np.unique(np.concatenate([low, high, *kinks]))
         middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
         within = np.maximum(np.searchsorted(low, middle) - 1, 0)
         beside = np.maximum(_BESIDE * (high - low)[within], _ULPS * np.spacing(np.abs(middle)))
@@ -290,9 +290,9 @@ class ExtremeSearch:
         """Groups of outputs that depend on the same pairs, by index, with their compositions."""
         found: dict[frozenset[int], list[int]] = {}
         for at in range(len(self.values)):
-            pairs = (source.pair for part in self._parts for source in _alone(part, (at,)).used)
+            pairs = (source.pair for part in self._parts for source in _restricted(part, (at,)).used)
             found.setdefault(frozenset(pairs), []).append(at)
-        return {tuple(each): tuple(_alone(part, each) for part in self._parts) for each in found.values()}
+        return {tuple(each): tuple(_restricted(part, each) for part in self._parts) for each in found.values()}
 
     def over(self, start: float, end: float) -> None:
         """Search from one position of the input to a later one."""
@@ -336,7 +336,7 @@ class ExtremeSearch:
             yield InputSteps(ends[:-1], ends[1:])
 
 
-def _alone(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
+def _restricted(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
     """Return a composition restricted to some of its outputs."""
     seen = tuple(composition.outputs[at] for at in outputs)
     offsets = tuple(composition.offsets[at] for at in outputs) if composition.offsets else ()

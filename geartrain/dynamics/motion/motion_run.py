@@ -167,7 +167,7 @@ MOST_TURNS = 10**12
 """Maximum number of turns. Beyond it, positions in float64 do not resolve the teeth of one turn."""
 
 
-def _untold(_: int) -> None:
+def _ignore(_: int) -> None:
     pass
 
 
@@ -240,7 +240,7 @@ class MotionRun(Tabular, Pictured):
             "fastest": [each.fast for each in self.tallies],
         }
 
-    def go(self, on_done: OnDone = _untold) -> None:
+    def go(self, on_done: OnDone = _ignore) -> None:
         """Evaluate every position, and search for the extremes between them.
 
         Parameters
@@ -267,7 +267,7 @@ class MotionRun(Tabular, Pictured):
         count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.tallies)
         self.reversing_drivers |= search.reversing_drivers
 
-    def try_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
+    def try_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
         """Repeat the run with random phases of the pairs that declare none.
 
         Parameters
@@ -288,7 +288,7 @@ class MotionRun(Tabular, Pictured):
             other.go(on_done)
             self.phased.append(other.tallies)
 
-    def estimate(self, on_done: OnDone = _untold) -> None:
+    def estimate(self, on_done: OnDone = _ignore) -> None:
         """Compute the fast estimates, with their true error.
 
         Parameters
@@ -298,7 +298,7 @@ class MotionRun(Tabular, Pictured):
         """
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
-    def analyse(self, on_done: OnDone = _untold) -> None:
+    def analyse(self, on_done: OnDone = _ignore) -> None:
         """Compute the spectra by exact order.
 
         Parameters

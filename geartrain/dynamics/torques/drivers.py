@@ -88,9 +88,9 @@ class _InfluenceSolver:
         self.found: dict[str, LoadInfluence] = {}
 
     def _start(self) -> None:
-        self.takers: dict[int, LoadGroup] = {}
+        self.groups: dict[int, LoadGroup] = {}
         self.rows: dict[int, LinearForm] = {row: {} for row in self.balance.rows}
-        self.holders: dict[int, set[int]] = {}
+        self.holding_rows: dict[int, set[int]] = {}
         at = {link: row for row, link in enumerate(self.balance.links)}
         for name in sorted(self.loads):
             symbol = self._symbol(LoadGroup(1, (name,)))
@@ -98,17 +98,17 @@ class _InfluenceSolver:
                 if at.get(link) in self.rows:
                     self._add(at[link], {symbol: torque}, 1)
 
-    def _symbol(self, taker: LoadGroup) -> int:
-        symbol = -1 - len(self.takers)
-        self.takers[symbol] = taker
-        self.holders[symbol] = set()
+    def _symbol(self, group: LoadGroup) -> int:
+        symbol = -1 - len(self.groups)
+        self.groups[symbol] = group
+        self.holding_rows[symbol] = set()
         return symbol
 
     def _add(self, row: int, form: LinearForm, factor: Fraction | int) -> None:
         own = self.rows[row]
         add_into(own, form, factor)
         for symbol in form:
-            (self.holders[symbol].add if symbol in own else self.holders[symbol].discard)(row)
+            (self.holding_rows[symbol].add if symbol in own else self.holding_rows[symbol].discard)(row)
 
     def go(self) -> bool:
         """Solve block by block, or all at once if a block leaves open what a later one may need."""
@@ -139,7 +139,7 @@ class _InfluenceSolver:
         known = {row: self.rows.pop(row) for row in block.rows}
         for row, form in known.items():
             for symbol in form:
-                self.holders[symbol].discard(row)
+                self.holding_rows[symbol].discard(row)
         found = solve_block(self.balance.columns, block, dict.fromkeys(block.columns, 0), known)
         if found is None or len(block.rows) > 1 or len(block.columns) > 1:
             return found
@@ -148,14 +148,14 @@ class _InfluenceSolver:
     def _merged(self, form: LinearForm) -> LinearForm:
         """Replace loads of one sign by a single symbol, if they are not needed separately elsewhere."""
         signs = {value > 0 for value in form.values()}
-        if len(signs) != 1 or any(self.holders[symbol] for symbol in form):
+        if len(signs) != 1 or any(self.holding_rows[symbol] for symbol in form):
             return form
         return {self._symbol(self._sum(form)): Fraction(1 if signs.pop() else -1)}
 
     def _sum(self, symbols: Sequence[int] | LinearForm) -> LoadGroup:
         found = NOTHING
         for symbol in symbols:
-            found = found.joined(self.takers[symbol])
+            found = found.joined(self.groups[symbol])
         return found
 
     def _take(self, at: int, form: LinearForm | None) -> None:
@@ -207,7 +207,7 @@ def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[s
     """Return the drivers without known speeds: only declared drivers are certain."""
     declared = _declared(train)
     text = f"undetermined: {why}"
-    return {each.id: declared.get(each.id) or MeshDriver(_lesser(train, each), text, False) for each in circuits}
+    return {each.id: declared.get(each.id) or MeshDriver(_assumed_driver(train, each), text, False) for each in circuits}
 
 
 def _declared(train: Train) -> dict[str, MeshDriver]:
@@ -229,7 +229,7 @@ class _Drivers:
         if name not in self._idle and name in self._loaded:
             return self._loaded[name]
         source = " and ".join(sorted(power_inputs(self.setting)))
-        return _judged(self.setting, self.circuits[name], self._ways.get(name, FlowDirections()), source)
+        return _driver_of(self.setting, self.circuits[name], self._ways.get(name, FlowDirections()), source)
 
     @cached_property
     def _idle(self) -> Collection[str]:
@@ -267,7 +267,7 @@ def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirection
         left = {name for name in wanted if name not in found}
         if not left or not (resisting := loads(setting)):
             continue
-        found |= {name: way._replace(note=note) for name, way in _weighed(setting, resisting).items()
+        found |= {name: way._replace(note=note) for name, way in _flow_directions(setting, resisting).items()
                   if way and name in left}  # fmt: skip
         note = f"{missed} takes power through it; " if missed else note
     return found
@@ -279,7 +279,7 @@ def _pointers(setting: LoadCase) -> UnitLoads:
     return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
 
 
-def _outer(setting: LoadCase) -> UnitLoads:
+def _output_shafts(setting: LoadCase) -> UnitLoads:
     """Return unit loads on every output shaft in the frame.
 
     Outputs on carriers, or relative to one, are only readings.
@@ -310,7 +310,7 @@ def _joints(setting: LoadCase) -> UnitLoads:
 
 _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_pointers, "no dial"),
-    (_outer, "no output shaft"),
+    (_output_shafts, "no output shaft"),
     (_outputs, "no output"),
     (_shafts, ""),
     (_joints, ""),
@@ -329,11 +329,11 @@ def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 # ----------------------------------------------------------------------------------------------------- where power goes
 
 
-def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
+def _flow_directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
     """Return the direction of power in every pair under any positive combination of loads."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting) if loads else ():
-        like = _peers(build_balance(setting, {}, requested))
+        like = _equal_planets(build_balance(setting, {}, requested))
         spread = {name: _spread(each, like) for name, each in loads.items()}
         loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
         # equal planets remain equal under equal loads; the numbers only distinguish the loaded links
@@ -357,7 +357,7 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
         yield from ((links[0], *rest) for rest in combinations(links[1:], len(inputs) - 1))
 
 
-def _peers(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
+def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
     """Return the equal planets of each planet, including itself."""
     ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
     found: dict[str, tuple[str, ...]] = {}
@@ -381,7 +381,7 @@ def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -
 # ------------------------------------------------------------------------------------------------------------- verdicts
 
 
-def _judged(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: str) -> MeshDriver:
+def _driver_of(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: str) -> MeshDriver:
     first, second = circuit.wheels
     if way.shared:
         why = "redundant pairs share the load in an unknown ratio; declare `share` or `loads`"
@@ -394,8 +394,8 @@ def _judged(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: st
         found = _open(setting, circuit, why)
         return replace(found, wheel=likely) if more < less else found
     if way:
-        taker = way.ahead if way.ahead.count else way.back
-        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flow {source} -> {taker}")
+        group = way.ahead if way.ahead.count else way.back
+        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flow {source} -> {group}")
     turn = setting.turn(circuit)
     if turn is None:
         return _open(setting, circuit, "the relative speed of its two sides is not determined")
@@ -406,10 +406,10 @@ def _judged(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: st
 
 
 def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
-    return MeshDriver(_lesser(setting.train, circuit), f"undetermined: {why}", False)
+    return MeshDriver(_assumed_driver(setting.train, circuit), f"undetermined: {why}", False)
 
 
-def _lesser(train: Train, circuit: Circuit) -> str:
+def _assumed_driver(train: Train, circuit: Circuit) -> str:
     """Return the assumed driver where it is undetermined: the wheel of fewer teeth, then by name; or the pin."""
     if circuit.kind != "gear":
         return circuit.j

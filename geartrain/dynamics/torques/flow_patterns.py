@@ -97,14 +97,14 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
     The blocks of the Dulmage-Mendelsohn decomposition are solved in order, each by enumeration of its patterns or by
     fixed-point iteration.
     """
-    found = _through(balance, balance.parts)
+    found = _solve_blocks(balance, balance.parts)
     if found is None:
-        found = _through(balance, [balance.whole])
+        found = _solve_blocks(balance, [balance.whole])
     partials, complete = found or ([], True)
     return tuple(_flow(balance, each) for each in partials), complete
 
 
-def _through(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
+def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
     """Solve the blocks in order. Return all combinations of their solutions, and whether all patterns were tried.
 
     The result is None if a block leaves a torque open that a later block may need or determine.
@@ -236,7 +236,7 @@ def _candidates(
     if len(lossy) < _FEW or len(block.rows) != len(block.columns):
         yield from every
         return
-    floats = _Floats(columns, block, known)
+    floats = _FloatBlock(columns, block, known)
     while chunk := list(islice(every, max(1, _CHUNK // len(block.rows) ** 2))):
         yield from floats.likely(chunk)
 
@@ -265,7 +265,7 @@ def _iterate(
     return None
 
 
-class _Floats:
+class _FloatBlock:
     """Square block in floating point, to filter the many patterns that contradict themselves."""
 
     def __init__(self, columns: Sequence[TorqueUnknown], block: Block, known: Mapping[int, Fraction]) -> None:

@@ -32,7 +32,7 @@ _SLACK = 1e-12  # of a speed: smaller reversals are rounding
 _NO_FORM = (
     "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
 )
-_NO_LEAD = (
+_NO_HELIX = (
     "these teeth slide along their length, and their helix angles or their friction are not known: declare the "
     "`helix_angle` of the worm, or of both wheels on crossed axes, and a constant `friction`; or an `efficiency`"
 )
@@ -51,7 +51,7 @@ class SpeedBounds:
     """Maximum magnitude of the speed, if a single pair causes its variation."""
 
     @property
-    def turns_back(self) -> bool:
+    def reverses(self) -> bool:
         """True if the bounds include speeds of both signs."""
         return self.low < -_SLACK * abs(self.high) and self.high > _SLACK * abs(self.low)
 
@@ -99,7 +99,7 @@ def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[
     found = {}
     for link in links:
         bounds = _bounds(setting, gains, added, link, setting.tree.parent[link][0])
-        if bounds.turns_back:
+        if bounds.reverses:
             found[link] = _with_mean(setting, uneven, gains, link, bounds)
     return found
 
@@ -240,7 +240,7 @@ def find_neglected_effects(
             "the value for a constant load torque is used, or for a constant driving torque where loads drive"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
-    return (*found, *_drag(setting), *_swing(setting, busy), *_inertia(setting))
+    return (*found, *_drag(setting), *_variation(setting, busy), *_inertia(setting))
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
@@ -259,7 +259,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
     at_means   pairs with real teeth that have their mean efficiency at every position
     """
     found = [
-        *_bare_pins(setting, setting.circuits),
+        *_pins_without_dimensions(setting, setting.circuits),
         *_teeth(setting, setting.circuits, all_mean_efficiencies(setting)),
         *_inertia(setting),
     ]
@@ -276,10 +276,10 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
     if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
-    yield from _bare_pins(setting, [circuit for circuit in rubbing if circuit.b])
+    yield from _pins_without_dimensions(setting, [circuit for circuit in rubbing if circuit.b])
 
 
-def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
+def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Yield friction declared on pins without dimensions."""
     couplings = setting.couplings
     rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
@@ -291,15 +291,15 @@ def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield friction declared on teeth without a form, and on worms of unknown lead."""
-    bare: dict[str, list[str]] = {_NO_FORM: [], _NO_LEAD: []}
+    """Yield friction declared on teeth without a form, and on worms of unknown helix angle."""
+    bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: []}
     for circuit in busy:
         gear = setting.gears.get(circuit.id)
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
         rubs = setting.rubs(gear) and means[circuit.id] == MeanEfficiencies()
         if rubs and setting.relative(circuit.i, circuit.carrier) != 0:
-            bare[_NO_LEAD if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
+            bare[_NO_HELIX if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
     for why, names in bare.items():
         if names:
             yield NeglectedEffect("friction of teeth", tuple(names), why)
@@ -375,7 +375,7 @@ def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
     )
 
 
-def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
+def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Yield pairs whose torques depend on their position."""
     found = []
     for circuit in busy:

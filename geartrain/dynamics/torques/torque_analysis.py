@@ -110,24 +110,24 @@ def find_torque_verdict(
 ) -> TorqueVerdict:
     """Return the verdict on flows, sorted by undetermined torques and losses. The first flow is the one given."""
     if not flows:
-        return _none(question, complete)
-    but = _but(left_out)
+        return _unbalanced(question, complete)
+    but = _neglected_note(left_out)
     if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
-        verdict = _open(flows, question)
+        verdict = _indeterminate(flows, question)
         return replace(verdict, text=verdict.text + but)
     if len(flows) > 1:
-        verdict = _several(question, flows)
+        verdict = _ambiguous(question, flows)
         return replace(verdict, text=verdict.text + but)
     sure = "" if complete else "; other patterns of power flow were not tried"
     source = "the loads" if question.loads else question.load
     free = f"; {_some(question.open)} turn freely: torques do not depend on their speeds" if question.open else ""
     return TorqueVerdict(
         "incomplete" if left_out else "determined",
-        f"every torque follows from {source}{but}{_help(question, flows[0])}{free}{sure}",
+        f"every torque follows from {source}{but}{_driving_note(question, flows[0])}{free}{sure}",
     )
 
 
-def _but(left_out: Sequence[NeglectedEffect]) -> str:
+def _neglected_note(left_out: Sequence[NeglectedEffect]) -> str:
     """Summarise the neglected effects in a few words."""
     uncounted: dict[str, list[str]] = {}
     for each in left_out:
@@ -139,7 +139,7 @@ def _but(left_out: Sequence[NeglectedEffect]) -> str:
     return " (mean over a turn)" if left_out else ""
 
 
-def _none(question: LoadedBalance, complete: bool) -> TorqueVerdict:
+def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
     """Explain why no torques balance: shares, bearings, or teeth."""
     names = question.names
     if not question.enough:
@@ -164,7 +164,7 @@ def _none(question: LoadedBalance, complete: bool) -> TorqueVerdict:
     return TorqueVerdict("self-locking", text)
 
 
-def _help(question: LoadedBalance, flow: FlowPattern) -> str:
+def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
     """Describe a load that puts power in but cannot drive the train alone."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
@@ -179,7 +179,7 @@ def _help(question: LoadedBalance, flow: FlowPattern) -> str:
     )
 
 
-def _open(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdict:
+def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdict:
     """Return the verdict on torques that redundant pairs, brakes and locks leave undetermined."""
     loose = tuple(dict.fromkeys(name for flow in flows for name in flow.solved.loose))
     links = list(flows[0].solved.open)
@@ -196,18 +196,18 @@ def _open(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdic
     return TorqueVerdict("indeterminate", text, loose)
 
 
-def _several(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
+def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
     """Return the verdict on several flows, which describes the given one and mentions the others."""
     given, *others = (question.power(flow) for flow in flows)
-    rest = " or ".join(_way(question, power, given < 0) for power in others)
+    rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
         f"{len(flows)} patterns of power flow balance {question.load}: in the one given, with minimum loss, "
-        f"{_way(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
+        f"{_describe_flow(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
     )
     return TorqueVerdict("ambiguous", text)
 
 
-def _way(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
+def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
     """Describe one flow. `resisted` is True if power leaves in the given flow."""
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -322,9 +322,9 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     requested = _requested(setting, loads, solve_for)
-    verdict = _summed(setting, (*loads, *requested.links))
+    verdict = _without_axis(setting, (*loads, *requested.links))
     if verdict is None:
-        verdict = _still(setting, requested.links)
+        verdict = _at_rest(setting, requested.links)
     return TorqueQuestion(loads, requested) if verdict is None else verdict
 
 
@@ -335,7 +335,7 @@ def torques_unknown(state: str | None) -> Torques:
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
     """Compute torques while a unit of power leaves at `load`, driven from `source`. Bearings are neglected."""
-    if (verdict := _summed(setting, (load, source))) is not None:
+    if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
         if not setting.speeds.get(link):
@@ -389,7 +389,7 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
     return (crank,) if len(inputs) == 1 else (crank, *inputs)
 
 
-def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
+def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
     """Return a verdict on links with moving axes, or None.
 
     Their speed is a sum of joint speeds, which is not a rotation, so a torque has no unique power.
@@ -402,7 +402,7 @@ def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
     return None
 
 
-def _still(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
+def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
     """Return a verdict on a requested link at rest, unless the whole train is at rest."""
     speeds = setting.speeds
     if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):

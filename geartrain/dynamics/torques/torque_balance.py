@@ -77,12 +77,12 @@ class LoadedPair:
         right = self.b * (self.forward if side > 0 else Fraction(1))
         return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
 
-    def signs_beside(self, lead: LoadedPair, alike: bool) -> tuple[int, int]:
+    def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
         """Return the signs of the torques on both links relative to those of a tied pair with the same unknown.
 
         alike   True if both name their links in the same order; a planet with reversed axis changes the sign
         """
-        led = (lead.a, lead.b) if alike else (lead.b, lead.a)
+        coefficients = (other.a, other.b) if alike else (other.b, other.a)
         first, second = (-1 if own * other < 0 else 1 for own, other in zip((self.a, self.b), led, strict=True))
         return first, second
 
@@ -235,8 +235,8 @@ class TorqueBalance:
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
     """Return a row normalised by its first entry."""
-    lead = entries[0][2] if entries else known
-    return (known / lead, *((at, side, value / lead) for at, side, value in entries))
+    scale = entries[0][2] if entries else known
+    return (known / scale, *((at, side, value / scale) for at, side, value in entries))
 
 
 def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:

@@ -109,12 +109,12 @@ def find_torque_cycle(
     if isinstance(train, TorqueVerdict):
         return TorqueCycle(setting.case.state, train, of or "")
     train.on_done = on_done
-    return tell_run(TurnRun(train, turns, samples), of)
+    return report_run(TurnRun(train, turns, samples), of)
 
 
-def tell_run(run: TurnRun, of: str | None) -> TorqueCycle:
+def report_run(run: TurnRun, of: str | None) -> TorqueCycle:
     """Return the results of a run. `of` is the link to report, by default the first with an unknown torque."""
-    return _Answer(run).told(of)
+    return _RunResults(run).cycle(of)
 
 
 def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
@@ -161,12 +161,12 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
 
 
 def find_figures(run: TurnRun, of: str | None) -> CycleFigures:
-    """Return only the figures of a run; see `tell_run`."""
-    return _Answer(run).figures(of)
+    """Return only the figures of a run; see `report_run`."""
+    return _RunResults(run).figures(of)
 
 
 @dataclass
-class _Answer:
+class _RunResults:
     """Results of a run."""
 
     run: TurnRun
@@ -199,7 +199,7 @@ class _Answer:
     def _mean(self, own: _Request) -> float:
         return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
 
-    def told(self, of: str | None) -> TorqueCycle:
+    def cycle(self, of: str | None) -> TorqueCycle:
         """Return all results of the run."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)

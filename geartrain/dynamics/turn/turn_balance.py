@@ -200,7 +200,7 @@ def _joined(
         (layer,) = layers
         layer.valid = np.zeros_like(layer.valid)
         for trial in trials:
-            _take(columns, block, trial, layer, trial.valid)
+            _write(columns, block, trial, layer, trial.valid)
         return [layer]
     found: list[BalanceLayer] = []
     for trial in trials:
@@ -209,17 +209,17 @@ def _joined(
             free = left & ~layer.valid
             if free.any():
                 layer.values[:, free], layer.rows[:, free] = trial.layer.values[:, free], trial.layer.rows[:, free]
-                _take(columns, block, trial, layer, free)
+                _write(columns, block, trial, layer, free)
                 left = left & ~free
         if left.any():
             layer = trial.layer.copy()
             layer.valid = np.zeros_like(left)
-            _take(columns, block, trial, layer, left)
+            _write(columns, block, trial, layer, left)
             found.append(layer)
     return found or [BalanceLayer(layers[0].values, layers[0].rows, np.zeros_like(layers[0].valid))]
 
 
-def _take(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
+def _write(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
     """Write a trial into a layer at some positions."""
     layer.valid |= where
     for column, side, value in zip(block.columns, trial.sides, trial.values, strict=True):
@@ -368,15 +368,15 @@ class TurnBalance:
             state = self._state(self.motion.at(turns[left], touching), resting, static)
             layers = self._solved(state)
             best = self._extreme(layers, state, 1)
-            told, found = self._told(state, layers, best), self._coasting(best)
-            told = told._replace(adrift=np.asarray(resting.any(axis=0)))
+            result, found = self._position_torques(state, layers, best), self._coasting(best)
+            result = result._replace(adrift=np.asarray(resting.any(axis=0)))
             if round_ == 0:
-                first = told
+                first = result
             changed = (found != coasting).any(axis=0)
-            converged.append((left[~changed], some(told, ~changed)))
-            turned = np.sign(told.slipping) * way < 0
+            converged.append((left[~changed], some(result, ~changed)))
+            turned = np.sign(result.slipping) * way < 0
             resting = (resting | turned if round_ > 0 else resting)[:, changed]
-            left, coasting, way = left[changed], found[:, changed], np.sign(told.slipping)[:, changed]
+            left, coasting, way = left[changed], found[:, changed], np.sign(result.slipping)[:, changed]
             if not len(left):
                 break
         converged.append((left, some(first, left)._replace(adrift=np.ones(len(left), bool))))
@@ -395,9 +395,9 @@ class TurnBalance:
         forces: dict[str, dict[int, PairForce]] = {}
         for column in self.columns:
             if column.meshes:
-                lead = self.contacts[column.meshes[0].id]
-                sides = (1, -1) if lead.two_sided else (1,)
-                forces[lead.name] = {side: lead.torques(side, contacts[lead.name], static) for side in sides}
+                contact = self.contacts[column.meshes[0].id]
+                sides = (1, -1) if contact.two_sided else (1,)
+                forces[contact.name] = {side: contact.torques(side, contacts[contact.name], static) for side in sides}
         return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
 
     def _contact_state(self, contact: PairContact, motion: LinkMotion) -> DriverState:
@@ -470,7 +470,7 @@ class TurnBalance:
     def _rows(self, column: TorqueUnknown, force: PairForce) -> dict[int, Floats]:
         found: dict[int, Floats] = {}
         for mesh in column.meshes:
-            first, second = self._like(mesh.id, force)
+            first, second = self._for_planet(mesh.id, force)
             i, j, k = mesh.senses
             members = i * first, j * second, -k * (first + second)
             for row, member, factor in self.balance.places(mesh):
@@ -478,21 +478,21 @@ class TurnBalance:
         return found
 
     @cached_property
-    def beside_lead(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
+    def relation_to_first(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
         """Relation of each pair to the first pair of its column.
 
         It is True if both name their links in the same order, and has the signs of its two torques relative to those of
         the first pair.
         """
         found = {}
-        for lead, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
-            alike = self.contacts[mesh.id].first == self.contacts[lead.id].first
-            found[mesh.id] = alike, mesh.signs_beside(lead, alike)
+        for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
+            alike = self.contacts[mesh.id].first == self.contacts[first.id].first
+            found[mesh.id] = alike, mesh.relative_signs(first, alike)
         return found
 
-    def _like(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
+    def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
         """Return the torques on both links of an equal planet, from those of the first, whose axes may be reversed."""
-        alike, signs = self.beside_lead[name]
+        alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second
 
@@ -517,7 +517,7 @@ class TurnBalance:
 
     # ------------------------------------------------------------------------------------------------------- answers
 
-    def _told(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
+    def _position_torques(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
         motion, size = state.motion, len(state.motion.turns)
         torque = np.where(best.valid, best.values[self.requested_columns], np.nan)
         worst = self._extreme(layers, state, -1)
@@ -557,7 +557,7 @@ class TurnBalance:
         circuit = self.contacts[name].circuit
         powers = []
         for end, link in enumerate((circuit.i, circuit.j)):
-            ahead, back = (self._like(name, forces.get(side, forces[1]))[end] for side in (1, -1))
+            ahead, back = (self._for_planet(name, forces.get(side, forces[1]))[end] for side in (1, -1))
             torque = np.where(pressed < 0, back, ahead) * pressed
             powers.append(torque * self._speed(state.motion, link, circuit.carrier))
         return -(powers[0] + powers[1]), np.maximum(-powers[0], 0) + np.maximum(-powers[1], 0)

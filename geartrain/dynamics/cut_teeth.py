@@ -54,7 +54,7 @@ def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
         return TrainTeeth({}, dict.fromkeys(places, error.problems), {}, frozenset(), ())
 
 
-def find_odd_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
+def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
     """Yield a note under rule W3 for every wheel whose pairs require different teeth."""
     declared = train.declaration
     for name, problem in find_disagreements(train, _places(declared)).items():

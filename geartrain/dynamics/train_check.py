@@ -22,9 +22,9 @@ def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
     found = tuple(check_build(train.declaration, train.tree, train.circuits, lambda: _outlines(train) if cuts else {}))
     if not cuts:
         return found
-    from geartrain.dynamics.cut_teeth import find_odd_wheels
+    from geartrain.dynamics.cut_teeth import find_inconsistent_wheels
 
-    return (*found, *find_odd_wheels(train))
+    return (*found, *find_inconsistent_wheels(train))
 
 
 def _cuts_teeth(declared: Train) -> bool:

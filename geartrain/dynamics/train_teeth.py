@@ -143,7 +143,7 @@ class _Toothing:
         first, second = (self._wheel(name) for name in gear.pair)
         return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
 
-    def _waved(self, name: str) -> list[GearPair]:
+    def _wave_pairs(self, name: str) -> list[GearPair]:
         return [gear for gear in self.pairs[name] if gear.name in self.waves]
 
     def _is_flat(self, name: str) -> bool:
@@ -155,7 +155,7 @@ class _Toothing:
     @cached_property
     def standard(self) -> dict[str, StandardTeeth]:
         """Standard teeth by wheel, for the wheels of pairs without a declared form."""
-        free = (name for name in self.pairs if name not in self.shaped and not self._waved(name))
+        free = (name for name in self.pairs if name not in self.shaped and not self._wave_pairs(name))
         gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
         return standard_teeth(gears, pairs)
@@ -235,14 +235,14 @@ class _Toothing:
             check_size(self._wheel(each).count or 1)
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
-        if not self.pairs[name] and (turning := self._let_through(name)):
+        if not self.pairs[name] and (turning := self._escapement_sense(name)):
             return [PairRequirement("", ESCAPEMENT, ESCAPE_WORDS, escape_tooth(wheel.count or 1, turning))]
-        if waved := self._waved(name):
+        if wave_pairs := self._wave_pairs(name):
             tooth = wave_tooth(wheel.count or 1, self._standard_backlash(name), wheel.internal)
-            return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in waved]
+            return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in wave_pairs]
         return list(self._declared_requested(name) if name in self.shaped else self._standard_requested(name))
 
-    def _let_through(self, name: str) -> int:
+    def _escapement_sense(self, name: str) -> int:
         """Return the sense in which an escapement lets a wheel turn: 1 if unknown, 0 for other wheels."""
         link, wheel = self.declared.wheels[name]
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):

@@ -53,7 +53,7 @@ class FedBackTransmission:
         return self.transmission.period
 
     @cached_property
-    def goes_on(self) -> bool:
+    def has_no_dead_centre(self) -> bool:
         """True if the transmission function with feedback has no dead centre."""
         ratio = float(self.transmission.ratio)
         return all(1 - self.sense * (tau - ratio) * self.gain > 0 for tau in self.transmission.speed_range())
@@ -176,7 +176,7 @@ def _fed_back(composition: ErrorComposition, step: CompositionStep) -> Transmiss
     (source,) = (composition.sources[at] for at in step.sources)
     transmission = FedBackTransmission(source.transmission, source.sense, float(composition.gain(step)[0, 0]))
     changing = type(source.transmission).picked is not TransmissionFunction.picked
-    return make_transmission_table(transmission) if transmission.goes_on and not changing else None
+    return make_transmission_table(transmission) if transmission.has_no_dead_centre and not changing else None
 
 
 def _order(composition: ErrorComposition) -> CompositionOrder:

@@ -151,7 +151,7 @@ class PairKinks:
         share = roots_by_false_position(beyond, *ends, -level, travel[step] - level, _FINE)
         return np.stack([steps.low[step] + share * width[step], kink])
 
-    def once(self, found: Floats) -> Floats:
+    def unique(self, found: Floats) -> Floats:
         """Sort the turns from `between`, and remove kinks found from both sides of a position."""
         turns, kink = found[:, np.lexsort(found)]
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
@@ -223,7 +223,7 @@ class KinkSearch:
 
     def _joined(self, found: list[list[Floats]]) -> KinkPositions:
         """Merge the kinks of each pair, found in parts, in one order."""
-        each = [pair.once(np.concatenate(parts, axis=1)) for pair, parts in zip(self.pairs, found, strict=True)]
+        each = [pair.unique(np.concatenate(parts, axis=1)) for pair, parts in zip(self.pairs, found, strict=True)]
         turns = np.concatenate(each or [np.zeros(0)])
         pair = np.repeat(np.arange(len(each)), [len(part) for part in each])
         order = np.argsort(turns, kind="stable")

@@ -207,7 +207,9 @@ def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[s
     """Return the drivers without known speeds: only declared drivers are certain."""
     declared = _declared(train)
     text = f"undetermined: {why}"
-    return {each.id: declared.get(each.id) or MeshDriver(_assumed_driver(train, each), text, False) for each in circuits}
+    return {
+        each.id: declared.get(each.id) or MeshDriver(_assumed_driver(train, each), text, False) for each in circuits
+    }
 
 
 def _declared(train: Train) -> dict[str, MeshDriver]:

@@ -94,7 +94,7 @@ def _mean(efficiency: float | None) -> Fraction:
     return Fraction(1) if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")
 
 
-def settle_mean_efficiencies(
+def apply_mean_efficiencies(
     balance: TorqueBalance, means: Mapping[str, MeanEfficiencies], driving: bool
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
     """Insert the applicable mean efficiency of each pair into a balance.

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_MOST_UNEVEN = 300  # nonuniform pairs: the gains of n pairs at n links are n squared numbers
+_MOST_NONUNIFORM = 300  # nonuniform pairs: the gains of n pairs at n links are n squared numbers
 _SAMPLES = 1 << 14  # angles at which a speed is averaged, for three digits
 _SLACK = 1e-12  # of a speed: smaller reversals are rounding
 _NO_FORM = (
@@ -66,7 +66,7 @@ class SpeedBounds:
 
 
 @dataclass(frozen=True)
-class _Uneven:
+class _NonuniformPair:
     """Pair with a variable speed ratio. Its row has factor (tau - m) times the speed of its driver."""
 
     id: str
@@ -89,27 +89,27 @@ class _Uneven:
 
 def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, SpeedBounds] | None:
     """Return speed bounds of the links that may reverse in their bearings; None if there are too many pairs."""
-    uneven = list(_uneven(setting))
-    if len(uneven) > _MOST_UNEVEN:
+    nonuniform = list(_nonuniform_pairs(setting))
+    if len(nonuniform) > _MOST_NONUNIFORM:
         return None
-    if not uneven or not links:
+    if not nonuniform or not links:
         return {}
-    gains = _gains(setting, uneven)
-    added = _added(setting, uneven, gains)
+    gains = _gains(setting, nonuniform)
+    added = _added(setting, nonuniform, gains)
     found = {}
     for link in links:
         bounds = _bounds(setting, gains, added, link, setting.tree.parent[link][0])
         if bounds.reverses:
-            found[link] = _with_mean(setting, uneven, gains, link, bounds)
+            found[link] = _with_mean(setting, nonuniform, gains, link, bounds)
     return found
 
 
-def _uneven(setting: LoadCase) -> Iterator[_Uneven]:
+def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
     for circuit in setting.circuits:
         if circuit.swings:
             joint = setting.joints.get(circuit.id)
             transmission = joint.transmission if joint else None
-            yield _Uneven(
+            yield _NonuniformPair(
                 circuit.id, transmission, circuit.j, circuit.carrier, Fraction(circuit.a), Fraction(-circuit.b)
             )
             continue
@@ -119,21 +119,21 @@ def _uneven(setting: LoadCase) -> Iterator[_Uneven]:
         first = tooth.driver == circuit.wheels[0]
         driver, own = (circuit.i, circuit.a) if first else (circuit.j, circuit.b)
         mean = Fraction(tooth.transmission.ratio)
-        yield _Uneven(
+        yield _NonuniformPair(
             circuit.id, tooth.transmission if tooth.verdict else None, driver, circuit.carrier, -own / mean, mean
         )
 
 
-def _gains(setting: LoadCase, uneven: Sequence[_Uneven]) -> Mapping[str, Mapping[int, float]]:
+def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Mapping[int, float]]:
     """Return the speed that a unit of each pair's deviation, by index, adds to each link, with input speeds fixed."""
-    number = {each.id: at for at, each in enumerate(uneven)}
+    number = {each.id: at for at, each in enumerate(nonuniform)}
     system = setting.system
     column = {link: at for at, link in enumerate(system.links)}
     rows: list[LinearForm] = []
     for row in system.equations:
         form: LinearForm = {column[link]: Fraction(value) for link, value in row.terms}
         if row.kind not in ("input", "fixed", "lock", "frame") and row.label in number:
-            form[-1 - number[row.label]] = -uneven[number[row.label]].factor
+            form[-1 - number[row.label]] = -nonuniform[number[row.label]].factor
         rows.append(form)
     forms = eliminate(rows).forms()
     return {
@@ -162,25 +162,25 @@ def _bounds(
 
 
 def _added(
-    setting: LoadCase, uneven: Sequence[_Uneven], gains: Mapping[str, Mapping[int, float]]
+    setting: LoadCase, nonuniform: Sequence[_NonuniformPair], gains: Mapping[str, Mapping[int, float]]
 ) -> Sequence[SpeedBounds]:
     """Return bounds of the speed that each pair adds, from the bounds of its driver's speed."""
-    swings = [each.swing for each in uneven]
-    added = [SpeedBounds(0.0, 0.0)] * len(uneven)
+    swings = [each.swing for each in nonuniform]
+    added = [SpeedBounds(0.0, 0.0)] * len(nonuniform)
     # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
-    for _ in range(len(uneven) + 1):
-        turning = [_bounds(setting, gains, added, each.driver, each.carrier) for each in uneven]
+    for _ in range(len(nonuniform) + 1):
+        turning = [_bounds(setting, gains, added, each.driver, each.carrier) for each in nonuniform]
         wider = [swing.times(speed) for swing, speed in zip(swings, turning, strict=True)]
         if wider == added:
             return added
         added = wider
     # cyclic dependencies: no bound was found
-    return [SpeedBounds(-inf, inf)] * len(uneven)
+    return [SpeedBounds(-inf, inf)] * len(nonuniform)
 
 
 def _with_mean(
     setting: LoadCase,
-    uneven: Sequence[_Uneven],
+    nonuniform: Sequence[_NonuniformPair],
     gains: Mapping[str, Mapping[int, float]],
     link: str,
     bounds: SpeedBounds,
@@ -194,7 +194,7 @@ def _with_mean(
     if len(own) != 1 or mean is None:
         return bounds
     ((number, gain),) = own.items()
-    pair = uneven[number]
+    pair = nonuniform[number]
     speed = setting.relative(pair.driver, pair.carrier)
     if pair.transmission is None or speed is None or _between(gains, pair.driver, pair.carrier):
         return bounds
@@ -390,6 +390,6 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
     """Yield links with inertia that nonuniform pairs accelerate."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
-    uneven = any(circuit.swings for circuit in setting.circuits)
-    if heavy and (uneven or any(not tooth.rigid for tooth in setting.meshes.values())):
+    nonuniform = any(circuit.swings for circuit in setting.circuits)
+    if heavy and (nonuniform or any(not tooth.rigid for tooth in setting.meshes.values())):
         yield NeglectedEffect("inertia", heavy, "torques are quasi-static: accelerations and impacts are neglected")

@@ -14,8 +14,8 @@ from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patt
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies, balancing_torque, unbalanced_motions
 from geartrain.dynamics.torques.mean_efficiencies import (
     all_mean_efficiencies,
+    apply_mean_efficiencies,
     find_mean_efficiencies,
-    settle_mean_efficiencies,
 )
 from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 from geartrain.dynamics.torques.torque_balance import LoadedPair, LoadShares, TorqueBalance, generic_balance, idle_pairs
@@ -424,7 +424,7 @@ def _balanced(
         return Torques(state, _with_reason(requested, lacking), requested.links)
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
-    balance, neither = settle_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
+    balance, neither = apply_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
     question = LoadedBalance(balance, setting.speeds, loads, rubbing, requested.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses

@@ -83,7 +83,7 @@ class LoadedPair:
         alike   True if both name their links in the same order; a planet with reversed axis changes the sign
         """
         coefficients = (other.a, other.b) if alike else (other.b, other.a)
-        first, second = (-1 if own * other < 0 else 1 for own, other in zip((self.a, self.b), led, strict=True))
+        first, second = (-1 if a * b < 0 else 1 for a, b in zip((self.a, self.b), coefficients, strict=True))
         return first, second
 
     def power(self, multiplier: Fraction) -> Fraction:

@@ -250,7 +250,7 @@ class _RunResults:
                 "loads too"
             )
             found += (NeglectedEffect("viscous drag", links, why),)
-        if share := self.run.share(self.run.found.adrift):
+        if share := self.run.share(self.run.found.unresolved):
             why = (
                 f"over {share:.2%} of the run a link would turn backwards on drive flanks and forwards on coast "
                 "flanks; it is assumed to rest within its backlash and to need no torque, and its position there is "

@@ -238,7 +238,7 @@ class PositionTorques(NamedTuple):
     """Turns of the input."""
     valid: Bools
     """True where a solution balances. `layers` is the number of solutions."""
-    adrift: Bools
+    unresolved: Bools
     """True where no choice of flanks agrees with the torques that press on them."""
     layers: Floats
     torque: Floats
@@ -369,7 +369,7 @@ class TurnBalance:
             layers = self._solved(state)
             best = self._extreme(layers, state, 1)
             result, found = self._position_torques(state, layers, best), self._coasting(best)
-            result = result._replace(adrift=np.asarray(resting.any(axis=0)))
+            result = result._replace(unresolved=np.asarray(resting.any(axis=0)))
             if round_ == 0:
                 first = result
             changed = (found != coasting).any(axis=0)
@@ -379,7 +379,7 @@ class TurnBalance:
             left, coasting, way = left[changed], found[:, changed], np.sign(result.slipping)[:, changed]
             if not len(left):
                 break
-        converged.append((left, some(first, left)._replace(adrift=np.ones(len(left), bool))))
+        converged.append((left, some(first, left)._replace(unresolved=np.ones(len(left), bool))))
         order = np.argsort(np.concatenate([at for at, _ in converged]))
         return some(joined([part for _, part in converged]), order)
 

@@ -86,7 +86,7 @@ class RunCells:
         """Middles of the cells."""
         return np.asarray((self.low + self.high) / 2)
 
-    def parted(self, cell: Indices, at: Floats) -> RunCells:
+    def divided(self, cell: Indices, at: Floats) -> RunCells:
         """Return the parts of some cells, divided at given places.
 
         cell   index of the cell of each place
@@ -177,7 +177,7 @@ class TurnRun:
         return 1 / max(fastest, 1 / self.span)
 
     @cached_property
-    def _followed(self) -> tuple[RunCells, PositionTorques]:
+    def _refined(self) -> tuple[RunCells, PositionTorques]:
         """Refined cells in order, with kinks among their ends, and all torques at their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
@@ -192,7 +192,7 @@ class TurnRun:
             if not len(cell):
                 break
             count += len(cells.requested)
-            cells = cells.parted(cell, at)
+            cells = cells.divided(cell, at)
             found = self.train.at(cells.requested)
         low, high = (np.concatenate([getattr(each, name) for each, _ in kept]) for name in ("low", "high"))
         order = np.argsort(low)
@@ -224,12 +224,12 @@ class TurnRun:
     @property
     def cells(self) -> RunCells:
         """Cells of the run."""
-        return self._followed[0]
+        return self._refined[0]
 
     @property
     def found(self) -> PositionTorques:
         """Torques and powers at the positions of the run."""
-        return self._followed[1]
+        return self._refined[1]
 
     def signs(self, found: PositionTorques, scales: RunScales) -> Ints:
         """Return the signs of all quantities that have a kink where their sign changes, (signs, n)."""

@@ -229,7 +229,7 @@ class _Toothing:
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
             why = "its teeth are not straight and plane"
-            fix = "export a solid, which approximates it"
+            fix = "export STL or GLB, which approximate its teeth"
             raise GearTrainError(Problem(f"a {kind} has no plane outline", why, fix))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
             check_size(self._wheel(each).count or 1)

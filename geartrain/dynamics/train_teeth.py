@@ -150,7 +150,7 @@ class _Toothing:
         kinds = {self._wheel(mate).kind for gear in self.pairs[name] for mate in gear.pair}
         return self._wheel(name).kind == "spur" and not self.places[name].cone and "worm" not in kinds
 
-    # -------------------------------------------------------------------------------------------- teeth nobody declares
+    # -------------------------------------------------------------------------------------------- standard teeth
 
     @cached_property
     def standard(self) -> dict[str, StandardTeeth]:

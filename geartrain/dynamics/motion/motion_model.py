@@ -176,7 +176,7 @@ class Motion:
             raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
         self._refuse_loops()
 
-    # ----------------------------------------------------------------------------------------------- what it is made of
+    # ----------------------------------------------------------------------------------------------- compositions
 
     @property
     def spread(self) -> ErrorPropagation:
@@ -279,7 +279,7 @@ class Motion:
         drawn = {name: float(random.random()) for name in free if name not in declared}
         return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
 
-    # -------------------------------------------------------------------------------------------------- what it answers
+    # -------------------------------------------------------------------------------------------------- results
 
     @cached_property
     def period(self) -> Fraction | None:

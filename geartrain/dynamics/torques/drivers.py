@@ -258,7 +258,7 @@ def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
     return {name: MeshDriver(pair.driver, why) for name, pair in loaded.pairs.items() if pair.driver and not pair.loose}
 
 
-# ------------------------------------------------------------------------------------------------------- what resists
+# ----------------------------------------------------------------------------------------------- assumed resistances
 
 
 def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
@@ -328,7 +328,7 @@ def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
     return {of: Fraction(-sign * own), base: Fraction(sign * other)} if sign else {}
 
 
-# ----------------------------------------------------------------------------------------------------- where power goes
+# ----------------------------------------------------------------------------------------------------- power directions
 
 
 def _flow_directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:

@@ -353,11 +353,11 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
     back = find_reversing_bearings(setting, known)
     if back is None:
         why = "it is computed at the mean speeds; the train has too many nonuniform pairs to find reversing bearings"
-        yield NeglectedEffect("friction of reversing bearings", tuple(known), why)
+        yield NeglectedEffect("friction of bearings that reverse", tuple(known), why)
         return
     for link, bounds in back.items():
         mean = setting.relative(link, setting.tree.parent[link][0])
-        yield NeglectedEffect("friction of reversing bearings", (link,), _turns(bounds, mean or Fraction(0)))
+        yield NeglectedEffect("friction of bearings that reverse", (link,), _turns(bounds, mean or Fraction(0)))
 
 
 def _turns(bounds: SpeedBounds, mean: Fraction) -> str:

@@ -515,7 +515,7 @@ class TurnBalance:
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.requested)))
 
-    # ------------------------------------------------------------------------------------------------------- answers
+    # ------------------------------------------------------------------------------------------------------- results
 
     def _position_torques(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
         motion, size = state.motion, len(state.motion.turns)

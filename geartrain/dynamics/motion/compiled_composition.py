@@ -121,7 +121,7 @@ class ComposedSources(NamedTuple):
     start: Floats
     """Forward angle of the driver at turn 0 [rad]."""
     mean: Floats
-    """Mean speed of the driver over the input's."""
+    """Mean speed of the driver over the input speed."""
     row: Ints
     """Rows of driver and carrier, (sources, 2); -1 for links without error."""
     sign: Floats

@@ -63,7 +63,7 @@ class PairErrorSource:
 
     @property
     def mean(self) -> float:
-        """Mean forward speed of the driver over the input's."""
+        """Mean forward speed of the driver over the input speed."""
         return float(self.cycles) * self.transmission.period / (2 * np.pi)
 
 
@@ -111,9 +111,12 @@ class ErrorSamples(NamedTuple):
     turns: Floats
     """Turns of the input. Shape (n,)."""
     error: Floats
-    """Angle of each output less its mean motion [rad]. Shape (outputs, n)."""
+    """Angle of each output less its mean motion [rad]. Shape (outputs, n).
+
+    With a pin and slot it includes the intended deviation from uniform motion (anomaly).
+    """
     rate: Floats
-    """Speed of each output less its mean, over the input's. Shape (outputs, n)."""
+    """Speed of each output less its mean, over the input speed. Shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
     """Pairs whose driver turns against its mean at some of these positions.
 

@@ -72,7 +72,7 @@ def solve_coupled_errors(
 ) -> tuple[Floats, Floats, list[Floats | float]]:
     """Solve for errors, their rates and the driver speeds, given driver angles and speeds without these errors.
 
-    base      (pairs, n) rad; `turning` is the speed by pair over the input's
+    base      (pairs, n) rad; `turning` is the speed by pair over the input speed
 
     Raises `GearTrainError` if the solution is not unique: the train would jump or lock there.
     """

@@ -84,7 +84,7 @@ class PairKinks:
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
     def shift(self, turns: Floats) -> tuple[Floats, Floats]:
-        """Return the change of the driver's forward angle due to errors [rad], and its speed over the input's."""
+        """Return the change of the driver's forward angle due to errors [rad], and its speed over the input speed."""
         if not len(turns):
             return np.zeros(0), np.zeros(0)
         size = self.drivers.chunk

@@ -79,6 +79,8 @@ class PointerCompositions:
 class TransmissionErrorCurve(Result):
     """Transmission error of one output, position by position.
 
+    With a pin and slot it includes the intended deviation from uniform motion (anomaly).
+
     See Also
     --------
     Motion.ripples : Method that returns these.
@@ -89,15 +91,15 @@ class TransmissionErrorCurve(Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the input's."""
+    """Exact mean speed over the input speed."""
     error: Floats
     """Angle less its mean motion [rad]. Shape (n,)."""
     speed: Floats
-    """Speed over the input's. Shape (n,)."""
+    """Speed over the input speed. Shape (n,)."""
 
     @property
     def mean(self) -> float:
-        """Mean speed over the input's."""
+        """Mean speed over the input speed."""
         return mean_speed(self.name, self.ratio)
 
     @cached_property

@@ -57,15 +57,15 @@ class MotionProblem:
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
-        """Return the exact mean speed of a link over the driving link's."""
+        """Return the exact mean speed of a link over that of the driving link."""
         return self.speeds[link] / self.speeds[self.driving_link]
 
     def seen_ratio(self, link: str, base: str) -> Fraction:
-        """Return the mean speed of a link relative to another, about the first one's axis, over the driving link's."""
+        """Return the mean speed of a link relative to another, about the first one's axis, over the driving speed."""
         return relative_speed(link, base, self.ratio, self.signs)
 
     def relative(self, link: str, carrier: str) -> Fraction:
-        """Return the mean speed of a link relative to its carrier, about their parallels, over the driving link's."""
+        """Return the mean speed of a link relative to its carrier, about their parallels, over the driving speed."""
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:

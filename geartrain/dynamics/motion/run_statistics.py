@@ -45,7 +45,7 @@ class SpeedSpan(NamedTuple):
     max: float
     """Maximum speed over the mean, or over the input's speed if the mean is 0."""
     mean: float
-    """Mean speed over the input's."""
+    """Mean speed over the input speed."""
 
 
 @dataclass
@@ -67,7 +67,7 @@ class RunningStatistics(Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the input's."""
+    """Exact mean speed over the input speed."""
     count: int = 0
     """Number of positions."""
     centre: float = 0.0
@@ -99,7 +99,7 @@ class RunningStatistics(Result):
         error : array of float, (n,)
             Errors [rad].
         rate : array of float, (n,)
-            Speeds less their mean, over the input's.
+            Speeds less their mean, over the input speed.
         """
         new = len(error)
         centre = float(error.mean())
@@ -124,7 +124,7 @@ class RunningStatistics(Result):
 
     @property
     def mean(self) -> float:
-        """Mean speed over the input's."""
+        """Mean speed over the input speed."""
         return mean_speed(self.name, self.ratio)
 
     @property
@@ -144,7 +144,7 @@ class RunningStatistics(Result):
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Minimum and maximum speed over the mean, or over the input's if the mean is 0."""
+        """Minimum and maximum speed over the mean, or over the input speed if the mean is 0."""
         scale = self.mean or 1.0
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high

@@ -134,7 +134,7 @@ class PositionMotion:
 
     @cached_property
     def means(self) -> Floats:
-        """Mean speed of each link over the input's."""
+        """Mean speed of each link over the input speed."""
         return np.array([float(self.motion.train.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:

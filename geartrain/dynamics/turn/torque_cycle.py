@@ -216,7 +216,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     standing: Floats | None = None
     """Torque that starts the train at each position, with static friction everywhere [N m, or plain], shape (n,)."""
     speeds: LabelledArray | None = None
-    """Speeds of links over the input's, (link, position)."""
+    """Speeds of links over the input speed, (link, position)."""
     powers: LabelledArray | None = None
     """Power input of each external torque, over the speed of the input, (link, position) [N m, or plain]."""
     losses: LabelledArray | None = None

@@ -133,7 +133,7 @@ class ToothFriction(ContactLosses):
     sliding: float | Callable[[Floats, Floats], Floats]
     """Coefficient of sliding friction: a number, or a function of two speeds.
 
-    Its arguments are the sliding speed over the pitch-line speed, and the driver's speed over the input's.
+    Its arguments are the sliding speed over the pitch-line speed, and the driver's speed over the input speed.
     """
     static: float
     """Coefficient of static friction."""

@@ -246,7 +246,7 @@ class PositionTorques(NamedTuple):
     highest: Floats
     """The same torque in the solution with maximum loss."""
     speeds: Floats
-    """Speeds of the links with external torques, about their own axes, over the input's, (outside, n)."""
+    """Speeds of the links with external torques, about their own axes, over the input speed, (outside, n)."""
     powers: Floats
     """Power input of each of these torques, (outside, n)."""
     losses: Floats
@@ -255,9 +255,9 @@ class PositionTorques(NamedTuple):
     pressed: Floats
     """Multiplier of each pair, (pairs, n). It is positive on drive flanks."""
     turning: Floats
-    """Forward speed of each pair's driver, over the input's, (pairs, n)."""
+    """Forward speed of each pair's driver, over the input speed, (pairs, n)."""
     slipping: Floats
-    """Speed of each bearing over the input's, (bearings, n)."""
+    """Speed of each bearing over the input speed, (bearings, n)."""
     kinks: Floats
     """Values whose sign changes at kinks that no transmission function has, (kinks, n)."""
 

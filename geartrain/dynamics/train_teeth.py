@@ -179,9 +179,7 @@ class _Toothing:
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
     ) -> tuple[Involute, WheelPair, int]:
-        """Return the form of two standard wheels, the pair with a ring as second wheel, and the first wheel's number in
-        it.
-        """
+        """Return the form of two standard wheels, their pair with a ring second, and the number of the first wheel."""
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
         form = standard_form(teeth, its, self._standard_backlash(name))
         return form, WheelPair(one.z, other.z, other.internal), 2 if first[0].internal else 1

@@ -229,7 +229,10 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each evaluated output: mean speed over the input speed, error [rad], speed over its mean."""
+        """Table with a row for each evaluated output.
+
+        Its columns are the mean speed over the input speed, the error [rad], and the speed over its mean.
+        """
         return {
             "output": [each.name for each in self.tallies],
             "mean speed": [float(each.ratio) for each in self.tallies],

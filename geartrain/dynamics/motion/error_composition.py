@@ -221,6 +221,7 @@ class ErrorComposition:
                     free.append(count)
                     count += 1
                 place[link] = free.pop()
+            # rows of links read for the last time in this step become free
             read = {*step.links, *step.known, *(end for s in step.sources for end in self._ends(s))}
             free += [place[link] for link in read if link in place and last.get(link, at) == at]
         return place

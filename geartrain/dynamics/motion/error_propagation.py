@@ -137,7 +137,7 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
         if (slope * pairs.gain > 1 + _FORGIVEN).any():
             raise _refusal(pairs.names, _DEAD_CENTRE)
         low, high = np.where(middle < error, middle, low), np.where(middle < error, high, middle)
-    slope[np.abs(middle - error) > _FORGIVEN] = 0.0
+    slope[np.abs(middle - error) > _FORGIVEN] = 0.0  # the transmission function jumps past the solution here
     return np.where(np.isfinite(error), middle, error), slope
 
 

@@ -26,20 +26,20 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
 _MOST_STEPS = 200_000  # maximum number of initial steps: those of a longer run are wider than a pitch
-_FEWEST_STEPS = 64
+_FEWEST_STEPS = 64  # minimum number of initial steps
 _MOST_LEFT = 50_000  # maximum number of narrow steps kept, those with the largest bounds (beam search)
 _MOST_WIDE = 16_000  # maximum number of wide steps kept for all outputs: bounds of wide steps are rarely useful
 _NUMBERS = 1 << 23  # maximum number of stored bounds
 _PARTS = 4  # subdivisions of a step
 _FEW = 1024  # steps that are cut at kinks without further division
-_MINIMUM_DIVISIONS, _MOST_DIVISIONS = 2, 16
+_MINIMUM_DIVISIONS, _MOST_DIVISIONS = 2, 16  # levels of the branch-and-bound tree
 _BATCH = 4096  # steps cut at kinks at once
-_BATCHES = 16
+_BATCHES = 16  # maximum number of batches: bounds the effort, the rest enters `dropped`
 _MOST_KINKS = 200_000  # maximum number of kinks in a batch
 _SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
 _ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
 _NODES, _TO_SERIES = points(8)  # Chebyshev nodes on a smooth piece, and the matrix from values to coefficients
-_PLACES = np.linspace(-1, 1, 49)
+_PLACES = np.linspace(-1, 1, 49)  # places on a piece at which its polynomial is evaluated
 _TO_PLACES = chebyshev.chebvander(_PLACES, len(_NODES) - 1) @ _TO_SERIES
 _BESIDE = 1e-9  # of a step: distance from the end of a piece at which its one-sided limit is taken
 _ULPS = 32  # units in the last place of the turns: minimum distance, so that rounding does not pass a kink
@@ -240,6 +240,7 @@ class StepSearch:
         at = np.clip(np.argmax(places, axis=1), 1, len(_PLACES) - 2)
         every = np.arange(len(at))
         one, two, three = (places[every, at + side] for side in (-1, 0, 1))
+        # vertex of the parabola through the highest place and its neighbours
         bend = 2 * two - one - three
         with np.errstate(all="ignore"):
             inner = np.abs(three - one) < 2 * bend

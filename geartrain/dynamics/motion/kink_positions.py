@@ -113,7 +113,7 @@ class PairKinks:
         """Divide the steps in which the driver may reverse, at the reversals found by bisection."""
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
-        ends[:, -1] = steps.high[slow]
+        ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum
         ahead = self.shift(ends.ravel())[1].reshape(ends.shape) >= 0
         turning = ahead[:, 1:] != ahead[:, :-1]
         low, high, first = ends[:, :-1][turning], ends[:, 1:][turning], ahead[:, :-1][turning]
@@ -134,6 +134,7 @@ class PairKinks:
         phase = np.mod(InputPhase(steps.low).cycles(cycles) * period + self.source.start + low, period)
         travel = float(cycles) * period * width + (high - low)
         minimum, most = np.minimum(0, travel) - _NEAR * period, np.maximum(0, travel) + _NEAR * period
+        # levels kink + n period between the angles at both ends: the first n, and their number
         first = np.ceil((phase[:, None] + minimum[:, None] - self.kinks) / period)
         count = np.floor((phase[:, None] + most[:, None] - self.kinks) / period) - first + 1
         # the angle is undefined where no teeth touch; no kink is passed there

@@ -44,7 +44,7 @@ class RangeExtremes:
     def over(self, first: Ints, last: Ints) -> tuple[Floats, Floats]:
         """Return minimum and maximum over cells `first` to `last`, any integers with first <= last."""
         length = np.clip(last - first + 1, 1, self.count)
-        level = np.frexp(length)[1] - 1
+        level = np.frexp(length)[1] - 1  # floor of the binary logarithm: two overlapping blocks of 2^level cells cover
         one, other = first % self.count, (first + length - (1 << level)) % self.count
         minimum, most = self._levels
         return (
@@ -101,6 +101,7 @@ class SpeedRanges:
         inside = (np.arange(_WITHIN) / (_WITHIN - 1)) * (1 - 2 * _BESIDE) + _BESIDE
         values = transmission.speed((np.arange(self.cells)[:, None] + inside) * width)
         minimum, most = np.nanmin(values, axis=1), np.nanmax(values, axis=1)
+        # the ratio may jump at a kink, so both one-sided limits are included
         for side in (-_BESIDE, _BESIDE):
             at = kinks + side * transmission.period
             cell, value = np.floor(at / width).astype(int) % self.cells, transmission.speed(at)
@@ -300,12 +301,13 @@ def _coupled_rates(slopes: list[Interval], turning: list[Interval], gain: Floats
     b, off = (np.stack([getattr(each, part) for each in right]) for part in ("middle", "radius"))
     matrices = np.eye(count) - middle.T[:, :, None] * gain
     fit = np.isfinite(matrices).all(axis=(1, 2)) & np.isfinite(b).all(axis=0) & np.isfinite(off).all(axis=0)
-    fit[fit] = np.abs(np.linalg.det(matrices[fit])) > 1e-9
+    fit[fit] = np.abs(np.linalg.det(matrices[fit])) > 1e-9  # nearly singular middles give no useful bound
     matrices[~fit] = np.eye(count)
     inverse = np.linalg.inv(matrices)
     x = np.einsum("nij,jn->in", inverse, b)
     size = np.abs(inverse)
     spread = size @ (radius.T[:, :, None] * np.abs(gain))
+    # Krawczyk's operator needs a contraction: the maximum norm of the spread is below 1
     fit &= spread.sum(axis=2).max(axis=1) < 1
     spread[~fit] = 0
     known = off + radius * (np.abs(gain) @ np.abs(x))

@@ -147,6 +147,7 @@ class _InfluenceSolver:
 
     def _merged(self, form: LinearForm) -> LinearForm:
         """Replace loads of one sign by a single symbol, if they are not needed separately elsewhere."""
+        # symbols in no remaining row are not needed separately; only their sum continues
         signs = {value > 0 for value in form.values()}
         if len(signs) != 1 or any(self.holding_rows[symbol] for symbol in form):
             return form

@@ -62,7 +62,7 @@ def solve_block(
     if len(block.rows) == len(block.columns) == 1:
         # fast path: an ordinary train may have thousands of such blocks
         (row,), (column,) = block.rows, block.columns
-        if coefficient := columns[column].pieces[sides[column]].get(row):
+        if coefficient := columns[column].pieces[sides[column]].get(row):  # else the general elimination decides
             return {column: {symbol: -value / coefficient for symbol, value in known[row].items()}}
     echelon = eliminate_block(columns, block, sides, known)
     if echelon.conditions:

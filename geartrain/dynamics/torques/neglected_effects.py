@@ -214,7 +214,7 @@ def _number(value: Fraction) -> float:
 
 def _product(x: float, y: float) -> float:
     """Return x times y, with 0 times infinity equal to 0."""
-    return x * y if x and y else 0.0
+    return x * y if x and y else 0.0  # IEEE arithmetic would give NaN for 0 times infinity
 
 
 def find_neglected_effects(

@@ -105,6 +105,7 @@ def find_circulation(
     left = [stream.power for stream in streams]
     rounds: list[tuple[PowerNode, Fraction]] = []
     while way := _widest(streams, left):
+        # subtracting the bottleneck empties at least one stream, so that the loop ends
         minimum = min(left[at] for at in way)
         for at in way:
             left[at] -= minimum

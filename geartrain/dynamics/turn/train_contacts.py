@@ -149,7 +149,7 @@ class ToothFriction(ContactLosses):
         """Return the torques; simultaneous contacts share the torque of the driving side equally."""
         assert transmission is not None
         sliding, into, out = transmission.rubbing(at.S)
-        touching = ~np.isnan(out)
+        touching = ~np.isnan(out)  # NaN marks pairs of teeth that do not touch at this position
         f = (self.static if static else self._coefficient(sliding, at.turning)) * way
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + f * into, 1 + f * out

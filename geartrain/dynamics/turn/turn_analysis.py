@@ -46,10 +46,10 @@ if TYPE_CHECKING:
 
 _CELLS = 12  # candidate cells in which an extreme is refined
 _PARTS = 16  # subdivisions per round of refinement
-_ROUNDS = 6
+_ROUNDS = 6  # rounds of refinement: each narrows the interval by 8
 DEFAULT_SAMPLES = 20_000
 MOST_TURNS = 1e9
-_ODD = Fraction(1_414_213, 1_000_003)
+_ODD = Fraction(1_414_213, 1_000_003)  # factor of friction that cancels no declared load
 
 
 def find_extreme(
@@ -76,6 +76,7 @@ def find_extreme(
             best = float(peak.max())
             at = float(grid[np.argmax(peak), which[np.argmax(peak)]])
         rows = np.arange(len(which))
+        # a smooth maximum lies between the neighbours of the best grid point
         low, high = grid[rows, np.maximum(which - 1, 0)], grid[rows, np.minimum(which + 1, _PARTS)]
     return at, way * best + 0.0  # avoids -0.0
 

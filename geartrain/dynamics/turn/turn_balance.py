@@ -138,6 +138,7 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
     """Solve one row for one unknown."""
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
+    # a coefficient may be 0 at dead points; without a load the torque is 0 there too
     with np.errstate(divide="ignore", invalid="ignore"):
         values = np.where(known == 0, 0.0, -known / coefficient)
     regular = np.isfinite(values[0])
@@ -166,6 +167,7 @@ def _eliminated(
         regular = np.abs(np.linalg.det(matrices)) > SINGULAR * lengths
         values[regular] = np.linalg.solve(matrices[regular], right[regular])
     if not regular.all():
+        # the pseudoinverse gives the minimum-norm torques where rows are missing or dependent
         values[~regular] = np.linalg.pinv(matrices[~regular]) @ right[~regular]
     missed = np.abs(matrices @ values - right).max(axis=(1, 2))
     return values[:, :, 0].T, regular | (missed <= NEAR * (np.abs(right).max(axis=(1, 2)) + scale))
@@ -196,6 +198,7 @@ def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
     """Add the solutions of one block to the layers, with as many layers as there are solutions at any position."""
+    # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
         layer.valid = np.zeros_like(layer.valid)
@@ -374,6 +377,7 @@ class TurnBalance:
                 first = result
             changed = (found != coasting).any(axis=0)
             converged.append((left[~changed], some(result, ~changed)))
+            # a link whose sense alternates with the choice of flanks rests within the backlash
             turned = np.sign(result.slipping) * way < 0
             resting = (resting | turned if round_ > 0 else resting)[:, changed]
             left, coasting, way = left[changed], found[:, changed], np.sign(result.slipping)[:, changed]

@@ -25,13 +25,13 @@ if TYPE_CHECKING:
 NODES = 5
 """Positions per cell: its ends, its middle, and the middles of its halves."""
 
-_BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90
+_BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90  # Boole's rule over a cell of unit width
 # error estimate: Simpson's rule on both halves less that on the whole, over 15 (Richardson extrapolation)
 _HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180
 _ASIDE = 1e-10  # of the shortest period: distance from a kink at which its one-sided limits are taken
 _LAST_PLACES = 16  # units in the last place of the run's end: closer positions are not distinct
 _PARTS = 16  # subdivisions per round of the search for a sign change in a cell
-_MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4
+_MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4  # rounds of 16 subdivisions: 16^11 resolves a cell to rounding
 _EFFORT = 20_000  # target for the positions evaluated in one search for kinks
 _PROBES = 300  # positions at which the touching flanks are determined first
 _MOST_SETS = 3  # most frequent sets of touching coast flanks, whose kinks are searched
@@ -110,6 +110,7 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
     """
     aside = max(_ASIDE * narrowest, _LAST_PLACES * float(np.spacing(span)))
     inner = np.unique(breaks[(breaks > 2 * aside) & (breaks < span - 2 * aside)])
+    # cells are wider than four times `aside`, so that the one-sided limits at their ends do not overlap
     inner = inner[np.diff(inner, prepend=-np.inf) > 4 * aside]
     even = np.linspace(0.0, span, steps + 1)[1:-1]
     near = np.searchsorted(inner, even)
@@ -181,6 +182,7 @@ class TurnRun:
         """Refined cells in order, with kinks among their ends, and all torques at their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
+        # signs and tolerances refer to the scales of the initial cells, so that refinement does not change them
         scales, total = RunScales.of(found), float(cells.weights @ np.nan_to_num(np.abs(found.powers)).sum(axis=0))
         kept: list[tuple[RunCells, PositionTorques]] = []
         count, most = 0, _MOST_TIMES * len(cells.requested)

@@ -7,15 +7,15 @@ composed from them, torque over a turn at many positions. docs/scripts/studies/ 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Shown, Tabular, TrainResult
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
@@ -34,7 +34,7 @@ _NO_FORM = "no pair has a tooth form, and no pin its sizes"
 
 
 @dataclass(frozen=True, slots=True)
-class MethodAccuracy:
+class MethodAccuracy(Shown):
     """Run time and error of one method of one stage.
 
     See Also
@@ -61,13 +61,22 @@ class MethodAccuracy:
 
 
 @dataclass(frozen=True, slots=True)
-class TrainAccuracy(Result):
+class TrainAccuracy(Tabular, TrainResult):
     """Run time and error of all methods on one train in one state.
 
     See Also
     --------
     find_accuracy : Gives it.
     """
+
+    KEYS = ("state", "positions", "methods", "left_out")
+    ROW = "MethodAccuracy"
+    MEANINGS: ClassVar = {
+        "error": "Maximum error; empty for the method that others are compared with [as `unit` says].",
+        "ratio": "Run time over that of the fastest method of the stage [1].",
+    }
+
+    PAGE = "report.accuracy_report:accuracy_document"
 
     state: str | None
     """The state."""
@@ -77,6 +86,15 @@ class TrainAccuracy(Result):
     """In the order of the stages."""
     left_out: dict[str, str]
     """Reason for each stage that the train does not have."""
+
+    def _summary(self) -> str:
+        return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each method: time, error and what it is compared with."""
+        names = [field.name for field in fields(MethodAccuracy)]
+        return {name: [getattr(each, name) for each in self.methods] for name in names}
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
@@ -119,7 +137,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
             left_out[stage] = error.problems[0].what
         fastest = min((row.seconds for row in rows), default=0.0)
         methods += [replace(row, ratio=row.seconds / fastest) for row in rows]
-    return TrainAccuracy(state, positions, tuple(methods), left_out)
+    return TrainAccuracy(state, positions, tuple(methods), left_out, _declaration=train.declaration)
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
@@ -208,14 +226,14 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
     def compose(tolerance: float | None = None) -> Motion:
         motion = train.motion(state, tolerance=tolerance)
-        motion.hung.at(np.zeros(2))  # functions and tables are made when first needed
+        motion._unset.at(np.zeros(2))  # functions and tables are made when first needed
         return motion
 
     prepared, motion = _best_of(compose)
-    if not motion.ahead.used:
+    if not motion._forward.used:
         raise QuestionError(Problem("no error reaches an output"))
     turns: Floats = np.arange(positions, dtype=float) * (_TURNS / positions)
-    seconds, direct = _best_of(lambda: motion.hung.at(turns).error)
+    seconds, direct = _best_of(lambda: motion._unset.at(turns).error)
     ripple = np.degrees(np.ptp(direct, axis=1))
     yield MethodAccuracy("motion", "composed", seconds, None, "deg", _REFERENCE, prepared)
 
@@ -226,13 +244,13 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
         reference = f"composed, of {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
         return MethodAccuracy("motion", method, seconds, float(off[at]), "deg", reference, prepared)
 
-    if usable() and (kernel := compiled_composition(motion.hung)) is not None:
+    if usable() and (kernel := compiled_composition(motion._unset)) is not None:
         kernel.at(turns[:1])  # compiled, or loaded from disk
-        prepared, _ = _best_of(partial(compiled_composition, motion.hung))
+        prepared, _ = _best_of(partial(compiled_composition, motion._unset))
         yield row("composed, compiled", lambda: kernel.at(turns).error, prepared)
     prepared, tabulated = _best_of(partial(compose, _TOLERANCES[-1]))
-    yield row("composed, tabulated laws", lambda: tabulated.hung.at(turns).error, prepared)
-    prepared, superposed = _best_of(partial(Superposition, motion.ahead))
+    yield row("composed, tabulated laws", lambda: tabulated._unset.at(turns).error, prepared)
+    prepared, superposed = _best_of(partial(Superposition, motion._forward))
     yield row("superposed with lag", partial(superposed.at, turns, lagged=True), prepared)
     yield row("superposed", partial(superposed.at, turns, lagged=False), prepared)
 
@@ -248,7 +266,7 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
     missed = abs(sum(found.powers.values()) - found.loss) / through if through else 0
     reference = "power in, out and lost"
     yield MethodAccuracy("torques", "balance with losses", seconds, float(missed), "relative", reference)
-    used = train.motion(state, tuple(train.declaration.links)).ahead.used
+    used = train.motion(state, tuple(train.declaration.links))._forward.used
     passages = sum(float(each.cycles) for each in used)
     span = min(1.0, _PASSAGES / (len(used) * passages)) if passages else 0.0
     mean = None

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from math import comb, log, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
@@ -82,6 +82,15 @@ class GearSearch(Tabular, Result):
     find_gears : gives it.
     """
 
+    MEANINGS: ClassVar = {
+        "closed": "Engaged clutches and brakes.",
+        "ratio": "Speed of the input over that of the output; empty where the output stands still [1].",
+        "exact": "The ratio as a fraction [1].",
+        "states": "States that engage the same elements.",
+    }
+
+    PAGE = "report.gearbox_report:describe_gear_search"
+
     KEYS = (
         *("name", "title", "input", "output", "closed", "combinations"),
         *("gears", "free", "locked", "requested", "series", "widest", "evenest"),
@@ -113,6 +122,11 @@ class GearSearch(Tabular, Result):
     """Of these series, one with the greatest spread."""
     evenest: GearSeries | None = None
     """Of these series, one whose steps differ least."""
+
+    def _summary(self) -> str:
+        return (
+            f"{self.name}: {len(self.gears)} gears of {self.combinations} combinations of {self.closed} closed elements"
+        )
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.dynamics.torques.power_flow import PowerNode, PowerStream, find_circulation, find_power_flow
 from geartrain.dynamics.torques.train_torques import solve_driven
@@ -125,6 +125,18 @@ class Gearbox(Tabular, Result):
     geartrain.GearTrain.gearbox : gives it.
     """
 
+    MEANINGS: ClassVar = {
+        "state": "State.",
+        "engaged": "Engaged clutches and brakes.",
+        "ratio": "Speed of the input over that of the output [1].",
+        "step": "Ratio over that of the next state [1].",
+        "efficiency": "Power out over power in [1].",
+        "recirculating": "Maximum power through a pair over the power put in [1].",
+        "speed of *": "Speed of the link over that of the input [1].",
+    }
+
+    PAGE = "report.gearbox_report:describe_gearbox"
+
     KEYS = ("name", "title", "input", "output", Key("spread", to=as_float), "states", "elements", "shifts")
 
     name: str
@@ -141,6 +153,10 @@ class Gearbox(Tabular, Result):
     """Clutches and brakes in the order declared."""
     shifts: tuple[Shift, ...]
     """From each state to the next that runs the same way round."""
+
+    def _summary(self) -> str:
+        ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)
+        return f"{self.name}: {len(self.states)} states, ratios {ratios}" + (", ..." if len(self.states) > 6 else "")
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -48,9 +48,11 @@ class TrainVariants(Tabular, Result):
     def __len__(self) -> int:
         return len(self.counts)
 
-    def __repr__(self) -> str:
-        varied, told = ", ".join(self.wheels), ", ".join(self.outputs)
-        return f"<TrainVariants: {len(self)} trains by {varied}; {told}>"
+    def _summary(self) -> str:
+        return f"{len(self)} trains by {', '.join(self.wheels)}; {', '.join(self.outputs)}"
+
+    def _meaning(self, column: str) -> str:
+        return "Tooth count of the wheel." if column in self.wheels else "Speed of the output [unit of the train]."
 
     def __getitem__(self, name: str) -> Any:
         """A column; `KeyError` for one there is not."""

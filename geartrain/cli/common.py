@@ -150,15 +150,17 @@ def picture_sink(out: Path | None, force: bool, theme: ThemeName, option: str = 
 
 def check_distinct_outputs(*sinks: Sink) -> None:
     """Make sure that no two results of one command go into one file. Raises `GearTrainError`."""
-    from geartrain.numerics.files import destination
-
     taken: set[Path] = set()
     for each in sinks:
-        real = None if each.path is None else destination(each.path, each.force)
-        if real is not None and real in taken:
+        if each.path is None:
+            continue
+        from geartrain.numerics.files import destination
+
+        real = destination(each.path, each.force)
+        if real in taken:
             why = "the second would take the place of the first"
             raise GearTrainError(Problem("two results go into one file", why, "name two files", str(each.path)))
-        taken |= {real} if real is not None else set()
+        taken.add(real)
 
 
 def emit(text: str, out: Sink = STANDARD) -> None:

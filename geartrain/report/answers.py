@@ -13,9 +13,10 @@ from math import isfinite
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, magnitude
-from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
+from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.train import Train
 from geartrain.train.outputs import looks_away
+from geartrain.train.trade_words import told_words
 
 _YEAR = 300  # days, less than any year
 _SPANS = (("d", Fraction(1)), ("h", Fraction(1, 24)), ("min", Fraction(1, 1440)), ("s", Fraction(1, 86400)))  # in days
@@ -277,6 +278,22 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
             lines.append(f"  {why_floats(answer)}")
         lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
     return "\n".join(lines)
+
+
+def answer_text(answer: Answer) -> str:
+    """Return what `geartrain solve` prints for the answer of one state."""
+    declared = answer._declaration
+    oblique = frozenset() if declared is None else GearTrain(declared).kinematics.joint_sums
+    words = "" if answer else told_words(str(answer.verdict))
+    return "\n".join(filter(None, (speeds_text(answer, answer._output, oblique), words)))
+
+
+def answer_document(answer: Answer) -> Document | None:
+    """Return outputs, targets and speeds of one state as in the report; None where the train is not known."""
+    if answer._declaration is None:
+        return None
+    train = GearTrain(answer._declaration)
+    return Document(answer.train, [], list(answer_sections(train, answer)))
 
 
 def why_floats(answer: Answer) -> str:

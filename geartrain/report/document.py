@@ -5,14 +5,19 @@ Tables are fitted into a width: columns wrap at words, and a table that is still
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import zip_longest
+from itertools import islice, zip_longest
+from typing import Any
 
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import picture_maker
+from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
+
+MOST_ROWS = 120
+"""Longer tables are cut, and say so; the JSON has everything."""
 
 
 class ExactText(str):
@@ -60,7 +65,7 @@ class SceneText(str):
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class Table(Shown):
     """Rows of text under a header; the first column names the row.
 
     Examples
@@ -79,10 +84,54 @@ class Table:
     """True for matrices, which a terminal shows in strips of columns and never wraps."""
 
 
-def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int) -> Table:
+def table_document(title: str, columns: Mapping[str, Sequence[object]], most: int = MOST_ROWS) -> Document:
+    """Return columns of a result as a document of one table, of which only the first rows are shown."""
+    count = len(next(iter(columns.values()), ()))
+    rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
+    more = [f"{count - most:,} more rows."] if count > most else []
+    return Document(title, [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
+
+
+def _cell(value: object) -> str:
+    return "" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value)
+
+
+def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
     """A table without the columns in which no row says anything, but for the first so many."""
     used = [at for at in range(len(header)) if at < always or any(row[at] for row in rows)]
-    return Table([header[at] for at in used], [[row[at] for at in used] for row in rows])
+    return _chosen(Table(header, rows, wide), used)
+
+
+_UNIT = re.compile(r"\[(.+?)\]")
+"""The unit in the docstring of a field."""
+_CellColumn = tuple[str, Callable[[Any], str]]
+"""Head of a column, and the function that returns its cell for a result."""
+
+
+def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
+    """Return a table of results of one class, one row for each.
+
+    columns   name of a field, `field:digits` of a number; its head is the name with the unit of the field's docstring,
+              or is given before it, `head=field:digits`; or a head and a function that returns the cell of a result
+    """
+    rows = list(results)
+    kind: type = type(rows[0]) if rows else object
+    heads, cells = zip(*(_field_column(each, field_docs(kind)) for each in columns), strict=True)
+    return Table(heads, [tuple(cell(row) for cell in cells) for row in rows], wide)
+
+
+def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellColumn:
+    if not isinstance(column, str):
+        return column
+    head, given, field = column.rpartition("=")
+    name, _, digits = field.partition(":")
+    unit = _UNIT.search(docs.get(name, ""))
+    head = head if given else f"{name.replace('_', ' ')} ({unit[1]})" if unit else name.replace("_", " ")
+    return head, lambda result: _field_text(getattr(result, name), digits)
+
+
+def _field_text(value: Any, digits: str) -> str:
+    return "-" if value is None else figure(value, int(digits)) if digits else str(value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +145,7 @@ class Branch:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class Section(Shown):
     """A heading with paragraphs, a tree, then tables.
 
     Examples
@@ -116,7 +165,7 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Shown):
     """A picture with a caption, for pages of HTML.
 
     Examples
@@ -158,7 +207,7 @@ class PageExtras:
     """Sources by key."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Document:
     """A title, a lead, and sections, independent of how they are shown.
 
@@ -184,6 +233,10 @@ class Document:
     """In the order in which they are read."""
     aside: PageExtras = field(default_factory=PageExtras)
     """Badge, pictures, viewer and sources, which only a page of HTML has room for."""
+
+    def __repr__(self) -> str:
+        count = len(self.sections)
+        return summary_line("Document", f"{self.title}: {count} section{'' if count == 1 else 's'}")
 
     def __str__(self) -> str:
         """The document as Markdown."""
@@ -225,16 +278,12 @@ def ppm(value: float | None) -> str:
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 
-MOST_ROWS = 120
-"""Longer tables are cut, and say so; the JSON has everything."""
-
-
-def cut(rows: Sequence[Sequence[str]], of: int | None = None) -> list[Sequence[str]]:
+def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
     """The first rows of a long table (of so many, if not all are given), and how many more there are."""
     count = len(rows) if of is None else of
-    if count <= MOST_ROWS:
+    if count <= most:
         return list(rows)
-    return [*rows[:MOST_ROWS], (f"... {count - MOST_ROWS} more", *("" for _ in rows[0][1:]))]
+    return [*rows[:most], (f"... {count - most} more", *("" for _ in rows[0][1:]))]
 
 
 # ------------------------------------------------------------------------------------------------ tables within a width

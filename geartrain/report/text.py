@@ -7,7 +7,6 @@ from io import StringIO
 from typing import TYPE_CHECKING
 
 from geartrain.errors import printable
-from geartrain.numerics.markdown_text import markdown_text
 from geartrain.report.document import Branch, Document, Table, column_widths, gap_of, strips
 
 if TYPE_CHECKING:
@@ -43,10 +42,14 @@ def to_markdown(documents: Sequence[Document]) -> str:
 
 def _line(text: str) -> str:
     """Text on one line, for a heading or a cell."""
+    from geartrain.numerics.markdown_text import markdown_text
+
     return " ".join(markdown_text(text).split())
 
 
 def _markdown(document: Document) -> Iterator[str]:
+    from geartrain.numerics.markdown_text import markdown_text
+
     yield from (f"# {_line(document.title)}", "")
     for paragraph in document.summary:
         yield from (markdown_text(paragraph), "")

@@ -40,6 +40,7 @@ from geartrain.wings import wing
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
     from geartrain.kinematics.phasing import MeshPhasing
+    from geartrain.kinematics.speeds import Mobility
 
 
 _CIRCUITS_ABREAST = 6
@@ -308,27 +309,40 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
 
 
 def _mobility(train: GearTrain) -> Section:
-    found = train.mobility
+    held = [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
+    return Section("Mobility", list(_mobility_lines(train.mobility, held)))
+
+
+def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
+    """Mobility by count and by rank, what is redundant, what holds the train, and what stands still."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')} - {plural(found.gear_pairs, 'gear pair')}{minus}"
-    lines = [
-        f"By count: {pairs} = {found.by_count}.",
-        f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}"
-        + (" (exact)." if found.certain else " (rank modulo two primes)."),
-    ]
+    yield f"By count: {pairs} = {found.by_count}."
+    exact = " (exact)." if found.certain else " (rank modulo two primes)."
+    yield f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}{exact}"
     if found.redundant:
         many = "circuit" if found.redundant == 1 else "circuits"
-        lines.append(f"{found.redundant} redundant {many}: what the others say already.")
-    lines += [f"Redundant: {_loop(loop)}." for loop in found.loops[:12]]
+        yield f"{found.redundant} redundant {many}: what the others say already."
+    yield from (f"Redundant: {_loop(loop)}." for loop in found.loops[:12])
     if len(found.loops) > 12:
-        lines.append(f"... and {len(found.loops) - 12} more redundant loops.")
-    lines += [f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12]]
-    lines += [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
+        yield f"... and {len(found.loops) - 12} more redundant loops."
+    yield from (f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12])
+    yield from held
     if found.idle:
-        lines.append(f"Never rolling: {', '.join(found.idle[:20])}.")
+        yield f"Never rolling: {', '.join(found.idle[:20])}."
     if found.still and found.by_rank:
-        lines.append(f"Standing still in every motion: {', '.join(found.still[:20])}.")
-    return Section("Mobility", lines)
+        yield f"Standing still in every motion: {', '.join(found.still[:20])}."
+
+
+def phasing_document(closure: MeshPhasing) -> Document:
+    """Return what the report says of phase closure."""
+    sections = list(_phasing(closure)) or [Section("Putting it together", ("No loop of the train is judged.",))]
+    return Document("Phase closure", (), sections)
+
+
+def mobility_document(found: Mobility) -> Document:
+    """Return what the report says of mobility, without what holds a train that is locked."""
+    return Document("Mobility", (), [Section("Mobility", list(_mobility_lines(found)))])
 
 
 def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, brief
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +94,10 @@ class GearStages(CountSizes, Result):
     """`ratio` over the wanted magnitude, less 1; exact."""
     pairs: tuple[tuple[int, int], ...]
     """The stages as they are best paired: count on top, count beneath."""
+
+    def _summary(self) -> str:
+        teeth = " ".join(f"{top}/{beneath}" for top, beneath in self.pairs)
+        return f"{teeth} = {brief(self.ratio)}, error {float(self.error):.3g}"
 
     @property
     def teeth(self) -> tuple[int, ...]:

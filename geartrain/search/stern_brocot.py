@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from heapq import merge
-from typing import Literal
+from typing import ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import coprime
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.target_ratio import TargetRatio
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]
@@ -47,8 +47,17 @@ class Approximant(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class Approximants(Result):
+class Approximants(Tabular, Result):
     """The fractions on the way to a ratio, each nearer than all smaller ones."""
+
+    ROWS = "search.tooth_numbers_report:approximant_rows"
+    ROW = "Approximant"
+    MEANINGS: ClassVar = {
+        "error": "The fraction over the number, less 1 [1].",
+        "exact_error": "The error as a fraction [1].",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_approximants"
 
     wanted: TargetRatio
     """The ratio."""
@@ -56,6 +65,11 @@ class Approximants(Result):
     """The greatest numerator and denominator."""
     solutions: tuple[Approximant, ...]
     """In the order of the walk."""
+
+    def _summary(self) -> str:
+        label = self.wanted.label or self.wanted.value
+        last = f", last {self.solutions[-1].value}" if self.solutions else ""
+        return f"{label}: {len(self.solutions)} fractions up to {self.most}{last}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -82,6 +82,11 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
     return Section("Solutions", (), [Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))])
 
 
+def approximant_rows(found: Approximants) -> list[dict[str, Any]]:
+    """The fractions as a flat table."""
+    return [each.to_dict() for each in found.solutions]
+
+
 def describe_approximants(found: Approximants) -> Document:
     """The fractions on the way to a ratio."""
     wanted = found.wanted

@@ -40,6 +40,8 @@ class GearSphere(Result):
     {'5': 1.25, '3': 0.75}
     """
 
+    PAGE = "report.spherical_report:describe_sphere"
+
     KEYS = (
         Key("title", "configuration.title"),
         *(Key("gears", "gear_count"), Key("meshes", "mesh_count"), "kinds", Key("teeth", "configuration.teeth")),
@@ -63,6 +65,9 @@ class GearSphere(Result):
     """Radius of the sphere, in the unit of the reader; wheels are sized by it."""
     graph: GraphSet | None = None
     """How the set was fitted to a graph, where it was."""
+
+    def _summary(self) -> str:
+        return f"{self.configuration._summary()}, radius {self.radius:g}"
 
     @cached_property
     def chosen(self) -> bool:

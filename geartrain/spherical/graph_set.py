@@ -350,6 +350,9 @@ class GraphSet(Result):
     residuals: tuple[float, ...]
     """What was left after each step of the fit [rad for pitches, pitches for phases]."""
 
+    def _summary(self) -> str:
+        return f"{self.configuration._summary()}, aim {self.aim}, residue {self.residue:.3g} pitches"
+
     @property
     def exact(self) -> tuple[str, ...]:
         """What holds to rounding: "pitch", "phases", both or neither."""

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 from geartrain.spherical.configuration import (
     Configuration,
     MeshKind,
@@ -159,7 +159,7 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 
 @dataclass(frozen=True)
-class ToothCountCompromise:
+class ToothCountCompromise(Shown):
     """One set of tooth numbers.
 
     See Also
@@ -202,6 +202,8 @@ class ToothCountSuggestions(Result):
     suggest_tooth_counts : what gives these.
     """
 
+    PAGE = "report.spherical_report:describe_suggestions"
+
     KEYS = (
         "considered",
         "removed",
@@ -233,6 +235,10 @@ class ToothCountSuggestions(Result):
     beyond: int
     """Sets that meet every condition but are worse than the last one listed."""
 
+    def _summary(self) -> str:
+        best = f", best {self.found[0]}" if self.found else ""
+        return f"{len(self.found)} of {self.considered} tooth sets{best}"
+
     def __len__(self) -> int:
         return len(self.found)
 
@@ -241,11 +247,6 @@ class ToothCountSuggestions(Result):
 
     def __getitem__(self, at: int) -> ToothCountCompromise:
         return self.found[at]
-
-    def __str__(self) -> str:
-        lines = [str(found) for found in self.found] or ["no tooth numbers meet every condition"]
-        gone = ", ".join(f"{count} by {reason}" for reason, count in self.removed.items())
-        return "\n".join([*lines, f"of {self.considered} sets removed: {gone}"])
 
 
 class _Search:
@@ -325,7 +326,7 @@ class _Search:
 
 
 @dataclass(frozen=True)
-class NeighbourRatioWindow:
+class NeighbourRatioWindow(Shown):
     """Range of a tooth ratio in which equal neighbours do not overlap, tips not counted.
 
     See Also

@@ -26,6 +26,7 @@ from geartrain.errors import (
     suggest,
 )
 from geartrain.numerics.containers import collector_paused
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_forms
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
@@ -144,14 +145,6 @@ def _name(kind: Any) -> tuple[Any, ...]:
 
 
 @cache
-def _forms() -> dict[str, type[BaseModel]]:
-    """Every tooth form by the name that chooses it."""
-    from geartrain.teeth.any_tooth_form import AnyToothForm
-
-    return {name: form for form in get_args(get_args(AnyToothForm)[0]) for name in _name(form)}
-
-
-@cache
 def _laws() -> dict[str, type[BaseModel]]:
     """Every law of friction by the name that chooses it."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
@@ -217,7 +210,7 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """`loc` without the tags pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *_forms(), *_laws()}
+    tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *TOOTH_FORMS, *_laws()}
     return tuple(
         step
         for at, step in enumerate(loc)
@@ -249,7 +242,7 @@ def _step(kind: Any, step: str | int) -> Iterator[Any]:
 
 def _models_in(annotation: Any) -> Iterator[Any]:
     if annotation is DeclaredToothForm:
-        yield from _forms().values()
+        yield from tooth_forms().values()
     elif annotation is DeclaredFriction:
         yield CoulombFriction
         yield from _laws().values()

@@ -78,15 +78,15 @@ def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAc
     motion = train.motion(outputs=["moon"])
     turns = np.arange(500) * (20.0 / 500)
     total = np.zeros(500)
-    for source in motion.ahead.used:
+    for source in motion._forward.used:
         S = float(source.cycles) * turns * source.transmission.period + source.phase
-        seen = motion.ahead.outputs[0]
+        seen = motion._forward.outputs[0]
         total += (
             source.sense
-            * motion.ahead.spread.sensitivity(seen.of, seen.base)[source.pair]
+            * motion._forward.spread.sensitivity(seen.of, seen.base)[source.pair]
             * source.transmission.error(S)
         )
-    off = degrees(np.abs(total - motion.hung.at(turns).error[0]).max())
+    off = degrees(np.abs(total - motion._unset.at(turns).error[0]).max())
     assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
     lagged, tables = (row_of(moon, MOTION, name).error for name in ("superposed with lag", "composed, tabulated laws"))
     assert 0 < tables < 1e-9 < lagged < off

@@ -20,7 +20,7 @@ from geartrain.scene import make_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import OpenPage, Shown
+    from conftest import OpenPage, SharePage, Shown
 
     from geartrain import Answer
 
@@ -52,14 +52,12 @@ ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tbody tr')]
 
 
 @pytest.fixture
-def opened(open_page: OpenPage, tmp_path: Path) -> Any:
-    """Opens the page of a train on which counts may be changed, in all its states."""
+def opened(share: SharePage) -> Any:
+    """Shows the page of a train on which counts may be changed, in all its states."""
 
     def show(train: GearTrain) -> Shown:
-        path = tmp_path / "page.html"
         scenes = [make_scene(train, state, formulas=True) for state in train.states or (None,)]
-        path.write_text(page(scenes, teeth=False), encoding="utf-8")
-        return open_page(path, **DESK)
+        return share(page(scenes, teeth=False))
 
     return show
 
@@ -200,6 +198,7 @@ def test_meshes_of_other_axes_are_judged_by_what_they_have(opened: Any) -> None:
         tab(shown, "Change")
         texts = shown.page.locator(".change").inner_text()
         assert (said or "All still fit their axes") in texts, name
+        shown.page.get_by_role("button", name="All as declared").click()
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shipped
-from conftest import OpenPage, Shown
+from conftest import OpenPage, SharePage, Shown
 from viewing import DESK, tab, wait
 
 from geartrain import load
@@ -27,10 +27,8 @@ def played() -> Played:
 
 
 @pytest.fixture
-def shown(played: Played, open_page: OpenPage, tmp_path: Path) -> Shown:
-    path = tmp_path / "run.html"
-    path.write_text(page([played[1]], teeth=False), encoding="utf-8")
-    return open_page(path, **DESK)
+def shown(played: Played, share: SharePage) -> Shown:
+    return share(page([played[1]], teeth=False))
 
 
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
@@ -145,7 +143,7 @@ def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
     assert shown.run("geartrain.machines[0].time()") > later
 
 
-def test_a_run_backlashes_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
+def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
     shown.page.get_by_label("Again at the end").uncheck()
     shown.page.get_by_role("slider", name="Speed").fill("1")
     shown.page.get_by_role("button", name="play", exact=True).click()

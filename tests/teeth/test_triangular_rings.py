@@ -350,7 +350,7 @@ def test_a_planetary_set_has_the_reference_motion_and_efficiency(name: str) -> N
         return float(error.max())
 
     assert degrees(extreme(1) + extreme(-1)) == pytest.approx(peak, abs=6e-10)
-    ripple = motion.ripples(float(motion.period), 20_001)[1]["out"]
+    ripple = motion.transmission_errors(float(motion.period), 20_001)["out"]
     relative = sorted(float(each) / ripple.mean for each in (ripple.speed.min(), ripple.speed.max()))
     assert relative == pytest.approx(speeds, abs=1e-4)
     out = train.declaration.outputs["out"].of

@@ -148,11 +148,11 @@ def test_the_teeth_of_a_train_without_pins_ripple_as_motion_says() -> None:
 
     train = geartrain.load("moon-triangular")
     run = MotionRun(train.motion(outputs=["moon"]), 2.0, 2001)
-    run.go()
+    run.run()
     teeth = find_budget(train, BudgetQuestion(outputs=("moon",), **SHORT))["moon"]["teeth"]
     assert teeth.declared == "whole"
-    assert teeth.degrees == pytest.approx(degrees(run.tallies[0].peak_to_peak), rel=1e-12)
-    assert teeth.rms == pytest.approx(degrees(run.tallies[0].rms), rel=1e-9)
+    assert teeth.degrees == pytest.approx(degrees(run.statistics[0].peak_to_peak), rel=1e-12)
+    assert teeth.rms == pytest.approx(degrees(run.statistics[0].rms), rel=1e-9)
 
 
 def test_lost_motion_of_involutes_is_the_sum_of_their_backlash_at_the_pointer() -> None:

@@ -572,8 +572,8 @@ def test_a_clock_with_circular_arc_teeth_is_cut_by_hand() -> None:
     # cut nearly true, pointers stray by the ripple of even teeth alone
     sure = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.001 %"])), 512, 1)
     run = MotionRun(train.motion(), 0.5, 20_001)
-    run.go()
-    for one, other, ripple in zip(found.pointers, sure.pointers, run.tallies, strict=True):
+    run.run()
+    for one, other, ripple in zip(found.pointers, sure.pointers, run.statistics, strict=True):
         assert one.name == other.name == ripple.name
         assert other.errors.std() == pytest.approx(ripple.rms, rel=0.15)
         assert one.errors.std() > 2 * ripple.rms or not ripple.rms

@@ -181,7 +181,7 @@ def test_the_published_train_with_the_best_radii(aim: str, output: str, most: fl
     assert not better.mechanics.faults
     if aim == "error":
         run = MotionRun(better.motion(None, (output,)), 20, 20_000)
-        run.go()
-        assert run.tallies[0].peak_to_peak == pytest.approx(found.together, rel=1e-9)
+        run.run()
+        assert run.statistics[0].peak_to_peak == pytest.approx(found.together, rel=1e-9)
     else:
         assert 1 - float(better.driven(output, "2").efficiency or 0) == pytest.approx(found.together, rel=1e-9)

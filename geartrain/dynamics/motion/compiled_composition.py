@@ -19,7 +19,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
-from geartrain.numerics.kernels import is_fast, kernel
+from geartrain.numerics.kernels import kernel
 from geartrain.numerics.rounding_bounds import SPLITTER, split
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.transmission_table import join_transmission_tables, make_transmission_table, transmission_along
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 
 BLOCK = 2048  # positions: enough to amortise the overhead of a block, few enough for the processor's cache
-_PACE = 2e6  # link positions per second evaluated by numpy in typical trains
 
 
 @dataclass(frozen=True)
@@ -412,15 +411,6 @@ class CompiledComposition:
         compose.chosen(self.fast)(self.arrays, turns, plain, error, rate, behind)
         back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)
         return ErrorSamples(turns, error, rate, back)
-
-
-def pays(composition: ErrorComposition, fast: bool | None, positions: int) -> bool:
-    """Return whether to use a kernel for this number of positions: as requested, else if it is faster.
-
-    Raises `MissingExtraError` if kernels are requested and numba is not installed.
-    """
-    links = sum(len(step.links) for step in composition.steps)
-    return links > 0 and is_fast(fast, positions * links / _PACE)
 
 
 def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:

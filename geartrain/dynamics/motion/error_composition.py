@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
+from geartrain.numerics.results import short_repr
 from geartrain.numerics.rounding_bounds import split
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ class ErrorSamples(NamedTuple):
 
     See Also
     --------
-    Motion.at, Motion.passages : Methods that return these.
+    Motion.at : Method that returns these.
     """
 
     turns: Floats
@@ -122,6 +123,9 @@ class ErrorSamples(NamedTuple):
 
     Their flanks change there, but the transmission function remains that of the drive flanks, without backlash.
     """
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 @dataclass

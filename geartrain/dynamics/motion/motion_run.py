@@ -11,15 +11,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import pi
-from typing import TYPE_CHECKING, Any, NamedTuple
+from math import degrees, pi
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.extreme_search import ExtremeSearch
 from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
-from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -32,11 +31,13 @@ if TYPE_CHECKING:
     Complex = NDArray[np.complex128]
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
+    from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition
 
     OnDone = Callable[[int], None]
 
 _SAMPLES = 1 << 14  # samples of one period of a transmission function
 _HARMONICS = 24  # harmonics evaluated for each pair
+_MAIN = 3  # outputs in a summary
 _FAINT = 1e-6  # of the strongest line: weaker lines are omitted
 
 
@@ -80,7 +81,9 @@ def find_spectrum(
     Lines are resolved if they differ by two periods over the run. Over a whole number of common periods the measurement
     is exact except for harmonics above half the sampling rate.
     """
-    superposed = Superposition(motion.ahead if turns >= 0 else motion.back)
+    from geartrain.dynamics.motion.superposition import Superposition
+
+    superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
     found = {}
     for at, name in enumerate(motion.outputs):
@@ -147,7 +150,7 @@ def _measure(
     centre, weights = np.zeros(len(motion.outputs)), 0.0
     means = np.zeros(len(orders), dtype=complex)
     done = 0
-    for passage in motion.passages(turns, samples):
+    for passage in motion._stretches(turns, samples):
         at = np.arange(done, done + len(passage.turns)) / (samples - 1)
         done += len(passage.turns)
         # whole periods need no window, but the last position repeats the first; otherwise Hann reduces leakage
@@ -175,7 +178,7 @@ def _ignore(_: int) -> None:
 class MotionRun(Tabular, Pictured):
     """Run of a motion: positions from 0 to `turns` of the input, and results on request.
 
-    Results are filled in by `go`, `try_phases`, `estimate` and `analyse`.
+    Results are filled in by `run`, `run_random_phases`, `find_estimates` and `find_spectra`.
 
     Raises
     ------
@@ -186,11 +189,23 @@ class MotionRun(Tabular, Pictured):
     --------
     >>> import geartrain
     >>> run = MotionRun(geartrain.load("moon-triangular").motion(outputs=["moon"]), turns=1, samples=2001)
-    >>> run.go()
-    >>> moon, = run.tallies
+    >>> run.run()
+    >>> moon, = run.statistics
     >>> moon.ratio, round(moon.peak_to_peak, 3), round(moon.rms, 3)
     (Fraction(254, 95), 0.103, 0.022)
     """
+
+    MEANINGS: ClassVar = {
+        "output": "Output or link.",
+        "mean speed": "Mean speed over that of the input [1].",
+        "exact": "Mean speed over that of the input, as a fraction [1].",
+        "error p-p (rad)": "Maximum less minimum of the transmission error [rad].",
+        "error rms (rad)": "Root mean square of the transmission error about its mean [rad].",
+        "slowest": "Minimum of the speed less its mean, over the speed of the input [1].",
+        "fastest": "Maximum of the speed less its mean, over the speed of the input [1].",
+    }
+
+    PAGE = "report.motion_report:motion_document"
 
     FIGURE = "motion_figure"
 
@@ -200,9 +215,9 @@ class MotionRun(Tabular, Pictured):
     """Turns of the input, up to 1e12 in either direction. Negative turns use the coast flanks."""
     samples: int
     """Number of positions including both ends, 2 or more."""
-    tallies: list[RunningStatistics] = field(default_factory=list)
+    statistics: list[RunningStatistics] = field(default_factory=list)
     """Peaks and moments by output."""
-    phased: list[list[RunningStatistics]] = field(default_factory=list)
+    phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
     """Peaks and moments by output, for each set of random phases."""
     seed: int | None = None
     """Random seed of these phases; None if none were drawn."""
@@ -227,6 +242,15 @@ class MotionRun(Tabular, Pictured):
                 )
             )
 
+    def _summary(self) -> str:
+        declared = self.motion._declaration
+        turns = f"{self.turns:g} turn{'' if self.turns == 1 else 's'}"
+        peaks = [f"{each.name} {degrees(each.peak_to_peak):.4g} deg" for each in self.statistics[:_MAIN]]
+        shown = f"transmission error p-p {', '.join(peaks)}" if peaks else "not run yet"
+        more = f", {len(self.statistics) - _MAIN} more" if len(self.statistics) > _MAIN else ""
+        cut = f", stopped after {self.done} of {self.samples} positions" if 0 < self.done < self.samples else ""
+        return f"{'' if declared is None else declared.name + ': '}{turns}, {shown}{more}{cut}"
+
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Table with a row for each evaluated output.
@@ -234,16 +258,16 @@ class MotionRun(Tabular, Pictured):
         Its columns are the mean speed over the input speed, the error [rad], and the speed over its mean.
         """
         return {
-            "output": [each.name for each in self.tallies],
-            "mean speed": [float(each.ratio) for each in self.tallies],
-            "exact": [str(each.ratio) for each in self.tallies],
-            "error p-p (rad)": [each.peak_to_peak for each in self.tallies],
-            "error rms (rad)": [each.rms for each in self.tallies],
-            "slowest": [each.slow for each in self.tallies],
-            "fastest": [each.fast for each in self.tallies],
+            "output": [each.name for each in self.statistics],
+            "mean speed": [float(each.ratio) for each in self.statistics],
+            "exact": [str(each.ratio) for each in self.statistics],
+            "error p-p (rad)": [each.peak_to_peak for each in self.statistics],
+            "error rms (rad)": [each.rms for each in self.statistics],
+            "slowest": [each.slow for each in self.statistics],
+            "fastest": [each.fast for each in self.statistics],
         }
 
-    def go(self, on_done: OnDone = _ignore) -> None:
+    def run(self, on_done: OnDone = _ignore) -> None:
         """Evaluate every position, and search for the extremes between them.
 
         Parameters
@@ -256,21 +280,21 @@ class MotionRun(Tabular, Pictured):
         GearTrainError
             If coupled pairs have no unique solution.
         """
-        self.tallies = self.motion.tallies()
-        peaks = SampledPeaks(len(self.tallies))
-        for passage in self.motion.passages(self.turns, self.samples):
-            for at, tally in enumerate(self.tallies):
+        self.statistics = self.motion._statistics()
+        peaks = SampledPeaks(len(self.statistics))
+        for passage in self.motion._stretches(self.turns, self.samples):
+            for at, tally in enumerate(self.statistics):
                 tally.add(passage.error[at], passage.rate[at])
             peaks.add(passage)
             self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
-        composition = self.motion.ahead if self.turns >= 0 else self.motion.back
+        composition = self.motion._forward if self.turns >= 0 else self.motion._backward
         search = ExtremeSearch(composition)
-        count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.tallies)
+        count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)
         self.reversing_drivers |= search.reversing_drivers
 
-    def try_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
+    def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
         """Repeat the run with random phases of the pairs that declare none.
 
         Parameters
@@ -280,44 +304,46 @@ class MotionRun(Tabular, Pictured):
         seed : int
             Random seed, 0 or more.
         on_done : callable
-            Callback, as in `go`.
+            Callback, as in `run`.
         """
         self.seed = seed if count else None
         if seed < 0:
             raise QuestionError(Problem(f"seed = {seed}", "a random seed is not negative", "pass seed >= 0"))
         random = np.random.default_rng(seed)
         for _ in range(count):
-            other = MotionRun(self.motion.at_random(random), self.turns, self.samples)
-            other.go(on_done)
-            self.phased.append(other.tallies)
+            other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)
+            other.run(on_done)
+            self.phase_statistics.append(other.statistics)
 
-    def estimate(self, on_done: OnDone = _ignore) -> None:
+    def find_estimates(self, on_done: OnDone = _ignore) -> None:
         """Compute the fast estimates, with their true error.
 
         Parameters
         ----------
         on_done : callable
-            Callback, as in `go`.
+            Callback, as in `run`.
         """
+        from geartrain.dynamics.motion.superposition import find_estimates
+
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
-    def analyse(self, on_done: OnDone = _ignore) -> None:
+    def find_spectra(self, on_done: OnDone = _ignore) -> None:
         """Compute the spectra by exact order.
 
         Parameters
         ----------
         on_done : callable
-            Callback, as in `go`.
+            Callback, as in `run`.
         """
         self.spectra = find_spectrum(self.motion, self.turns, self.samples, on_done=on_done)
 
     @property
-    def position_columns(self) -> list[str]:
+    def _position_columns(self) -> list[str]:
         """Column names of a table of all positions."""
         names = self.motion.outputs
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
-    def values(self, passage: ErrorSamples) -> list[Floats]:
+    def _values(self, passage: ErrorSamples) -> list[Floats]:
         """Return the columns of one stretch: turns, then angle [rad], error [rad] and speed of each output.
 
         An angle is the sum of starting angle, mean motion and error.
@@ -330,16 +356,16 @@ class MotionRun(Tabular, Pictured):
         Returns
         -------
         list of array of float, (n,)
-            Columns in the order of `position_columns`.
+            Columns in the order of `_position_columns`.
         """
         found = [passage.turns]
         angle = 2 * pi * passage.turns
-        for at, (tally, start) in enumerate(zip(self.motion.tallies(), self.motion.starts, strict=True)):
+        for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):
             error = passage.error[at]
             found += [start + tally.mean * angle + error, error, tally.mean + passage.rate[at]]
         return found
 
-    def check_resumed(self, row: str, rows: int) -> None:
+    def _check_resumed(self, row: str, rows: int) -> None:
         """Raise an error if the last row of a table is not of this run.
 
         Parameters
@@ -354,7 +380,7 @@ class MotionRun(Tabular, Pictured):
         GearTrainError
             If this run has other turns in this row, or fewer positions.
         """
-        # same order of operations as in `passages`, so that the float and its text are identical
+        # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):
             why = f"its row {rows} is at {row.split(',')[0]} turns, but this run has {turns!r} there"

@@ -54,7 +54,7 @@ class RunningStatistics(Result):
 
     See Also
     --------
-    MotionRun.tallies : Statistics of all outputs.
+    MotionRun.statistics : Statistics of all outputs.
     """
 
     KEYS = (

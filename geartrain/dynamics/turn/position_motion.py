@@ -101,7 +101,7 @@ class PositionMotion:
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
         self.motion = motion
         self._kinks: dict[tuple[frozenset[str], float], Floats] = {}
-        self.composition = motion.with_sources(pairs)
+        self.composition = motion._with_sources(pairs)
         self.sources: Mapping[str, PairErrorSource] = {
             source.id: source for source in self.composition.sources if source.id in pairs
         }
@@ -114,7 +114,7 @@ class PositionMotion:
     @cached_property
     def _columns(self) -> list[int]:
         """Index of each link in the order of solution."""
-        at = {link: number for number, link in enumerate(self.motion.spread.links)}
+        at = {link: number for number, link in enumerate(self.motion._propagation.links)}
         return [at[link] for link in self.links]
 
     @property
@@ -125,17 +125,17 @@ class PositionMotion:
     @property
     def way(self) -> int:
         """Sign of the input's speed about its own axis. Motion counts in the input's sense."""
-        return self.motion.train.way
+        return self.motion._problem.way
 
     @cached_property
     def senses(self) -> Floats:
         """Sense of each link's axis relative to the input's motion, 1 or -1."""
-        return np.array([float(self.way * self.motion.train.signs.get(link, 1)) for link in self.links])
+        return np.array([float(self.way * self.motion._problem.signs.get(link, 1)) for link in self.links])
 
     @cached_property
     def means(self) -> Floats:
         """Mean speed of each link over the input speed."""
-        return np.array([float(self.motion.train.ratio(link)) for link in self.links])
+        return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
         """Return speeds and angles at some positions, at most one chunk.

@@ -13,11 +13,11 @@ from fractions import Fraction
 from functools import cache
 from itertools import permutations
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, as_float, decimal
-from geartrain.numerics.results import Key, Result, finite
+from geartrain.numerics.results import Key, Result, Tabular, brief, finite
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 CARRIER = "carrier"
@@ -301,6 +301,10 @@ class EpicyclicSet(CountSizes, Result):
     room: float
     """Between the tips of neighbouring planets, equally spaced [modules]; negative where they overlap."""
 
+    def _summary(self) -> str:
+        teeth = ", ".join(f"{wheel} {count}" for wheel, count in self.teeth.items())
+        return f"{teeth}, input/output {brief(self.ratio)}, error {float(self.error):.3g}"
+
     @property
     def counts(self) -> Collection[int]:
         """The counts of all wheels."""
@@ -338,13 +342,25 @@ class EpicyclicSet(CountSizes, Result):
 
 
 @dataclass(frozen=True, slots=True)
-class SetFindings(Result):
+class SetFindings(Tabular, Result):
     """The best sets of a kind, best first.
 
     See Also
     --------
     find_sets : gives it.
     """
+
+    ROWS = "search.tooth_numbers_report:set_rows"
+    MEANINGS: ClassVar = {
+        "mode": "Links as input:output:held.",
+        "input/output": "Exact ratio of input to output [1].",
+        "error": "Ratio over the wanted ratio, less 1 [1].",
+        "places": "Number of places at which equal planets fit; 0 for any.",
+        "room": "Clearance between the tips of neighbouring planets [module].",
+        "*": "Tooth count of the wheel.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_sets"
 
     KEYS = (
         "kind",
@@ -376,6 +392,10 @@ class SetFindings(Result):
     """The best of them."""
     shortfall: Shortfall
     """What became of the others; a set in each mode counts as one candidate."""
+
+    def _summary(self) -> str:
+        best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
+        return f"{self.kind}, {self.ratio_is} = {brief(self.wanted)}: {len(self.solutions)} sets{best}"
 
     def __bool__(self) -> bool:
         return bool(self.solutions)

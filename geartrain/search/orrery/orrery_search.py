@@ -15,7 +15,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float, fraction_text
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.orrery.arbor_trees import (
     FIRST,
     ArborTree,
@@ -79,13 +79,18 @@ class OrreryPair(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class Orrery(Result):
+class Orrery(Tabular, Result):
     """A tree of gear pairs that shows every period asked for.
 
     See Also
     --------
     find_orrery : finds it.
     """
+
+    ROWS = "search.tooth_numbers_report:orrery_rows"
+    ROW = "OrreryPair"
+
+    PAGE = "search.tooth_numbers_report:describe_orrery"
 
     KEYS = (
         "wheels",
@@ -114,6 +119,10 @@ class Orrery(Result):
     """Fewer wheels than this are impossible: proved."""
     ended: str
     """Why the search ended."""
+
+    def _summary(self) -> str:
+        worst = max((abs(error) for error in self.errors.values()), default=0)
+        return f"{len(self.pairs)} pairs for {', '.join(self.periods)}: error at most {float(worst):.3g}"
 
     @property
     def wheels(self) -> int:

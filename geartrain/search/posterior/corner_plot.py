@@ -26,6 +26,8 @@ from geartrain.drawing.style import (
     MaxNLocator,
     Patch,
     headed,
+    legend_below,
+    name_axes,
 )
 from geartrain.errors import Problem, QuestionError
 
@@ -66,7 +68,7 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
     if not 0 < len(wheels) <= MOST:
         raise _nothing(f"{len(wheels)} wheels do not fit on a page; choose from 1 to {MOST}")
     side = max(5.0, 0.9 + _CELL * len(wheels))
-    figure = Figure(figsize=(side, side), dpi=100, layout="constrained")
+    figure = Figure(figsize=(side, side), layout="constrained")
     panels = figure.subplots(len(wheels), len(wheels), squeeze=False)
     spans = {wheel: _span(likely, wheel) for wheel in wheels}
     for row, down in enumerate(wheels):
@@ -82,9 +84,9 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
             else:
                 _two(axes, likely, (across, down), spans)
             axes.set_xlim(spans[across][0] - 0.5, spans[across][1] + 0.5)
-        panels[-1, row].set_xlabel(down, fontsize=TEXT)
+        name_axes(panels[-1, row], down, parse_math=False)
         if row:
-            panels[row, 0].set_ylabel(down, fontsize=TEXT)
+            name_axes(panels[row, 0], y=down, parse_math=False)
     _key(figure, likely)
     if title:
         words = fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20))
@@ -100,7 +102,7 @@ def _key(figure: Figure, likely: CountProbabilities) -> None:
     if likely.declared:
         handles.append(Line2D([], [], color=RED, linewidth=1.2, linestyle=_DASHES, label="declared"))
     if len(handles) > 1:
-        figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
+        legend_below(figure, 3, handles)
 
 
 def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:

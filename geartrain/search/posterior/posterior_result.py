@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal, NotRequired, TypedDict
+from itertools import islice
+from typing import Any, ClassVar, Literal, NotRequired, TypedDict
 
 from geartrain.numerics.exact import as_float, decimal
 from geartrain.numerics.long_float import Real, as_plain
@@ -197,6 +198,15 @@ class ToothCountPosterior(Tabular, Result):
     infer_counts : gives it
     """
 
+    MEANINGS: ClassVar = {
+        "wheel": "Wheel with an uncertain tooth count.",
+        "teeth": "Tooth count.",
+        "prior": "Prior probability of the count [1].",
+        "posterior": "Posterior probability of the count; empty where nothing fits [1].",
+    }
+
+    PAGE = "search.posterior.posterior_report:describe_posterior"
+
     KEYS = (
         *(Key("train", "name"), "method", "soft", "combinations", "examined", "evidence", "turning", "fits", "ranked"),
         *("seed", "ended", "assumed", "remarks", Key("witnesses", "known"), Key("wheels", "posteriors")),
@@ -239,6 +249,14 @@ class ToothCountPosterior(Tabular, Result):
     """Of the sample, if there is one."""
     cut: bool
     """True if it was interrupted: the figures are of what had been drawn."""
+
+    def _summary(self) -> str:
+        likely = ", ".join(
+            f"{wheel} {found.likeliest}" for wheel, found in islice(self.posteriors.items(), 4) if found.chances
+        )
+        more = f", {len(self.posteriors) - 4} more wheels" if len(self.posteriors) > 4 else ""
+        searched = f"{self.combinations:,} combinations, {self.method}"
+        return f"{self.name}: most probable {likely or 'nothing fits'}{more}; {searched}"
 
     def __getitem__(self, wheel: str) -> WheelPosterior:
         return self.posteriors[wheel]

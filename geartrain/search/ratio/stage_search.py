@@ -14,11 +14,11 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
-from typing import Literal
+from typing import ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets, rounded_up
@@ -37,13 +37,28 @@ _QUICK = 3 * 10**6  # products made to find out what one more stage would give
 
 
 @dataclass(frozen=True, slots=True)
-class StageFindings(Result):
+class StageFindings(Tabular, Result):
     """Solutions of one ratio by stages: pairs of unordered sets of counts. A sequence of its `solutions`.
 
     See Also
     --------
     find_stages : gives it.
     """
+
+    ROWS = "search.tooth_numbers_report:stage_rows"
+    MEANINGS: ClassVar = {
+        "top": "Tooth counts on top.",
+        "beneath": "Tooth counts beneath.",
+        "ratio": "Product of the counts on top over that of those beneath [1].",
+        "value": "The ratio as a float [1].",
+        "error": "Ratio over the wanted ratio, less 1 [1].",
+        "stages": "The stages as they are best paired.",
+        "total": "Sum of all tooth counts.",
+        "largest": "Largest tooth count.",
+        "distinct": "Number of different tooth counts.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_stages"
 
     KEYS = (
         "wanted",
@@ -87,6 +102,12 @@ class StageFindings(Result):
     """Where the other pairs of sets went."""
     note: str = ""
     """What was assumed, in words; empty if nothing."""
+
+    def _summary(self) -> str:
+        best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
+        return (
+            f"{self.wanted.label or self.wanted.value}: {len(self.solutions)} solutions in {self.stages} stages{best}"
+        )
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:

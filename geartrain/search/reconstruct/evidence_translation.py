@@ -9,6 +9,7 @@ from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem, first_problems
 from geartrain.kinematics.judged_outputs import goal_of
+from geartrain.numerics.results import Shown
 from geartrain.search.reconstruct.link_roles import (
     BaseLink,
     Joined,
@@ -170,7 +171,7 @@ _MOST_COUNTS = 10_000
 
 
 @dataclass(frozen=True)
-class EvidenceQuestion:
+class EvidenceQuestion(Shown):
     """The question that evidence asks.
 
     See Also

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.candidate_rules import check_same, find_known_train
 from geartrain.search.reconstruct.dropped_facts import (
@@ -28,6 +28,7 @@ from geartrain.search.reconstruct.reconstruction_search import (
     ExplanationCount,
     Reconstructions,
     draw_candidates,
+    explanations_text,
     find_reconstructions,
     rank_of,
 )
@@ -42,7 +43,7 @@ _LOOKED_AT = 2000
 
 
 @dataclass(frozen=True, slots=True)
-class ReconstructionRequest:
+class ReconstructionRequest(Shown):
     """What is requested of a reconstruction.
 
     See Also
@@ -146,6 +147,8 @@ class ReconstructionAnswer(Result):
     reconstruct : gives it.
     """
 
+    PAGE = "search.reconstruct.reconstruction_report:describe_reconstruction"
+
     KEYS = (
         "name",
         "requested",
@@ -190,6 +193,11 @@ class ReconstructionAnswer(Result):
     """The evidence that was asked of; with lost arbors what is left of the train."""
     candidates: tuple[Candidate, ...] = ()
     """Those of `best`."""
+
+    def _summary(self) -> str:
+        return f"{self.name}: {explanations_text(self.counts)}, {len(self.best)} listed" + (
+            "" if self.complete else ", incomplete"
+        )
 
     @property
     def requested(self) -> RequestedQuestion:

@@ -19,7 +19,7 @@ from typing import Literal
 from geartrain.errors import DeclarationError, Problem
 from geartrain.numerics.exact import plural
 from geartrain.numerics.quantity import Quantity
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Result, Shown
 from geartrain.train import Train
 
 Place = tuple[Fraction, Fraction]
@@ -157,7 +157,7 @@ class SurvivingWheel:
 
 
 @dataclass(frozen=True)
-class SurvivingArbor:
+class SurvivingArbor(Shown):
     """A surviving arbor: wheels that are fixed together.
 
     See Also
@@ -172,7 +172,7 @@ class SurvivingArbor:
 
 
 @dataclass(frozen=True)
-class SearchedDial:
+class SearchedDial(Shown):
     """A pointer and the speed that it must have.
 
     See Also
@@ -236,7 +236,7 @@ class PriorFactors:
 
 
 @dataclass(frozen=True)
-class ReconstructionProblem:
+class ReconstructionProblem(Shown):
     """The typed question of a reconstruction: surviving arbors, dials and the rules.
 
     See Also
@@ -292,7 +292,7 @@ class PlacedWheel:
 
 
 @dataclass(frozen=True)
-class Arbor:
+class Arbor(Shown):
     """An arbor of a candidate and all that it drives: the canonical form, in which equal mechanisms are equal.
 
     See Also

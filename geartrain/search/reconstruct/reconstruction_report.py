@@ -196,28 +196,24 @@ def _best(found: ReconstructionAnswer, turning: int) -> Section:
     for one in found.best:
         shown = _rank(one)
         rank = SceneText(shown, one.rank) if one.rank <= turning else shown
-        added = teeth_text(one.wheels) or "none"
-        rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), teeth_text(one.doubtful)))
+        rows.append((rank, share_text(one.weight), *_contents(one)))
     more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
         more.append("In brackets the ranks that trains of one weight share.")
-    header = ("rank", "weight", "added wheels", "meshes", "counts in doubt")
-    return Section("The best", more, [filled_table(header, rows, 4)])
+    return Section("The best", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
 
 
 def _drawn(found: ReconstructionAnswer) -> Section:
-    rows = [
-        (
-            str(one.rank),
-            ranks_text(one.ranks),
-            teeth_text(one.wheels) or "none",
-            ", ".join(one.meshes),
-            teeth_text(one.doubtful),
-        )
-        for one in found.drawn
-    ]
-    header = ("draw", "ranks", "added wheels", "meshes", "counts in doubt")
-    return Section("Drawn", ["Each with the chance of its weight among all."], [filled_table(header, rows, 4)])
+    rows = [(str(one.rank), ranks_text(one.ranks), *_contents(one)) for one in found.drawn]
+    table = filled_table(("draw", "ranks", *_CONTENTS), rows, 4)
+    return Section("Drawn", ["Each with the chance of its weight among all."], [table])
+
+
+_CONTENTS = ("added wheels", "meshes", "counts in doubt")
+
+
+def _contents(one: RankedTrain) -> tuple[str, str, str]:
+    return teeth_text(one.wheels) or "none", ", ".join(one.meshes), teeth_text(one.doubtful)
 
 
 def _rank(one: RankedTrain) -> str:
@@ -263,10 +259,8 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
             f"{many_facts[len(found.sets[0])]} together leave it alone, in {ways}; of facts that leave the same trains "
             "one is told."
         )
-        rows = [("; ".join(map(_said, some)),) for some in found.sets[:_MOST_SETS]]
-        if len(found.sets) > _MOST_SETS:
-            rows.append((f"... {len(found.sets) - _MOST_SETS} more",))
-        tables.append(Table(("together they leave it alone",), rows))
+        rows = [("; ".join(map(_said, some)),) for some in found.sets]
+        tables.append(Table(("together they leave it alone",), cut(rows, most=_MOST_SETS)))
     return Section(f"What singles {train} out", lines, tables)
 
 
@@ -378,7 +372,7 @@ def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
         for answer in fact.answers
         if answer.answer == YES
     ]
-    return Table((title, "weight", "trains"), _first(rows, _MOST_MESHES))
+    return Table((title, "weight", "trains"), cut(rows, most=_MOST_MESHES))
 
 
 def _answers(facts: Sequence[FactMarginal]) -> Table:
@@ -457,7 +451,7 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     if found.refused:
         lines.append(f"Could not be asked: {'; '.join(found.refused)}.")
     header = ("what is doubted", "added wheels", "trains")
-    tables = [Table(header, _first(doubts, _MOST_DOUBTS))] if doubts else []
+    tables = [Table(header, cut(doubts, most=_MOST_DOUBTS))] if doubts else []
     yield Section("The cheapest evidence to doubt", lines, tables)
 
 
@@ -467,11 +461,6 @@ def _alone(dial: LoneDial, most: int) -> str:
     if dial.fewest is None:
         return f"fails: no train with {plural(most, 'added wheel')} or fewer"
     return f"explained with {plural(dial.fewest, 'added wheel')}"
-
-
-def _first(rows: Sequence[tuple[str, ...]], most: int) -> list[tuple[str, ...]]:
-    left = len(rows) - most
-    return list(rows) if left <= 0 else [*rows[:most], (f"... {left} more", *("" for _ in rows[0][1:]))]
 
 
 # ----------------------------------------------------------------------------------------------------- the family tree

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from itertools import groupby, islice
 from random import Random
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import whole_multiple
+from geartrain.numerics.exact import plural, whole_multiple
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
@@ -54,6 +54,12 @@ class ExplanationCount(Result):
     """Trains that differ by more than the order of arbors on the path of a dial; None where they are too many."""
     classes: int | None
     """Trains that differ by more than which wheel drives which on the path of a dial; None likewise."""
+
+
+def explanations_text(counts: Sequence[ExplanationCount]) -> str:
+    """Return how many trains explain the evidence, by number of added wheels, in a line."""
+    found = (f"{each.mechanisms:,} with {plural(each.added, 'added wheel')}" for each in counts if each.mechanisms)
+    return f"explanations: {', '.join(found) or 'none'}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +116,10 @@ class Reconstructions(Result):
     """All structures with the numbers of their trains, where each train weighs as its structure; else none."""
     weights: tuple[WeightClass, ...] = ()
     """All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself."""
+
+    def _summary(self) -> str:
+        listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
+        return f"{explanations_text(self.counts)}, {listed}"
 
 
 def find_reconstructions(
@@ -215,7 +225,17 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(arbor)
+    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), _written_out(arbor)
+
+
+def _written_out(value: object) -> str:
+    """A candidate with all its parts as text, which orders candidates that are alike otherwise."""
+    if isinstance(value, Arbor | PlacedWheel):
+        parts = (f"{each.name}={_written_out(getattr(value, each.name))}" for each in fields(value))
+        return f"{type(value).__name__}({', '.join(parts)})"
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_written_out, value))}{',' * (len(value) == 1)})"
+    return repr(value)
 
 
 def _all_weighed(

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from heapq import heappop, heappush
 from math import prod
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 By = Literal["error", "total", "largest", "distinct", "change"]
@@ -151,13 +151,21 @@ class Standing(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class TrainFindings(Result):
+class TrainFindings(Tabular, Result):
     """All that a search in a train found.
 
     See Also
     --------
     search_train : gives it.
     """
+
+    ROWS = "search.tooth_numbers_report:assignment_rows"
+    MEANINGS: ClassVar = {
+        "error of *": "Speed of the output over the wanted speed, less 1 [1].",
+        "*": "Tooth count of the wheel.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_assignments"
 
     KEYS = (
         *(Key("train", "name"), "by", "complete", "ranked", "considered", "count", "remarks", "parts", "solutions"),
@@ -179,6 +187,11 @@ class TrainFindings(Result):
     where: tuple[Standing, ...] = ()
     """Where the assignments stand that were asked about."""
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
+
+    def _summary(self) -> str:
+        return f"{self.name}: {len(self.parts)} parts, " + ", ".join(
+            f"{len(part.solutions)} solutions" for part in self.parts[:4]
+        )
 
     @property
     def wheels(self) -> tuple[str, ...]:

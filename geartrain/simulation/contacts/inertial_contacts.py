@@ -84,33 +84,33 @@ class InertialContacts:
         if tolerance is None and len(moving.circuits) > _MANY:
             tolerance = _TABLES
         self.motion = Motion(moving, outputs, tolerance)
-        self.sources: tuple[PairErrorSource, ...] = self.motion.ahead.sources
+        self.sources: tuple[PairErrorSource, ...] = self.motion._forward.sources
 
     # ----------------------------------------------------------------------------------------------- what it is made of
 
     @property
     def pairs(self) -> tuple[str, ...]:
         """Pairs and couplings by name."""
-        return self.motion.spread.pairs
+        return self.motion._propagation.pairs
 
     @cached_property
     def _response(self) -> Floats:
         """R: angles of links from errors of pairs, each alone, (links, pairs)."""
-        return self.motion.spread.errors(np.eye(len(self.pairs)))
+        return self.motion._propagation.errors(np.eye(len(self.pairs)))
 
     @cached_property
     def _gain(self) -> Floats:
         """G: what the error of each pair adds to the driver's angle of each source, (sources, pairs)."""
         rows = np.zeros((len(self.sources), len(self.pairs)))
         for row, source in enumerate(self.sources):
-            for link, sign in self.motion.ahead.turned_by(source):
+            for link, sign in self.motion._forward.turned_by(source):
                 rows[row] += sign * self._response[link]
         return rows
 
     @cached_property
     def _yielding(self) -> YieldingPairs:
         of_pair = {source.pair: at for at, source in enumerate(self.sources)}
-        blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion.spread.parts]
+        blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion._propagation.parts]
         return YieldingPairs(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
 
     @cached_property
@@ -144,7 +144,7 @@ class InertialContacts:
     # ----------------------------------------------------------------------------------------------------- at positions
 
     def _state(self, turns: Floats) -> _State:
-        composition = self.motion.ahead
+        composition = self.motion._forward
         found = self.motion.at(turns)
         offsets = np.array(composition.offsets or (0.0,) * len(self.motion.outputs))
         error = found.error - offsets[:, None]

@@ -6,7 +6,6 @@ their corners, and the best stretches are searched ever finer. Where a speed jum
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, tau
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import ToothImpact
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.numerics.arrays import Floats
-    from geartrain.report.document import Section
+    from geartrain.report.document import Document, Section
     from geartrain.simulation.contacts.inertial_contacts import InertialContacts
     from geartrain.simulation.contacts.link_inertia import LinkInertia
 
@@ -183,6 +182,8 @@ class SeparationRates(Result):
     geartrain.simulation.find_separation : gives these.
     """
 
+    PAGE = "simulation.contacts.separation_rate:separation_document"
+
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
@@ -220,14 +221,16 @@ class SeparationRates(Result):
         """Links that turn and have no inertia here."""
         return tuple(each.link for each in self.inertias if each.source == "unknown")
 
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(each.pair)}</td><td>{rate}</td><td>{at}</td></tr>"
-            for each, rate, at in ((each, *separation_words(each)) for each in self.pairs)
-        )
-        head = f"<tr><th>pair</th><th>parts from (turn/s)</th><th>at (turns of {html.escape(self.input)})</th></tr>"
-        text = f"rate of {html.escape(self.input)} at which flanks part, in {self.turns:g} turns"
-        return f"<p>{text}</p><table>{head}{rows}</table>"
+    def _summary(self) -> str:
+        first = "never" if self.first is None else f"from {self.first.rate:.5g} turn/s of {self.input} at {self.pair}"
+        return f"teeth part {first}, {len(self.pairs)} pairs"
+
+
+def separation_document(found: SeparationRates) -> Document:
+    """Return the rates of all pairs as a document."""
+    from geartrain.report.document import Document
+
+    return Document("Motion in time", (), (separation_section(found),))
 
 
 def separation_section(found: SeparationRates) -> Section:
@@ -285,7 +288,7 @@ def find_separation_rates(
     period = contacts.motion.period
     whole = 1.0 if period is None else float(period)
     if turns is None:
-        kinks = KinkSearch(contacts.motion.ahead).rate
+        kinks = KinkSearch(contacts.motion._forward).rate
         most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
         turns = whole if kinks * whole <= most else most / kinks
     found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from geartrain.errors import MissingExtraError
+from geartrain.numerics.results import Shown
 from geartrain.train.declaration_files import write_declaration
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ _MODULE = "geartrain_slave"
 
 
 @dataclass(frozen=True)
-class CoSimulationCase:
+class CoSimulationCase(Shown):
     """What a co-simulation unit is asked for; all but the state may be None, for what is declared.
 
     See Also

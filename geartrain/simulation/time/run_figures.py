@@ -200,7 +200,7 @@ class RunFigures:
         """By how much each output is ahead of the motion in which all drive flanks touch (rad)."""
         motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
         names = list(motion.outputs)
-        at = motion.at(np.append(turns, 0.0)).error if motion.ahead.used else np.zeros((len(names), len(turns) + 1))
+        at = motion.at(np.append(turns, 0.0)).error if motion._forward.used else np.zeros((len(names), len(turns) + 1))
         found = {}
         for name, link, base in self.outputs:
             parts = []

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, suggest
+from geartrain.numerics.results import Shown
 from geartrain.simulation.steps.contact_solution import IMPACT_ENERGY, TIME_APART, UNSOLVED, RunRecord
 from geartrain.simulation.steps.simulation import (
     StepPlan,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 _EARLY = 1e-6  # of a step: a time that is so little before the end of one counts as that
 
 
-class Simulation:
+class Simulation(Shown):
     """A train that moves in time while others look on, and act on it.
 
     Steps have one length throughout, whatever times are asked for: between two of them angles go on evenly, so that the
@@ -110,6 +111,9 @@ class Simulation:
         self.torques, self.apart, self.impact_energy = (dict.fromkeys(self._names, 0.0) for _ in range(3))
         self.unsolved = 0
         self._set_torques()
+
+    def _summary(self) -> str:
+        return f"at {self.time:.6g} s, step {self.step:.4g} s, {self.drive_kind} {self.drive:.4g} at {self.drive_link}"
 
     def anew(
         self,

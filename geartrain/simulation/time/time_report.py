@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.exact import percent_text, watts_text
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
-from geartrain.report.torque_report import turns_text
+from geartrain.report.torque_report import energy_table, turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -33,6 +33,8 @@ class TimeReport(Result):
     --------
     collect_time_report : Gives it.
     """
+
+    PAGE = "simulation.time.time_report:describe_time_run"
 
     KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
 
@@ -108,6 +110,15 @@ def describe_time_run(found: TimeReport) -> Document:
     ['Up to which rate it holds', 'Contacts', 'Drive and outputs']
     """
     return Document(f"Motion in time of {found.run.train}", list(_summary(found.run)), list(_sections(found)))
+
+
+def time_document(run: TimeRun) -> Document | None:
+    """Return what `geartrain dynamics` prints for a run; None where the train is not known."""
+    from geartrain.analysis.gear_train import GearTrain
+
+    if run._declaration is None:
+        return None
+    return describe_time_run(collect_time_report(GearTrain(run._declaration), run, run._without))
 
 
 def _sections(found: TimeReport) -> Iterator[Section]:
@@ -269,13 +280,9 @@ def _energy(run: TimeRun) -> Section:
         "more kinetic energy than at first": energy.kinetic,
         "more in teeth that yield": energy.elastic,
     }
-    rows = [
-        (name, figure(value, 6), percent_text(value / whole) if whole else "-")
-        for name, value in amounts.items()
-        if abs(value) > 1e-12 * whole
-    ]
+    table = energy_table("J", amounts, whole, 6)
     closure = max(energy.closure, 1e-15)
-    if not rows:
+    if not table.rows:
         return Section(
             "Energy", ("None is put in, lost or kept: nothing loads the train, and nothing heavy gets faster.",)
         )
@@ -283,7 +290,7 @@ def _energy(run: TimeRun) -> Section:
         f"the account claims {_SURE:.0e}" if closure <= _SURE else f"which is less well than the {_SURE:.0e} claimed"
     )
     text = f"What is put in, lost and kept agrees to {closure:.0e} of it; {claim}."
-    return Section("Energy", (text,), (Table(("over the run", "J", "of all put in"), rows),))
+    return Section("Energy", (text,), (table,))
 
 
 def _converged(run: TimeRun) -> Section:

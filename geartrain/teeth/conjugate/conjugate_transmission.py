@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.admissibility import faults, ring_tips
 from geartrain.teeth.conjugate.path_losses import efficiency, locking_friction, powers
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
@@ -30,7 +31,7 @@ _TOUCH = 1e-12  # of a pitch: a gap between two contacts that is rounding
 
 
 @dataclass(frozen=True, eq=False)
-class ConjugatePair:
+class ConjugatePair(Shown):
     """Two wheels at their design distance: path of contact, thickness of their teeth, and why they cannot run.
 
     See Also

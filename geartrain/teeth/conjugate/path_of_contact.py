@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.chebyshev import ChebyshevSeries
+from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 if TYPE_CHECKING:
@@ -231,7 +232,7 @@ def none(psi: float) -> PathSide:
 
 
 @dataclass(frozen=True)
-class PathContact:
+class PathContact(Shown):
     """The contact at pitch-line displacements X: arrays of one shape. X < 0 is approach, X > 0 recess.
 
     See Also
@@ -280,7 +281,7 @@ class PathContact:
 
 
 @dataclass(frozen=True)
-class PathOfContact:
+class PathOfContact(Shown):
     """Where contact happens: one side before the pitch point, one after. Lengths in modules; of bevels rad.
 
     See Also

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import cos, pi
 from typing import TYPE_CHECKING
 
+from geartrain.numerics.results import Shown
 from geartrain.teeth.tooth_form import refused
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ _MINIMUM_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel,
 
 
 @dataclass(frozen=True, slots=True)
-class WheelPair:
+class WheelPair(Shown):
     """The two wheels of a pair with conjugate teeth.
 
     See Also

@@ -13,6 +13,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.polynomial_pieces import COUNT, PolynomialPiece, fitted
+from geartrain.numerics.results import Shown
 from geartrain.teeth.contact.flank_table import FlankTable
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ _STILL = 1e-3  # of its second derivative: a slope that says nothing of the dire
 
 
 @dataclass(frozen=True)
-class OutlineCurve:
+class OutlineCurve(Shown):
     """A smooth curve of a tooth, from parameter `start` to `end`.
 
     See Also
@@ -136,7 +137,7 @@ def _turn(angle: float) -> Callable[[Floats], Floats]:
 
 
 @dataclass(frozen=True)
-class ToothFlanks:
+class ToothFlanks(Shown):
     """The two sides of a tooth, each a chain of curves from root to tip or from tip to root.
 
     Tip lands and bottoms need not be given: no arc about the axle touches before its ends do.
@@ -203,7 +204,7 @@ class ToothFlanks:
 
 
 @dataclass(frozen=True)
-class GearOutline:
+class GearOutline(Shown):
     """A wheel: z teeth about its axle, tooth k turned forward by k pitches.
 
     Raises

@@ -14,6 +14,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.arrays import some
+from geartrain.numerics.results import Shown
 from geartrain.teeth.contact.first_touch import AxlePlacement, CandidatePairs, FirstTouches, FirstTouchSearch
 
 if TYPE_CHECKING:
@@ -181,7 +182,7 @@ def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class FlankContact:
+class FlankContact(Shown):
     """Where the driven wheel stands against one side of the driver's teeth; arrays of the shape of the driver's angles.
 
     See Also
@@ -214,7 +215,7 @@ class FlankContact:
 
 
 @dataclass(frozen=True, slots=True)
-class TwoFlankContact:
+class TwoFlankContact(Shown):
     """Both sides: `front` pushes the driven wheel forward, `back` holds it from running ahead.
 
     See Also

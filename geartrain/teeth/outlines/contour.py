@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.results import Shown
+
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
@@ -18,7 +20,7 @@ _MINIMUM_STEP = 2 * pi / 65536  # of a chord, in radians: wheels of a trillion t
 
 
 @dataclass(frozen=True, slots=True)
-class Contour:
+class Contour(Shown):
     """A closed curve of straight edges and circular arcs, as DXF stores it.
 
     Examples

@@ -9,6 +9,7 @@ from itertools import pairwise
 from math import degrees, inf
 from typing import Literal
 
+from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import bracketed_root, root
 from geartrain.teeth.pair_results import PairVerdict
 from geartrain.teeth.tooth_form import refused
@@ -205,7 +206,7 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class ClearanceWindow:
+class ClearanceWindow(Shown):
     """Clearances between which a pair of triangular teeth turns: above `jam`, up to `run`; each as excess.
 
     False where `run` is below `jam`: no clearance works. Where a pair runs in several stretches of clearance this is

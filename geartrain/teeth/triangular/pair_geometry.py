@@ -13,6 +13,7 @@ from math import asin, copysign, cos, inf, pi, sin, sqrt
 from typing import Literal
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.results import Shown
 
 _MINIMUM = 1e-40  # of any unit: the fourth power of a radius is a float
 _GRAZING = 1 - 1e-12  # sine of the angle between flank and driven radius: at 1 the speed ratio is infinite
@@ -47,7 +48,7 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class TriangularSizes:
+class TriangularSizes(Shown):
     """Geometry of a pair of wheels with triangular teeth, the first of which drives. Lengths are in any one unit.
 
     At `deepest_distance` a tip touches the bottom between two teeth: the minimum distance R1 + R2 - (the smaller depth)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
@@ -149,6 +150,12 @@ class Triangular(ToothForm):
                 "{names} mix plain numbers and lengths with a unit",
                 {"names": ", ".join(given), "fix": "give all with a unit, or all without"},
             )
+
+    @classmethod
+    def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """Return parameters with equilateral teeth in the middle of their clearance window, where none are given."""
+        placed = {} if any(name in parameters for name in _CLEARANCES) else {"window": "0.5"}
+        return {"half_angle": "30 deg", **placed, **parameters}
 
     @property
     def has_lengths(self) -> bool:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 from geartrain.drawing.style import (
     BLACK,
     SMALL,
-    TEXT,
     WHITE,
     Axes,
     Figure,
@@ -107,9 +106,8 @@ def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
         axes.annotate(words, (max(size, most), at), xytext=(6, 0), textcoords="offset points", va="center",
                       fontsize=SMALL, color=BLACK, annotation_clip=False, gid="size")  # fmt: skip
     axes.set_xlim(left=0.0)
-    name_axes(axes, "size (deg)")
     title = f"{_of(found)}: what the error of {short(pointer.name, 24)} comes from, {_size(pointer.total, 3)}° in sum"
-    axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
+    name_axes(axes, "size (deg)", title=title, parse_math=False)
     return figure
 
 

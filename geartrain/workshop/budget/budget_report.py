@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, cut, ppm
-from geartrain.workshop.monte_carlo.monte_carlo_report import share_text
+from geartrain.workshop.monte_carlo.monte_carlo_report import clearance_table
 
 if TYPE_CHECKING:
     from geartrain.workshop.budget.crank_load import CrankLoad
@@ -129,12 +129,9 @@ def _pointer(pointer: PointerBudget) -> Section:
     ]
     rows += [("-", cause.name, NOT_DECLARED, "-", "", "-", cause.note) for cause in pointer.undeclared]
     tables = [Table(("rank", "cause", "deg", "rms", "95 % interval", "days", "of"), rows)]
-    pairs = list((pointer.pairs or {}).items())[:_PAIRS]
-    if pairs:
-        more = len(pointer.pairs or ()) - len(pairs)
-        tables.append(Table(("pair alone", "deg peak to peak"), [(name, f"{size:.3g}") for name, size in pairs]))
-        if more > 0:
-            tables[-1] = Table(tables[-1].header, [*tables[-1].rows, (f"... {more} more", "")])
+    if pointer.pairs:
+        sizes = [(name, f"{size:.3g}") for name, size in pointer.pairs.items()]
+        tables.append(Table(("pair alone", "deg peak to peak"), cut(sizes, most=_PAIRS)))
     return Section(f"Ranked: {pointer.name}", (), tables)
 
 
@@ -201,14 +198,9 @@ def _or_undeclared(value: float | None) -> str:
 def _jams(found: TrainBudget) -> Section:
     if not found.jams:
         return Section("Jams over clearance", (f"Not known: {found.jams_note}.",))
-    rows = [
-        (f"{each.clearance:.6g}", *(share_text(each.events[event]) for event in ("jam", "clash", "dwell")))
-        for each in found.jams
-        if each.clearance is not None
-    ]
     trials = found.jams[0].events["jam"].of
     text = (
         f"How often any pair of the train does so, in {trials} trials each, with 95 % intervals; clearances below 1 "
         "are shares of each pair's window."
     )
-    return Section("Jams over clearance", (text,), (Table(("clearance", "jam", "clash", "dwell"), rows),))
+    return Section("Jams over clearance", (text,), (clearance_table(found.jams, ("jam", "clash", "dwell")),))

@@ -92,7 +92,7 @@ def without_teeth(motion: Motion) -> Motion:
     """The same train with the same pins, and teeth that keep their ratio without play."""
     from geartrain.dynamics import Motion
 
-    return Motion(replace(motion.train, meshes={}), motion.outputs)
+    return Motion(replace(motion._problem, meshes={}), motion.outputs)
 
 
 def find_tooth_motion(
@@ -102,9 +102,9 @@ def find_tooth_motion(
 
     on_done   called with the number of positions of each stretch that is done
     """
-    ripple = ErrorDifference(motion.ahead, without_teeth(motion).ahead)
-    lost = ErrorDifference(motion.back, motion.ahead)
-    tallies = motion.tallies()
+    ripple = ErrorDifference(motion._forward, without_teeth(motion)._forward)
+    lost = ErrorDifference(motion._backward, motion._forward)
+    tallies = motion._statistics()
     maximum, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
     back: set[str] = set()
     peaks = SampledPeaks(len(tallies))
@@ -136,8 +136,8 @@ def find_tooth_motion(
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
     """By output, the range of each pair's error times its sensitivity (deg), the greatest first; pins left out."""
-    found = Superposition(motion.ahead)
-    pins = {joint.coupling.name for joint in motion.train.pins}
+    found = Superposition(motion._forward)
+    pins = {joint.coupling.name for joint in motion._problem.pins}
     tables = {}
     for name, row in zip(motion.outputs, np.abs(found.response) * found.ranges, strict=True):
         sizes = {source.id: degrees(size) for source, size in zip(found.sources, row.tolist(), strict=True)}
@@ -148,8 +148,8 @@ def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
 
 def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
     """The pairs and couplings whose error reaches an output, be it through the angle at which a pin stands."""
-    spread, signs = motion.spread, motion.train.signs
-    couplings = {circuit.id for circuit in motion.train.circuits if circuit.swings}
+    spread, signs = motion._propagation, motion._problem.signs
+    couplings = {circuit.id for circuit in motion._problem.circuits if circuit.swings}
     waiting, found = [motion.outputs[output]], dict.fromkeys(spread.pairs, False)
     index = {link: at for at, link in enumerate(spread.links)}
     while waiting:
@@ -166,9 +166,9 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
     """What moves an output, and how much of it is declared."""
-    circuits = {circuit.id: circuit for circuit in motion.train.circuits}
-    real = set(motion.train.meshes)
-    sized = {joint.coupling.name for joint in motion.train.pins}
+    circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
+    real = set(motion._problem.meshes)
+    sized = {joint.coupling.name for joint in motion._problem.pins}
     moving = moving_pairs(motion, output)
     gears = [name for name in moving if circuits[name].kind == "gear"]
     pins = [name for name in moving if circuits[name].swings]
@@ -302,7 +302,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     motion = Motion(replace(problem, meshes={}), {link: (link, problem.frame)})
     if bare := declared_pairs(motion, link).bare:
         return TheoryError(False, 0.0, 0.0, f"no dimensions are declared of {', '.join(bare)}")
-    used = [source for source in motion.ahead.used if source.cycles]
+    used = [source for source in motion._forward.used if source.cycles]
     if len(used) > 1:
         return TheoryError(False, 0.0, 0.0, f"{len(used)} pins move '{link}' together")
     phase = 2 * pi * np.arange(_POSITIONS) / _POSITIONS

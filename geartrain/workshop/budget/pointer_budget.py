@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -192,6 +192,16 @@ class TrainBudget(Tabular, Pictured, Result):
     (9, 10)
     """
 
+    MEANINGS: ClassVar = {
+        "pointer": "Output.",
+        "cause": "Cause of the error.",
+        "degrees": "Error of the pointer from this cause [deg].",
+        "rms": "Root mean square of the error [deg].",
+        "days": "The error as time [d].",
+    }
+
+    PAGE = "workshop.budget.budget_report:describe_budget"
+
     FIGURE = "budget_figure"
     DRAWN_IN = "workshop"
 
@@ -222,6 +232,12 @@ class TrainBudget(Tabular, Pictured, Result):
     """How, or why not."""
     reversing_drivers: tuple[str, ...] = ()
     """Pairs whose driver turns against its mean at times; the play is not followed there."""
+
+    def _summary(self) -> str:
+        totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)
+        more = f", {len(self.pointers) - 3} more" if len(self.pointers) > 3 else ""
+        state = "" if self.state is None else f" state {self.state}"
+        return f"{self.name}{state}: pointer errors {', '.join(totals) or 'not known'}{more}"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -166,7 +166,9 @@ def find_budget(
     on_stage()
     jams, jams_note = _jams(plan, uncut, requested, means)
     on_stage()
-    crank = find_crank_load(train, state, motion.train.driving_link, {name: answer.outputs[name].of for name in names})
+    crank = find_crank_load(
+        train, state, motion._problem.driving_link, {name: answer.outputs[name].of for name in names}
+    )
     on_stage()
     causes = _TrainCauses(requested, _float(train.declaration.unit_days), theories, teeth, cut, uncut)
     pointers = tuple(causes.pointer(answer.outputs[name]) for name in names)
@@ -176,7 +178,7 @@ def find_budget(
         requested.span_days,
         requested.turns,
         requested.samples,
-        motion.train.driving_link,
+        motion._problem.driving_link,
         pointers,
         crank,
         jams,
@@ -238,7 +240,7 @@ def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
     """By pointer the anomalies of its link and of the link it is read against, each against its body."""
-    problem, days = motion.train, _float(train.declaration.unit_days)
+    problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
     found = {}
@@ -349,7 +351,7 @@ def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, 
     found = run_trials(plan, count, seed, means)
     if not found.complete:  # interrupted: a budget of half the trials would not say so
         raise KeyboardInterrupt
-    teeth = ErrorDifference(plan.composition, without_teeth(motion).ahead)
+    teeth = ErrorDifference(plan.composition, without_teeth(motion)._forward)
     parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
     return CuttingTrials(found, np.concatenate(parts, axis=1))
 

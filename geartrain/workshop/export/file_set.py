@@ -14,6 +14,7 @@ from geartrain.errors import GearTrainError, Problem, QuestionError, install_com
 from geartrain.kinematics import graph
 from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.files import csv_text
+from geartrain.numerics.results import Shown
 from geartrain.scene.solids.bearing_plates import FlatDrawing
 from geartrain.workshop.export.assembly_guide import readme, step_pictures
 from geartrain.workshop.export.cut_sheets import WheelSheet, cut_sheets, wheel_drawing, wheel_sheets
@@ -59,7 +60,7 @@ Rows = Sequence[Sequence[object]]
 
 
 @dataclass(frozen=True, slots=True)
-class ExportFile:
+class ExportFile(Shown):
     """A file to be written.
 
     See Also

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.files import csv_text
+from geartrain.numerics.results import Shown
 from geartrain.train.wheel_stock import material_named
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ _SAME = 4  # decimals of a mm to which parts are alike
 
 
 @dataclass(frozen=True, slots=True)
-class ListedPart:
+class ListedPart(Shown):
     """A row of the list: parts of one shape.
 
     See Also

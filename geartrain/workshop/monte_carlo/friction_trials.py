@@ -23,9 +23,9 @@ from geartrain.numerics.confidence_intervals import (
     percentiles_of,
 )
 from geartrain.numerics.quantity import Figure
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Result, Shown
 from geartrain.numerics.work import Execution
-from geartrain.report.document import Section, Table
+from geartrain.report.document import Document, Section, Table
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
@@ -65,7 +65,7 @@ class FrictionSpread(NamedTuple):
 
 
 @dataclass(frozen=True)
-class FrictionPlan:
+class FrictionPlan(Shown):
     """A train whose friction has a spread, and the run that is asked of it.
 
     See Also
@@ -83,6 +83,9 @@ class FrictionPlan:
     """Positions of the run."""
     of: str | None = None
     """The link whose torque is asked for; None for the crank."""
+
+    def _summary(self) -> str:
+        return f"{self.declared.name}: {self.turns:g} turns, {self.samples} positions"
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
@@ -281,6 +284,8 @@ class FrictionTrials(Result):
     try_frictions : gives it.
     """
 
+    PAGE = "workshop.monte_carlo.friction_trials:trials_document"
+
     KEYS = ("link", "wanted", "done", "seed", "spreads", *FIGURES, "locks")
 
     link: str
@@ -303,6 +308,10 @@ class FrictionTrials(Result):
     """Energy out over energy in."""
     locks: ProbabilityEstimate
     """How often the train locks somewhere in the run."""
+
+    def _summary(self) -> str:
+        cut = "" if self.done == self.wanted else f" of {self.wanted}"
+        return f"{self.done}{cut} trials, seed {self.seed}: mean torque at {self.link} {number_text(self.mean.mean, 5)}"
 
     @property
     def complete(self) -> bool:
@@ -388,6 +397,11 @@ def _link(plan: FrictionPlan) -> str:
 
 
 # -------------------------------------------------------------------------------------------------------------- as text
+
+
+def trials_document(found: FrictionTrials) -> Document:
+    """Return the trials as a document."""
+    return Document("Torques", (), tuple(trial_sections(found)))
 
 
 def trial_sections(found: FrictionTrials) -> Iterator[Section]:

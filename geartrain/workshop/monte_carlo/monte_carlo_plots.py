@@ -23,15 +23,20 @@ from geartrain.drawing.style import (
     SCALE,
     SKY,
     SMALL,
-    TEXT,
     WIDTH,
     Axes,
     Figure,
     Line2D,
     MaxNLocator,
     Patch,
+    bar_panel,
+    colour_bar,
+    curve_panels,
+    draw_interval,
     headed,
-    plain,
+    legend_above,
+    legend_below,
+    name_axes,
     series_look,
 )
 from geartrain.errors import Problem, QuestionError
@@ -231,7 +236,7 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str =
     """
     shown, left = _most(pointers, lambda bands: float(np.ptp(bands.percentiles)))
     spans = {float(np.ptp(bands.turns)) for bands in shown.values()}
-    figure, panels = _panels(shown, sharex=len(spans) <= 1)  # each over a turn of its own pointer
+    figure, panels = _panels(shown, share=len(spans) <= 1)  # each over a turn of its own pointer
     for axes, (name, bands) in zip(panels, shown.items(), strict=True):
         low, lower, middle, upper, high = bands.percentiles
         for each in zip((bands.minimum, low, lower), (bands.maximum, high, upper), _SHADES, _SHARES, strict=True):
@@ -242,10 +247,10 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str =
             )
         axes.plot(bands.turns, middle, color=BLACK, linewidth=1.6, label="median", gid="median")
         axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
-        axes.set_ylabel(f"{name}\nerror (deg)", fontsize=TEXT)
+        name_axes(axes, y=f"{name}\nerror (deg)", parse_math=False)
         axes.set_xlim(bands.turns[0], bands.turns[-1])
-    panels[-1].set_xlabel(f"turns of {driving_link}{left}", fontsize=TEXT)
-    _legend(figure, panels[0])
+    name_axes(panels[-1], f"turns of {driving_link}{left}", parse_math=False)
+    legend_below(figure, 5, [*_bands_key(), *panels[0].get_legend_handles_labels()[0]], "left")
     return figure
 
 
@@ -266,8 +271,8 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
         axes.hist(values, bins=_edges(values).tolist(), color=BLUE, alpha=0.45, edgecolor="white", linewidth=0.4)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=(1, 2, 5, 10), integer=True))
         _percentiles(axes, values)
-        axes.set_ylabel(f"{name}\ntrials of {values.size:,}", fontsize=TEXT)
-    panels[-1].set_xlabel(f"error (deg){'; ' if note else ''}{note}{left}", fontsize=TEXT)
+        name_axes(axes, y=f"{name}\ntrials of {values.size:,}", parse_math=False)
+    name_axes(panels[-1], f"error (deg){'; ' if note else ''}{note}{left}", parse_math=False)
     return figure
 
 
@@ -296,7 +301,7 @@ def _percentiles(axes: Axes, values: Floats) -> None:
         words = f"{share} %: {ends[0]:.3g} to {ends[1]:.3g}"
         for at, end in enumerate(ends):
             axes.axvline(end, color=RED, linewidth=1.5, linestyle=style, label=None if at else words, gid=f"{share} %")
-    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize=SMALL, ncols=3)
+    legend_above(axes, 3)
 
 
 def _edges(values: Floats) -> Floats:
@@ -311,14 +316,10 @@ def _edges(values: Floats) -> Floats:
     return np.linspace(low, high, bins + 1)
 
 
-def _panels(what: Mapping[str, Any], sharex: bool = False) -> tuple[Figure, Sequence[Axes]]:
+def _panels(what: Mapping[str, Any], share: bool = False) -> tuple[Figure, list[Axes]]:
     if not what:
         raise _nothing("no pointer is given")
-    figure = Figure(figsize=(WIDTH, 1.3 + _ROW * len(what)), dpi=100, layout="constrained")
-    panels = list(figure.subplots(len(what), 1, sharex=sharex, squeeze=False)[:, 0])
-    for axes in panels:
-        plain(axes)
-    return figure, panels
+    return curve_panels([_ROW] * len(what), 1.3, share)
 
 
 def _between(axes: Axes, x: Floats, low: Floats, high: Floats, alpha: float, label: str) -> None:
@@ -332,11 +333,6 @@ def _bands_key() -> list[Patch]:
         Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
         for left, label in zip(through, _SHARES, strict=True)
     ]
-
-
-def _legend(figure: Figure, axes: Axes) -> None:
-    handles = [*_bands_key(), *axes.get_legend_handles_labels()[0]]
-    figure.legend(handles=handles, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
 
 
 def _nothing(why: str) -> QuestionError:
@@ -366,23 +362,17 @@ def jam_map_figure(
     x, y, table = (np.asarray(each, dtype=float) for each in (clearances, sizes, chances))
     limit = None if bound is None else np.asarray(bound, dtype=float)
     _check(x, y, table, limit)
-    figure = Figure(figsize=(WIDTH, 6.4), dpi=100, layout="constrained")
+    figure = Figure(figsize=(WIDTH, 6.4), layout="constrained")
     axes = figure.add_subplot()
     shown = np.ma.masked_invalid(table.T)
     mesh = axes.pcolormesh(x, y, shown, shading="gouraud", cmap=SCALE, vmin=0.0, vmax=1.0, rasterized=True)
     mesh.set_gid("map")
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02, ticks=_JAM_TICKS, format=lambda tick, _: f"{tick:.0%}")
-    bar.set_label("probability of a jam", fontsize=TEXT)
-    bar.ax.tick_params(labelsize=SMALL)
+    colour_bar(figure, axes, mesh, "probability of a jam", ticks=_JAM_TICKS, format=lambda tick, _: f"{tick:.0%}")
     handles = [_line(axes, x, y, shown, *each) for each in zip(LEVELS, _LEVEL_DASHES, strict=True)]
     if limit is not None:
         handles.append(_bound(axes, x, y, limit))
-    figure.legend(handles=handles, loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False, handlelength=4)
-    axes.set_xlabel(axis_names[0], fontsize=TEXT)
-    axes.set_ylabel(axis_names[1], fontsize=TEXT)
-    axes.tick_params(labelsize=SMALL)
-    if title:
-        axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK)
+    legend_below(figure, 4, handles, "left", handlelength=4)
+    name_axes(axes, *axis_names, title)
     return figure
 
 
@@ -452,31 +442,19 @@ def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: i
         raise QuestionError(Problem("no sensitivity to draw", "no cause is given", "give the share of one or more"))
     ranked = sorted(shares.items(), key=lambda each: -each[1].rank)
     shown, rest = ranked[:most], ranked[most:]
-    figure = Figure(figsize=(WIDTH, 1.6 + 0.34 * len(shown)), dpi=100, layout="constrained")
-    axes = figure.add_subplot()
-    plain(axes)
-    axes.grid(False, axis="y")
-    both = any(share.whole is not None for _, share in shown)
+    figure, axes = bar_panel([name for name, _ in shown], 1.6 + 0.34 * len(shown))
     for at, (_, share) in enumerate(shown):
         if share.whole is not None:
-            _bar(axes, at, share.whole, share.whole_within, {"color": SKY, "height": 0.72, "gid": "whole"}, 0.18)
-        _bar(axes, at, share.own, share.own_within, {"color": BLUE, "height": 0.36, "gid": "own"}, -0.08)
-    axes.set_yticks(range(len(shown)), [name for name, _ in shown])
-    axes.set_ylim(len(shown) - 0.4, -0.6)
+            axes.barh(at, share.whole, color=SKY, height=0.72, gid="whole")
+            draw_interval(axes, at + 0.18, share.whole_within)
+        axes.barh(at, share.own, color=BLUE, height=0.36, gid="own")
+        draw_interval(axes, at - 0.08, share.own_within)
     axes.axvline(0.0, color=GREY, linewidth=0.8)
-    axes.set_xlabel(f"share of the variance{_left_out(rest)}", fontsize=TEXT)
-    axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK)
-    if both:
+    name_axes(axes, f"share of the variance{_left_out(rest)}", title=title, parse_math=False)
+    if any(share.whole is not None for _, share in shown):
         handles = [Patch(color=BLUE, label="alone (first order)"), Patch(color=SKY, label="with others (total)")]
         axes.legend(handles=handles, loc="lower right", fontsize=SMALL, frameon=False)
     return figure
-
-
-def _bar(axes: Axes, at: int, value: float, within: Interval | None, look: dict[str, Any], beside: float) -> None:
-    axes.barh(at, value, **look)
-    if within is not None:
-        low, high = within
-        axes.plot([low, high], [at + beside] * 2, color=BLACK, linewidth=1.2, marker="|", markersize=6, gid="within")
 
 
 def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
@@ -512,11 +490,8 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
         raise QuestionError(
             Problem("no convergence to draw", "no estimate after a number of trials", "give one, after 1 trial or more")
         )
-    figure = Figure(figsize=(WIDTH, 6.0), dpi=100, layout="constrained")
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-    for axes in (above, below):
-        plain(axes)
-        axes.set_xscale("log")
+    figure, (above, below) = curve_panels((3.6, 2.4))
+    below.set_xscale("log")
     for at, (name, each) in enumerate(estimates.items()):
         look = {**series_look(at), "linewidth": 1.6, "marker": "o", "markersize": 3.5}
         above.fill_between(each.trials, each.low, each.high, color=series_colour(at), alpha=0.15, linewidth=0)
@@ -527,8 +502,8 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
         seen = width > 0
         below.plot(each.trials[seen], width[seen], gid=f"width of {name}", **look)
     _slope(below, list(estimates.values()))
-    above.set_ylabel(unit, fontsize=TEXT)
-    below.set_ylabel("half width of the\n95 % interval", fontsize=TEXT)
+    name_axes(above, y=unit)
+    name_axes(below, "trials", "half width of the\n95 % interval")
     widths = np.concatenate([(each.high - each.low) / 2 for each in estimates.values()])
     if (widths > 0).any():
         below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
@@ -537,8 +512,7 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
     below.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
     below.set_xticks([], minor=True)
     below.xaxis.set_major_formatter(lambda count, _: f"{count:,.0f}")
-    below.set_xlabel("trials", fontsize=TEXT)
-    figure.legend(*above.get_legend_handles_labels(), loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False)
+    legend_below(figure, 4, side="left")
     return figure
 
 

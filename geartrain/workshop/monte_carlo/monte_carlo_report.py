@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
@@ -10,9 +10,20 @@ from geartrain.report.document import Document, Section, Table, cut
 
 if TYPE_CHECKING:
     from geartrain.numerics import IntervalEstimate, ProbabilityEstimate
+    from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics
+    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics, TrialResults
+
+
+def trials_document(found: TrialResults) -> Document:
+    """Return what `geartrain montecarlo` prints for trials."""
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+
+    return describe_monte_carlo(MonteCarloResult(found))
+
+
+_EVENTS = ("jam", "clash", "dwell", "disengaged")
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
@@ -95,7 +106,7 @@ def _verdict(found: MonteCarloResult) -> Section:
 
 def _pairs(found: MonteCarloResult) -> Section:
     rows = [_tallied(pair) for pair in (*found.trials.pairs, found.trials.train)]
-    header = ("pair", "play (pitches)", "jam", "clash", "dwell", "disengaged", "bound on jams")
+    header = ("pair", "play (pitches)", *_EVENTS, "bound on jams")
     text = (
         "Over the full cycle of teeth. Play is that of even wheels, in pitches of the driven wheel; the bound, of "
         "errors of placement alone, is 2 lcm Q(play/2 sigma)."
@@ -115,7 +126,7 @@ def _filing(found: MonteCarloResult) -> Section:
 
 def _tallied(pair: PairEventRates) -> tuple[str, ...]:
     backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
-    events = (share_text(pair.events[name]) for name in ("jam", "clash", "dwell", "disengaged"))
+    events = (share_text(pair.events[name]) for name in _EVENTS)
     return (pair.name, backlash, *events, bound)
 
 
@@ -176,13 +187,15 @@ def _index(figure: IntervalEstimate) -> str:
 
 
 def _cleared(found: MonteCarloResult) -> Section:
-    rows = []
-    for each in found.cleared:
-        events = (share_text(each.events[name]) for name in ("jam", "clash", "dwell", "disengaged"))
-        rows.append((f"{each.clearance:.6g}", *events))
     text = "Any pair of the train, the same wheels at every clearance."
-    header = ("clearance", "jam", "clash", "dwell", "disengaged")
-    return Section("Clearance", (text,), (Table(header, rows),))
+    return Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
+
+
+def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:
+    """Probability of each event by clearance; the train as declared is left out."""
+    given = (case for case in cases if case.clearance is not None)
+    rows = [(f"{case.clearance:.6g}", *(share_text(case.events[event]) for event in events)) for case in given]
+    return Table(("clearance", *events), rows)
 
 
 def _convergence(found: MonteCarloResult) -> Section:

@@ -43,6 +43,8 @@ class MonteCarloResult(Tabular, Pictured, Result):
     run_trials : gives what it must hold
     """
 
+    PAGE = "workshop.monte_carlo.monte_carlo_report:describe_monte_carlo"
+
     FIGURE = "monte_carlo_figure"
     DRAWN_IN = "workshop"
 
@@ -74,21 +76,16 @@ class MonteCarloResult(Tabular, Pictured, Result):
     indices: Sequence[SobolIndices] = ()
     """From `find_sobol_indices`."""
 
+    def _summary(self) -> str:
+        return self.trials._summary()
+
+    def _meaning(self, column: str) -> str:
+        return self.trials._meaning(column)
+
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each trial: turns of the input, errors of outputs [deg], and what it did to each pair.
-
-        A sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut.
-        """
-        found = self.trials
-        errors = zip(found.plan.outputs, found.errors.T, strict=True)
-        events = zip(found.plan.pairs, found.marks.T, strict=True)
-        return {
-            "trial": [*range(found.done)],
-            "turns": found.turns.tolist(),
-            **{f"{name} error (deg)": [degrees(each) for each in column] for name, column in errors},
-            **{f"{pair.name} events": column.tolist() for pair, column in events},
-        }
+        """A row for each trial, as of the trials."""
+        return self.trials.columns
 
     @property
     def assumptions(self) -> tuple[str, ...]:

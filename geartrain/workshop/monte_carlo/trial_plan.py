@@ -18,6 +18,7 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import Shown
 from geartrain.workshop.cutting.cut_wheel import CutGearPair
 from geartrain.workshop.cutting.declared_errors import (
     OF_PAIRS,
@@ -281,7 +282,7 @@ def _each(pair: CutGearPair, count: int) -> CutGearPair:
 
 
 @dataclass(frozen=True)
-class TrialPlan:
+class TrialPlan(Shown):
     """A train as its trials see it, in one state: all that one block of trials needs.
 
     See Also
@@ -307,6 +308,9 @@ class TrialPlan:
     """Turns of the input within which positions are drawn [turn]."""
     driving_link: str
     """The link that is turned."""
+
+    def _summary(self) -> str:
+        return f"{self.name}: {len(self.wheels)} wheels, {len(self.pairs)} pairs, outputs {', '.join(self.outputs[:6])}"
 
     @property
     def position(self) -> int:
@@ -420,13 +424,13 @@ def find_trial_plan(
     wheels = tuple(wheel_errors(train.declaration, each, settings) for each in even.values())
     senses = _Senses(motion)
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
-    composition = motion.with_sources([pair.name for pair in pairs])
+    composition = motion._with_sources([pair.name for pair in pairs])
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
         why = "wheels cut true neither jam nor stray"
         fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set placement='2 %'"
         raise QuestionError(Problem(what, why, fix))
-    speeds = tuple(tally.ratio for tally in motion.tallies())
+    speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
     return TrialPlan(
         train.name,
@@ -437,13 +441,13 @@ def find_trial_plan(
         speeds,
         reach,
         _span(composition, pairs),
-        motion.train.driving_link,
+        motion._problem.driving_link,
     )
 
 
 def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
     """The pairs whose teeth can be cut with errors. Raises `QuestionError` where there is none."""
-    found = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
+    found = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not found:
         what = f"'{train.name}' has no triangular teeth, nor others whose errors are reckoned"
         why = "cutting errors are reckoned tooth by tooth for triangular teeth and for all whose contact is known"
@@ -488,14 +492,14 @@ class _Senses:
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
-        self.circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in motion.train.circuits}
+        self.circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in motion._problem.circuits}
         self.first: dict[str, int] = {}
 
     def mirrored(self, pair: str, wheel: str) -> bool:
         """True if the wheel turns the other way in this pair than in its first."""
         circuit = self.circuits[pair]
         link = circuit.i if wheel == circuit.wheels[0] else circuit.j
-        sense = -1 if self.motion.train.relative(link, circuit.carrier) < 0 else 1
+        sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1
         return self.first.setdefault(wheel, sense) != sense
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import degrees, nan, sqrt
-from typing import TYPE_CHECKING, NamedTuple, TypedDict, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypedDict, cast
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from geartrain.numerics.confidence_intervals import (
     mean_of,
     percentiles_of,
 )
-from geartrain.numerics.results import Key, Result, finite
+from geartrain.numerics.results import Key, Result, Tabular, finite
 from geartrain.workshop.monte_carlo.trial_block import CLASH, DISENGAGED, DWELL, JAM, LOST, STOPS, UNCUT
 
 if TYPE_CHECKING:
@@ -37,13 +37,21 @@ EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "dwell": DWELL, "disengage
 
 
 @dataclass(frozen=True)
-class TrialResults:
+class TrialResults(Tabular):
     """All trials that were done, in their order.
 
     See Also
     --------
     run_trials : gives it
     """
+
+    PAGE = "workshop.monte_carlo.monte_carlo_report:trials_document"
+    MEANINGS: ClassVar = {
+        "trial": "Number of the trial, from 0.",
+        "turns": "Position of the input [turn].",
+        "* error (deg)": "Pointer error of the output [deg].",
+        "* events": "Sum of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not to be cut.",
+    }
 
     plan: TrialPlan
     """What was asked, and the `seed` of its random numbers."""
@@ -68,6 +76,27 @@ class TrialResults:
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     """Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); empty where nothing is filed to
     fit."""
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each trial: turns of the input, errors of outputs [deg], and what it did to each pair.
+
+        A sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut.
+        """
+        errors = zip(self.plan.outputs, self.errors.T, strict=True)
+        events = zip(self.plan.pairs, self.marks.T, strict=True)
+        return {
+            "trial": [*range(self.done)],
+            "turns": self.turns.tolist(),
+            **{f"{name} error (deg)": [degrees(each) for each in column] for name, column in errors},
+            **{f"{pair.name} events": column.tolist() for pair, column in events},
+        }
+
+    def _summary(self) -> str:
+        cut = "" if self.done == self.wanted else f" of {self.wanted}"
+        outputs = ", ".join(self.plan.outputs[:4])
+        pairs = len(self.plan.pairs)
+        return f"{self.plan.name}: {self.done}{cut} trials, seed {self.seed}, {pairs} pairs, outputs {outputs}"
 
     @property
     def done(self) -> int:

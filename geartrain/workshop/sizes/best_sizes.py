@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Pictured, Result, Tabular
@@ -42,6 +42,15 @@ class BestToothSizes(Tabular, Pictured, Result):
     find_tooth_sizes : an example.
     """
 
+    ROW = "ToothSizes"
+    MEANINGS: ClassVar = {
+        "design": "Name of the design.",
+        "half_angle_1": "Half angle of the teeth of the first wheel [rad].",
+        "half_angle_2": "Half angle of the teeth of the second wheel [rad].",
+    }
+
+    PAGE = "workshop.sizes.tooth_sizes_report:describe_tooth_sizes"
+
     FIGURE = "tooth_sizes_figure"
     DRAWN_IN = "workshop"
 
@@ -72,6 +81,12 @@ class BestToothSizes(Tabular, Pictured, Result):
     """The chance that the best stops, where that was limited."""
     tried: tuple[ToothSizes, ...]
     """Those of them that turn and keep the limits."""
+
+    def _summary(self) -> str:
+        aim = self.aims[0]
+        z1, z2 = self.teeth
+        best = f"{aim} {getattr(self.best, aim):.4g}"
+        return f"{z1}/{z2} teeth: minimum {' and '.join(self.aims)}, {best}, {self.evaluations} designs"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -64,9 +64,9 @@ class ToothSizes(Result):
     teeth: tuple[int, int]
     """Teeth of the first and the second wheel."""
     radii: float
-    """Outer radius of the second wheel over that of the first, over the ratio of their teeth; 1 is pitch-true."""
+    """Outer radius of the second wheel over that of the first, over the ratio of their teeth; 1 is pitch-true [1]."""
     window: float
-    """Where the clearance lies between jamming (0) and losing contact (1)."""
+    """Where the clearance lies between jamming (0) and losing contact (1) [1]."""
     half_angles: tuple[float, float]
     """Of both wheels [rad]."""
     friction: float
@@ -149,18 +149,18 @@ class ToothSizes(Result):
 
     @property
     def clearance_factor(self) -> float:
-        """Centre distance over that at which a tip touches the bottom of a space."""
+        """Centre distance over that at which a tip touches the bottom of a space [1]."""
         return self.sizes.clearance_factor
 
     @cached_property
     def loss(self) -> float:
-        """1 less the mean efficiency at constant driver torque, Eq. (34) of Sorge."""
+        """1 less the mean efficiency at constant driver torque, Eq. (34) of Sorge [1]."""
         assert self.transmission is not None
         return 1 - self.transmission.efficiency_mean()
 
     @cached_property
     def loss_at_constant_load(self) -> float:
-        """1 less the mean efficiency at constant load torque."""
+        """1 less the mean efficiency at constant load torque [1]."""
         assert self.transmission is not None
         return 1 - self.transmission.efficiency_at_constant_load()
 
@@ -173,7 +173,7 @@ class ToothSizes(Result):
 
     @cached_property
     def impact(self) -> float:
-        """What collisions dissipate in a pitch, over the kinetic energy of the driven side."""
+        """What collisions dissipate in a pitch, over the kinetic energy of the driven side [1]."""
         assert self.transmission is not None
         return impact_of(self.transmission)
 
@@ -187,7 +187,7 @@ class ToothSizes(Result):
 
     @property
     def window_width(self) -> float:
-        """Greatest less least clearance factor at which the pair turns."""
+        """Greatest less least clearance factor at which the pair turns [1]."""
         assert self.limits is not None
         return self.limits.run - self.limits.jam
 

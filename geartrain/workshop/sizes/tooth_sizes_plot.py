@@ -16,6 +16,7 @@ from geartrain.drawing.style import (
     WIDTH,
     Axes,
     Figure,
+    bar_panel,
     curve_panels,
     headed,
     legend_below,
@@ -115,9 +116,8 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     """
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
-    figure = Figure(figsize=(WIDTH, 1.6 + 0.32 * len(pairs)), layout="constrained")
-    axes = figure.add_subplot()
-    plain(axes)
+    labels = [short(f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}", 30) for pair in pairs]
+    figure, axes = bar_panel(labels, 1.6 + 0.32 * len(pairs))
     for at, pair in enumerate(pairs):
         ends = [_shown(each, found.aim) for each in (pair.declared, pair.together) if each is not None]
         axes.plot(ends, [at] * len(ends), color=GREY, linewidth=1.6, zorder=1)
@@ -125,9 +125,6 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
         places = [(each, at) for at, pair in enumerate(pairs) if (each := getattr(pair, which)) is not None]
         x, y = [_shown(each, found.aim) for each, _ in places], [at for _, at in places]
         axes.plot(x, y, linewidth=0, label=name, gid=which, zorder=3, clip_on=False, **look)
-    labels = [f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}" for pair in pairs]
-    axes.set_yticks(range(len(pairs)), [short(label, 30) for label in labels])
-    axes.set_ylim(len(pairs) - 0.5, -0.5)
     axes.set_xlim(left=min(0.0, axes.get_xlim()[0]))
     name_axes(axes, _LABELS[found.aim], title=_gain(found))
     legend_below(figure, 3)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
-from typing import Any
+from typing import Any, ClassVar
 
 from scipy.optimize import minimize_scalar
 
@@ -214,8 +214,8 @@ class TrainSizeSearch:
 
     def _error(self, train: GearTrain) -> float:
         run = MotionRun(train.motion(self.state, (self.output,)), _TURNS, _SAMPLES)
-        run.go()
-        return run.tallies[0].peak_to_peak
+        run.run()
+        return run.statistics[0].peak_to_peak
 
     # ------------------------------------------------------------------------------------------------------ the search
 
@@ -380,6 +380,16 @@ class BestTrainSizes(Tabular, Pictured, Result):
     find_train_sizes : an example.
     """
 
+    ROW = "ToothSizes"
+    MEANINGS: ClassVar = {
+        "pair": "Gear pair.",
+        "design": "Name of the design.",
+        "half_angle_1": "Half angle of the teeth of the first wheel [rad].",
+        "half_angle_2": "Half angle of the teeth of the second wheel [rad].",
+    }
+
+    PAGE = "workshop.sizes.tooth_sizes_report:describe_train_sizes"
+
     FIGURE = "train_sizes_figure"
     DRAWN_IN = "workshop"
 
@@ -413,6 +423,10 @@ class BestTrainSizes(Tabular, Pictured, Result):
     """Pairs with real teeth that stay as they are, and why."""
     declaration: Mapping[str, Any]
     """A train that extends the one given, with the sizes best together."""
+
+    def _summary(self) -> str:
+        before = "does not turn" if self.before is None else f"{self.before:.4g}"
+        return f"{self.train}: {self.aim} at {self.output} {before} -> {self.together:.4g}, {len(self.pairs)} pairs"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

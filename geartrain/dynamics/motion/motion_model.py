@@ -204,9 +204,9 @@ class Motion(Shown):
     def _summary(self) -> str:
         name = "" if self._declaration is None else self._declaration.name
         state = "" if self._state is None else f" state {self._state}"
-        lead = self._problem.driving_link
+        driving = self._problem.driving_link
         means = [(each, self._problem.seen_ratio(*self.outputs[each])) for each in islice(self.outputs, _MAIN)]
-        shown = ", ".join(f"{each} = {brief(ratio)} of {lead}" for each, ratio in means)
+        shown = ", ".join(f"{each} = {brief(ratio)} of {driving}" for each, ratio in means)
         more = f", {len(self.outputs) - _MAIN} more" if len(self.outputs) > _MAIN else ""
         return f"{name}{state}: mean {shown or 'of no output'}{more}".strip()
 

@@ -436,8 +436,10 @@ class Motion(Shown):
         QuestionError
             If there are more than twenty million.
 
-        Examples -------- A pair of triangular teeth has one kink per pitch, and the driver of the first passes 45 in
-        one turn of the crank:
+        Examples
+        --------
+        A pair of triangular teeth has one kink per pitch, and the driver of the first passes 45 in one turn of the
+        crank:
 
         >>> import geartrain
         >>> kinks = geartrain.load("moon-triangular").motion(outputs=["moon"]).kink_positions(0, 1)

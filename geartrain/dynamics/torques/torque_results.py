@@ -262,9 +262,10 @@ class Torques(FrozenFields, Tabular, TrainResult):
     Torques are in N m if loads have units, else in the plain unit of the loads. Powers are torques times the train's
     unit of speed, positive into the train.
 
-    Examples -------- Both pairs of a planetary set have an efficiency of 0.98, and the ring is fixed. The efficiency
-    from sun to carrier is (1 + p e) / (1 + p), with p = 60/24 and e = 0.98^2 (the table in section 10 of
-    docs/torques.md):
+    Examples
+    --------
+    Both pairs of a planetary set have an efficiency of 0.98, and the ring is fixed. The efficiency from sun to carrier
+    is (1 + p e) / (1 + p), with p = 60/24 and e = 0.98^2 (the table in section 10 of docs/torques.md):
 
     >>> import geartrain
     >>> found = geartrain.load('''

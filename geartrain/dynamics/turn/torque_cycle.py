@@ -150,8 +150,10 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     positions are read-only. Where nothing balances the train is locked, and the torque is NaN. A torque of 1 N m over
     one turn of its own link does 2 pi J of work.
 
-    Examples -------- A pin at 10 mm drives a slot whose axis is offset by 8 mm, with friction, against 10 N m. The mean
-    has a closed form, 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
+    Examples
+    --------
+    A pin at 10 mm drives a slot whose axis is offset by 8 mm, with friction, against 10 N m. The mean has a closed
+    form, 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
 
     >>> import geartrain
     >>> found = geartrain.load('''

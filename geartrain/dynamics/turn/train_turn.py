@@ -173,8 +173,10 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
         Period [turns of the input]. None if no pair that carries torque has a variable ratio or friction, so that the
         torque is constant, or if torques are unknown.
 
-    Examples -------- A clock with identical teeth, whose friction depends on the position of the contact, repeats after
-    a quarter of an hour:
+    Examples
+    --------
+    A clock with identical teeth, whose friction depends on the position of the contact, repeats after a quarter of an
+    hour:
 
     >>> import geartrain
     >>> train = geartrain.load('''

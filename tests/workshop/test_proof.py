@@ -341,7 +341,7 @@ def test_check_and_export_have_one_sentence_for_a_wheel_that_no_tooth_suits() ->
     assert (noted.rule, noted.level) == ("W3", "note")
     text = export_files(work("lantern-mill"), ["svg", "stl"])[-1].make().decode()
     assert f"- {noted.text}\n" in text.split("Errors:")[1].split("Notes:")[0]
-    assert text.count("ask for different teeth") == 2
+    assert text.count("require different teeth") == 2
 
 
 def test_what_is_made_by_hand_is_listed_apart() -> None:

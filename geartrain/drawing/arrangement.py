@@ -37,7 +37,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     The sum of the distances within pairs is reduced by a local search that moves one item at a time. The result is
     deterministic.
     """
-    order = _walk(items, pairs)
+    order = _breadth_first(items, pairs)
     at = {item: position for position, item in enumerate(order)}
     ends = [(at[one], at[other]) for one, other in pairs if one != other and one in at and other in at]
     sequence = list(range(len(order)))
@@ -45,13 +45,13 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     for _ in range(_PASSES):
         before = best
         for item in range(len(sequence)):
-            sequence, best = _moved(sequence, item, ends, best)
+            sequence, best = _best_position(sequence, item, ends, best)
         if best == before:
             break
     return [order[item] for item in sequence]
 
 
-def _walk(items: Sequence[str], pairs: Pairs) -> list[str]:
+def _breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
     """Return the items in breadth-first order, starting at the first item of each connected component."""
     mates = neighbours(items, pairs)
     seen: dict[str, None] = {}
@@ -82,7 +82,7 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
     return sum(abs(place[one] - place[other]) for one, other in ends)
 
 
-def _moved(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best: int) -> tuple[list[int], int]:
+def _best_position(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best: int) -> tuple[list[int], int]:
     """Return the sequence with one item at its best position, and its length; unchanged unless another position is
     better.
     """
@@ -105,27 +105,27 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
     order = sorted(range(len(wanted)), key=lambda at: wanted[at])
     clusters: list[tuple[list[int], float]] = []  # members, and the centre of the first
     for at in order:
-        clusters.append(([at], _kept([at], wanted[at], needs, bounds)))
+        clusters.append(([at], _first_centre([at], wanted[at], needs, bounds)))
         while len(clusters) > 1 and _overlap(clusters[-2], clusters[-1], needs):
             members = clusters[-2][0] + clusters[-1][0]
-            shifts = [wanted[each] - step for each, step in zip(members, _steps(members, needs), strict=True)]
-            clusters[-2:] = [(members, _kept(members, sum(shifts) / len(shifts), needs, bounds))]
+            shifts = [wanted[each] - step for each, step in zip(members, _offsets(members, needs), strict=True)]
+            clusters[-2:] = [(members, _first_centre(members, sum(shifts) / len(shifts), needs, bounds))]
     places = [0.0] * len(wanted)
     for members, first in clusters:
-        for each, step in zip(members, _steps(members, needs), strict=True):
+        for each, step in zip(members, _offsets(members, needs), strict=True):
             places[each] = first + step
     return places
 
 
-def _kept(members: Sequence[int], first: float, needs: Sequence[float], bounds: tuple[float, float]) -> float:
+def _first_centre(members: Sequence[int], first: float, needs: Sequence[float], bounds: tuple[float, float]) -> float:
     """Return the centre of the first box such that a row of boxes is within bounds; too long a row begins at the lower
     bound.
     """
-    most = bounds[1] - needs[members[-1]] / 2 - _steps(members, needs)[-1]
+    most = bounds[1] - needs[members[-1]] / 2 - _offsets(members, needs)[-1]
     return max(min(first, most), bounds[0] + needs[members[0]] / 2)
 
 
-def _steps(members: Sequence[int], needs: Sequence[float]) -> list[float]:
+def _offsets(members: Sequence[int], needs: Sequence[float]) -> list[float]:
     """Return the distance of each box of a row from the first one."""
     steps = [0.0]
     for one, other in pairwise(members):
@@ -134,7 +134,7 @@ def _steps(members: Sequence[int], needs: Sequence[float]) -> list[float]:
 
 
 def _overlap(left: tuple[list[int], float], right: tuple[list[int], float], needs: Sequence[float]) -> bool:
-    end = left[1] + _steps(left[0], needs)[-1]
+    end = left[1] + _offsets(left[0], needs)[-1]
     # the tolerance keeps boxes that just touch from counting as overlapping
     return right[1] - end < (needs[left[0][-1]] + needs[right[0][0]]) / 2 - 1e-12
 
@@ -352,10 +352,10 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
     """Return the positions of a column close to what is named, ordered so that as few lines as possible cross."""
-    order = _shortest(callouts, edge, bounds)
-    best, minimum = _stacked(order, bounds), inf
+    order = _shortest_lines(callouts, edge, bounds)
+    best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):
-        placed = _stacked(order, bounds)
+        placed = _level_positions(order, bounds)
         crossed = _crossings(placed, edge)
         if len(crossed) < minimum:
             best, minimum = placed, len(crossed)
@@ -366,7 +366,7 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
     return best
 
 
-def _shortest(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
+def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
     """Return the callouts from bottom to top in the order of minimum total line length (linear assignment).
 
     If all callouts were equally high, no two lines of this order would cross.
@@ -379,7 +379,7 @@ def _shortest(callouts: Sequence[Callout], edge: float, bounds: tuple[float, flo
     return [callouts[at] for at in np.argsort(heights[given], kind="stable")]
 
 
-def _stacked(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
+def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
     """Return the callouts with heights as close to their anchors as their order permits (isotonic regression)."""
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))

@@ -109,7 +109,7 @@ def dials_figure(
     rows = [faces[at : at + columns] for at in range(0, len(faces), columns)]
     tall = [_FACE + 0.35 + (_ROW * max(len(face.pointers) for face in row) if labels else 0.0) for row in rows]
     keys = [
-        _sample(face) + text_width(_words(scene.pointers[at], readings[at], face))
+        _sample_length(face) + text_width(_reading_text(scene.pointers[at], readings[at], face))
         for face in faces
         for at in face.pointers
     ]
@@ -148,7 +148,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         dial = scene.pointers[at].dial
         if dial is not None:
             on.setdefault(dial, []).append(at)
-    faces = [_dialled(scene, dial, pointers) for dial, pointers in on.items()]
+    faces = [_dial_picture(scene, dial, pointers) for dial, pointers in on.items()]
     if outputs or not faces:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
@@ -166,7 +166,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
     return faces
 
 
-def _dialled(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
+def _dial_picture(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
     face = scene.dials[dial]
     return DialPicture(face.id, face.scale, tuple(pointers), face.title)
 
@@ -197,8 +197,8 @@ def _draw_key(
     axes: Axes, face: DialPicture, scene: Scene, readings: Sequence[PointerReading], centre: tuple[float, float]
 ) -> None:
     """Draw a key below a face: one line for each hand, with its style and its reading."""
-    told = [_words(scene.pointers[at], readings[at], face) for at in face.pointers]
-    sample = _sample(face)
+    told = [_reading_text(scene.pointers[at], readings[at], face) for at in face.pointers]
+    sample = _sample_length(face)
     left = centre[0] - (max(map(text_width, told)) + sample) / 2
     for order, words in enumerate(told):
         y, look = centre[1] - _OUTER - 0.3 - _ROW * order, series_look(order)
@@ -206,7 +206,7 @@ def _draw_key(
         write(axes, left + sample, y, words, look["color"], ha="left", fontsize=FINE)
 
 
-def _sample(face: DialPicture) -> float:
+def _sample_length(face: DialPicture) -> float:
     """Return the length [in] of a hand's sample in the key of a face."""
     return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
@@ -255,7 +255,7 @@ def _fill_hand(
     axes.add_patch(Polygon([*right, *left[::-1]], closed=True, facecolor=colour, edgecolor="none", zorder=6))
 
 
-def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
+def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
     """Return the name of an output, its position, its reading and the sense in which it turns."""
     if reading.turned is None:
         return f"{pointer.output}: undetermined"

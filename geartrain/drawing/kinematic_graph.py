@@ -43,22 +43,22 @@ if TYPE_CHECKING:
 
 _MOST = 150  # links
 _EDGE, _HUB = 1.05, 0.055  # inches: length of an edge, and addition for each further edge at its ends
-_CLEAR = 0.33  # inches: wanted distance of an edge from vertices that are not its ends
-_CROWDED = 6.0  # penalty per inch of missing distance, in inches of bend
-_ROOMY = 3.0  # inches: addition to the edge lengths of small graphs, divided by the number of links
+_VERTEX_DISTANCE = 0.33  # inches: wanted distance of an edge from vertices that are not its ends
+_PENALTY = 6.0  # penalty per inch of missing distance, in inches of bend
+_SPREAD = 3.0  # inches: addition to the edge lengths of small graphs, divided by the number of links
 _BENDS = [0.0, *(side * size for size in (0.15, 0.3, 0.5, 0.8, 1.2, 1.7) for side in (1, -1))]
 _SHORT = 4  # letters of the longest name that fits into a vertex
 _TRACED = 81  # sampled points per edge, from which labels of other edges keep off
-_RIMS = 0.03  # inches between two labels
-_KEPT = 0.03  # inches between a label and other edges
+_LABEL_MARGIN = 0.03  # inches between two labels
+_EDGE_MARGIN = 0.03  # inches between a label and other edges
 _SHARES = tuple(share / 100 for share in range(14, 87, 3))  # relative positions of a label along its edge
-_LOOKS: dict[str, tuple[float, Dash, str]] = {
+_EDGE_STYLES: dict[str, tuple[float, Dash, str]] = {
     "revolute": (0.9, "-", GREY),
     "gear": (3.2, "-", BLUE),
     "coupling": (2.2, (0, (4, 2)), PURPLE),
 }
 """Width [pt], dashes and colour of an edge by its kind."""
-_BESIDE = (
+_LABEL_OFFSETS = (
     (0.0, 0.12),
     (0.0, -0.12),
     (0.2, 0.06),
@@ -67,7 +67,7 @@ _BESIDE = (
     (0.0, -0.24),
 )  # inches: offsets of a label next to its edge
 _NAME = 8.5  # points: a name next to its vertex
-_IN = 9  # points: a name in its vertex
+_INNER_NAME = 9  # points: a name in its vertex
 _SMALL, _LARGE = 0.11, 0.19  # inches: half width of a vertex with its name outside, minimum with its name inside
 _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
@@ -118,7 +118,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     figure, axes = sheet(width, float(height) + _HEAD + _FOOT - 0.3, title_of(declared.name, declared.title))
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, places + shift, strict=True)}
     beside = max(map(len, links)) > _SHORT
-    inner = max(_LARGE, *(text_width(link, _IN, "bold") / 2 + 0.05 for link in links))
+    inner = max(_LARGE, *(text_width(link, _INNER_NAME, "bold") / 2 + 0.05 for link in links))
     curves = _curves(edges, at)
     for edge, curve in zip(edges, curves, strict=True):
         _draw_edge(axes, edge, curve)
@@ -132,7 +132,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
         if link in outside:
             _name_vertex(axes, link, at, edges, traces, room)
         else:
-            write(axes, *at[link], link, fontweight="bold", fontsize=_IN)
+            write(axes, *at[link], link, fontweight="bold", fontsize=_INNER_NAME)
     if labels:
         _draw_labels(axes, edges, curves, traces, room)
     figure.legend(handles=list(_legend(edges)), loc="lower center", ncols=5, fontsize=SMALL - 1, frameon=False)
@@ -156,7 +156,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
         for end in edge.ends:
             degree[end] += 1
     pairs = [edge.ends for edge in edges]
-    minimum = _EDGE + _ROOMY / len(links)
+    minimum = _EDGE + _SPREAD / len(links)
     lengths = {
         edge.ends: max(
             minimum + _HUB * max(sum(degree[end] for end in edge.ends) - 6, 0), text_width(edge.label) + 0.55
@@ -191,7 +191,7 @@ def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) ->
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
     others = np.array([place for link, place in at.items() if link not in edge.ends]).reshape(-1, 2)
     trials = [(bend, np.array([start, (start + end) / 2 + 2 * bend * normal, end])) for bend in _BENDS[turn:]]
-    costs = [abs(bend) + _CROWDED * max(_CLEAR - _clearance(curve, others), 0.0) for bend, curve in trials]
+    costs = [abs(bend) + _PENALTY * max(_VERTEX_DISTANCE - _clearance(curve, others), 0.0) for bend, curve in trials]
     return trials[int(np.argmin(costs))][1]
 
 
@@ -212,7 +212,7 @@ def _point(curve: Floats, share: float) -> Floats:
 
 
 def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
-    width, style, color = _LOOKS[edge.kind]
+    width, style, color = _EDGE_STYLES[edge.kind]
     color = RED if edge.broken else color
     path = Path(curve, [Path.MOVETO, Path.CURVE3, Path.CURVE3])
     axes.add_patch(
@@ -240,11 +240,11 @@ class _Traces:
     def of(cls, edges: Sequence[GraphEdge], curves: Sequence[Floats]) -> _Traces:
         points = np.array([[_point(curve, share) for share in np.linspace(0, 1, _TRACED)] for curve in curves])
         steps = np.sqrt((np.diff(points, axis=1) ** 2).sum(2)).mean(1)
-        return cls(points, steps * [_LOOKS[edge.kind][0] for edge in edges])
+        return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
         """Return the ink of edges under a box with a margin; the edge `own` is not counted."""
-        inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _KEPT).all(2).sum(1)
+        inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))
 
@@ -261,9 +261,9 @@ def _draw_labels(
     order = sorted(range(len(edges)), key=lambda at: (sum(not ink for ink, _ in spots[at]), at))
     for at in order:
         edge, boxes = edges[at], [box for _, box in sorted(spots[at], key=lambda spot: spot[0])]
-        beside = [(x + dx, y + dy, wide, high) for dx, dy in _BESIDE for x, y, wide, high in boxes]
+        beside = [(x + dx, y + dy, wide, high) for dx, dy in _LABEL_OFFSETS for x, y, wide, high in boxes]
         x, y, _, _ = room.place([*boxes, *beside]) or boxes[0]
-        color = RED if edge.broken else _LOOKS[edge.kind][2]
+        color = RED if edge.broken else _EDGE_STYLES[edge.kind][2]
         style = "italic" if edge.kind == "revolute" else "normal"
         write(axes, x, y, edge.label, color, 6.0, fontsize=FINE, fontstyle=style, gid=f"label {edge.label}")
 
@@ -276,7 +276,7 @@ def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tup
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
         x, y = map(float, _point(curve, share))
         _, _, wide, high = text_box([edge.label], FINE, x, y)
-        box = (x, y, wide + _RIMS, high + _RIMS)
+        box = (x, y, wide + _LABEL_MARGIN, high + _LABEL_MARGIN)
         found.append((traces.hidden(box, at), box))
     return found
 
@@ -351,5 +351,5 @@ def _legend(edges: Sequence[GraphEdge]) -> Iterator[Line2D]:
 
 
 def _key(kind: str, words: str) -> Line2D:
-    width, dashes, color = _LOOKS[kind]
+    width, dashes, color = _EDGE_STYLES[kind]
     return Line2D([], [], color=color, linewidth=width, linestyle=dashes, label=words)

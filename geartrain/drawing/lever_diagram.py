@@ -73,8 +73,8 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     too_many(train, len(levers) * len(states), _MOST, "panels of sets and states")
     answers = [train.solve(name) for name in states]
     wide = [max(_width(_points(train, lever, answer)) for answer in answers) for lever in levers]
-    bands = _bands(wide)
-    wide = _filling(wide, bands)
+    bands = _even_rows(wide)
+    wide = _widened(wide, bands)
     span = max(sum(wide[at] + _GAP for at in band) for band in bands) + _EDGE
     tall = (_TALL + _HEAD) * len(bands) + 0.45
     columns = min(max(round((tall * len(answers) / (_UPRIGHT * span)) ** 0.5), 1), len(answers))
@@ -108,19 +108,19 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
     return min(speeds) - more, max(speeds) + more
 
 
-def _bands(wide: Sequence[float]) -> list[list[int]]:
+def _even_rows(wide: Sequence[float]) -> list[list[int]]:
     """Return the panels in rows of at most the page width, with the minimum number of rows and rows as equal as
     possible.
     """
-    rows = len(_filled(wide, _PAGE))
+    rows = len(_packed_rows(wide, _PAGE))
     ends = range(len(wide))
     widths = sorted(
         {sum(wide[first : last + 1]) + _GAP * (last + 1 - first) for last in ends for first in ends[: last + 1]}
     )
-    return next(bands for each in widths if len(bands := _filled(wide, each)) <= rows)
+    return next(bands for each in widths if len(bands := _packed_rows(wide, each)) <= rows)
 
 
-def _filled(wide: Sequence[float], page: float) -> list[list[int]]:
+def _packed_rows(wide: Sequence[float], page: float) -> list[list[int]]:
     """Return the panels in rows, filled in order (next-fit packing)."""
     bands: list[list[int]] = [[]]
     left = 0.0
@@ -133,7 +133,7 @@ def _filled(wide: Sequence[float], page: float) -> list[list[int]]:
     return bands
 
 
-def _filling(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
+def _widened(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
     """Return the widths of the panels, widened if they do not fill a page of the minimum width."""
     most = max(bands, key=lambda band: sum(wide[at] + _GAP for at in band))
     room = _NARROW - _EDGE - _GAP * len(most)
@@ -142,12 +142,12 @@ def _filling(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[floa
 
 def _width(points: Sequence[Point]) -> float:
     """Return the width [in] at which the labels above and below a panel fit side by side."""
-    above = sum(_letters(max([*point.names, _said(point.speed)], key=len)) for point in points)
-    below = sum(_letters(_said(point.x)) for point in points)
+    above = sum(_label_width(max([*point.names, _speed_text(point.speed)], key=len)) for point in points)
+    below = sum(_label_width(_speed_text(point.x)) for point in points)
     return max(above, below, _MINIMUM)
 
 
-def _letters(text: str) -> float:
+def _label_width(text: str) -> float:
     return text_width(text, _FINE, "bold") + 0.15
 
 
@@ -228,12 +228,12 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
     figure = axes.get_figure(root=True)
     assert figure is not None
     inches = axes.get_position().width * figure.get_size_inches()[0] / (high - low)
-    heads = [_said(point.speed) for point in points]
-    feet = [_said(point.x) for point in points]
-    wide = [_letters(max([*point.names, speed], key=len)) for point, speed in zip(points, heads, strict=True)]
+    heads = [_speed_text(point.speed) for point in points]
+    feet = [_speed_text(point.x) for point in points]
+    wide = [_label_width(max([*point.names, speed], key=len)) for point, speed in zip(points, heads, strict=True)]
     bounds = low * inches - 0.25, high * inches + 0.25
     above = spread([x * inches for x in xs], wide, bounds)
-    below = spread([x * inches for x in xs], list(map(_letters, feet)), bounds)
+    below = spread([x * inches for x in xs], list(map(_label_width, feet)), bounds)
     across = axes.get_xaxis_transform()
     for point, speed, foot, x, up, down in zip(points, heads, feet, xs, above, below, strict=True):
         up, down = up / inches, down / inches
@@ -252,7 +252,7 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
         axes.text(down, -0.08, foot, va="top", color=GREY, gid=f"abscissa {links}", **how)
 
 
-def _said(value: Fraction | None) -> str:
+def _speed_text(value: Fraction | None) -> str:
     """Return a short fraction as a fraction, a long one as a decimal, and None as a question mark."""
     if value is None:
         return "?"

@@ -44,9 +44,9 @@ _MOST = 6000  # points drawn in a panel: the first of each interval, its minimum
 _OUTPUTS, _STACKED = 12, 4  # maximum number of outputs drawn, and of outputs in one column
 _WIDE = 5.0  # inches: width of a panel next to others
 _TICKS = 6  # maximum number of intervals between ticks below a panel
-_SWINGS = 60  # turning points drawn of a curve that would otherwise fill its panel
-_EXACT = 1e-12  # rad: smaller deviations are rounding
-_ROUNDS = 15  # turns of a pointer beyond which its angle would fill the panel
+_TURNING_POINTS = 60  # turning points drawn of a curve that would otherwise fill its panel
+_ROUNDING = 1e-12  # rad: smaller deviations are rounding
+_MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the panel
 
 
 class _Trace(NamedTuple):
@@ -68,7 +68,7 @@ class _Trace(NamedTuple):
     @property
     def errs(self) -> bool:
         """True if the deviation is larger than rounding."""
-        return bool(np.ptp(self.error) > _EXACT)
+        return bool(np.ptp(self.error) > _ROUNDING)
 
 
 _Drawer = Callable[[Any, _Trace], None]
@@ -144,15 +144,15 @@ def _left_out(erring: int, exact: int) -> Iterator[str]:
     """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
     if not erring:
         yield "every output moves uniformly"
-        yield from _beyond(exact, "")
+        yield from _count_remark(exact, "")
         return
-    yield from _beyond(erring, " with smaller deviations")
+    yield from _count_remark(erring, " with smaller deviations")
     if exact:
         moves = "1 output that moves uniformly is" if exact == 1 else f"{exact} outputs that move uniformly are"
         yield f"{moves} not drawn"
 
 
-def _beyond(outputs: int, which: str) -> Iterator[str]:
+def _count_remark(outputs: int, which: str) -> Iterator[str]:
     """Yield a remark on the outputs beyond the maximum number that is drawn."""
     less = outputs - _OUTPUTS
     if less == 1:
@@ -173,13 +173,13 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
     column = iter(grid[:, 0])
     for row, (trace, drawers) in enumerate(parts):
         for drawer, panel in zip(drawers, column if across == 1 else grid[row], strict=False):
-            _framed(panel, drawer, trace, below)
+            _draw_panel(panel, drawer, trace, below)
         for panel in grid[row, len(drawers) :] if across > 1 else ():
             panel.set_axis_off()
     return figure
 
 
-def _framed(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
+def _draw_panel(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
     """Draw one panel of one output."""
     drawer(panel, trace)
     name_axes(panel, below, size=SMALL, parse_math=False)
@@ -193,10 +193,10 @@ def _drawers(trace: _Trace) -> list[_Drawer]:
     Over few turns of the pointer its whole angle is drawn, over many only its backward motion.
     """
     if not trace.errs:
-        return [_angle] if np.ptp(trace.mean) <= _ROUNDS else [_speed]
-    if np.ptp(trace.mean) <= _ROUNDS:
+        return [_angle] if np.ptp(trace.mean) <= _MAX_TURNS else [_speed]
+    if np.ptp(trace.mean) <= _MAX_TURNS:
         return [_angle, _error, _speed]
-    return [_arcs, _error, _speed] if (trace.speed < 0).any() else [_error, _speed]
+    return [_backward_motion, _error, _speed] if (trace.speed < 0).any() else [_error, _speed]
 
 
 def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
@@ -209,7 +209,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
         share = max(1, round(_MOST / 3 * len(passage.turns) / run.samples))
         firsts = firsts or _first(passage, means)
         for at, part in enumerate(parts):
-            kept = _kept(passage.error[at], means[at] + passage.rate[at], share)
+            kept = _thinned(passage.error[at], means[at] + passage.rate[at], share)
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
         on_done(len(passage.turns))
     found = []
@@ -229,7 +229,7 @@ def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, 
     return [(passage.turns[:_MOST], error, (mean + rate) / (mean or 1.0)) for error, rate, mean in columns]
 
 
-def _kept(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
+def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
     """Return the indices of the positions to draw.
 
     They are the first position of each bin, its extremes of deviation and speed, and every reversal.
@@ -245,27 +245,27 @@ def _kept(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
 
 def _angle(panel: Any, trace: _Trace) -> None:
     for values, colour, width, label in ((trace.mean, GREY, 0.8, "mean"), (trace.angle, BLUE, 1.2, "true")):
-        panel.plot(*_broken(trace.turns, values), color=colour, linewidth=width, label=label)
+        panel.plot(*_dial_line(trace.turns, values), color=colour, linewidth=width, label=label)
     back = np.where(trace.speed < 0, trace.angle, np.nan)
     if np.isfinite(back).any():
-        panel.plot(*_broken(trace.turns, back), color=RED, linewidth=2, label="backward")
-    _dial(panel, f"{trace.name}\nangle (deg)")
+        panel.plot(*_dial_line(trace.turns, back), color=RED, linewidth=2, label="backward")
+    _set_degrees(panel, f"{trace.name}\nangle (deg)")
     legend_above(panel, 3)
 
 
-def _arcs(panel: Any, trace: _Trace) -> None:
+def _backward_motion(panel: Any, trace: _Trace) -> None:
     back = np.where(trace.speed < 0, trace.angle, np.nan)
-    panel.plot(*_broken(trace.turns, back), color=RED, linewidth=1.5)
-    _dial(panel, f"{trace.name}\nbackward motion (deg)")
+    panel.plot(*_dial_line(trace.turns, back), color=RED, linewidth=1.5)
+    _set_degrees(panel, f"{trace.name}\nbackward motion (deg)")
 
 
-def _dial(panel: Any, label: str) -> None:
+def _set_degrees(panel: Any, label: str) -> None:
     panel.set_ylabel(label)
     panel.set_ylim(0, 360)
     panel.set_yticks(range(0, 361, 90))
 
 
-def _broken(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
+def _dial_line(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
     """Return the line of a pointer in degrees modulo 360, interrupted by NaN where the pointer passes 0."""
     degrees = 360 * np.mod(turns, 1)
     cuts = np.flatnonzero(np.abs(np.diff(degrees)) > 180) + 1
@@ -289,14 +289,14 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
     """Plot a curve and return its abscissae and values.
 
     If a curve oscillates so often that it would fill its panel, only its beginning is plotted, between its bounds. The
-    criterion is the total variation over the range, compared with six times `_SWINGS` in a wide panel and three times
+    criterion is the total variation over the range, compared with six times `_TURNING_POINTS` in a wide panel and three times
     in a narrow one.
     """
     turns, values = trace.turns, whole
     room = 6 if panel.get_gridspec().ncols == 1 else 3
-    if np.abs(np.diff(whole)).sum() > room * _SWINGS * np.ptp(whole):
+    if np.abs(np.diff(whole)).sum() > room * _TURNING_POINTS * np.ptp(whole):
         turning = _turning(first)
-        end = turning[_SWINGS] if len(turning) > _SWINGS else len(first)
+        end = turning[_TURNING_POINTS] if len(turning) > _TURNING_POINTS else len(first)
         turns, values = trace.first[0][:end], first[:end]
         for bound in (whole.min(), whole.max()):
             panel.axhline(bound, color=GREY, linewidth=0.8, linestyle=":")

@@ -50,15 +50,15 @@ _FAULTS = {  # hatches of the verdicts on pairs that do not run
     "apart": "--",
     "none": "",
 }
-_STANDS = "dwell"  # the fault with which the pair still turns
-_KNOWN = {  # phases of running pairs: series and opacity, chosen so that no two have the same grey in print
+_STILL_TURNS = "dwell"  # the fault with which the pair still turns
+_PHASE_STYLES = {  # phases of running pairs: series and opacity, chosen so that no two have the same grey in print
     "approach": (0, 0.08),
     "recess": (1, 0.27),
     "astride": (2, 0.34),
     "approach+recess": (4, 0.24),
 }
-_VEIL = 0.2  # opacity of other phases
-_CUT = 0.8  # points: the line between two bands
+_OPACITY = 0.2  # opacity of other phases
+_BAND_EDGE = 0.8  # points: the line between two bands
 _NAMES = {  # names of parameters, and default units
     "z1": ("teeth of wheel 1", ""),
     "z2": ("teeth of wheel 2", ""),
@@ -68,9 +68,9 @@ _NAMES = {  # names of parameters, and default units
     "centre_distance": ("centre distance", "modules"),
     "radii": ("(R2/R1)/(z2/z1)", ""),
 }
-_FEW = 60  # maximum number of samples with markers
-_MANY = 2500  # cells of a map beyond which it is rasterized in a vector file
-_REGION = 0.01  # share of the map below which a region is not named
+_MAX_MARKERS = 60  # maximum number of samples with markers
+_MAX_CELLS = 2500  # cells of a map beyond which it is rasterized in a vector file
+_MIN_SHARE = 0.01  # share of the map below which a region is not named
 
 
 def sweep_figure(
@@ -177,7 +177,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
         for low, high, kind in _bands(x, verdicts):
             axes.axvspan(low, high, **styles[kind], gid=f"band {kind}")
             if low > x[0]:
-                axes.axvline(low, color=GREY, linewidth=_CUT)
+                axes.axvline(low, color=GREY, linewidth=_BAND_EDGE)
         _curves(axes, x, {label: values[order] for label, values in curves.items()}, verdicts)
         name_axes(axes, y=_SHOWN.get(stem, stem))
     if x[-1] > x[0]:
@@ -198,7 +198,7 @@ def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
 
 
 def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -> None:
-    marker = "o" if len(x) <= _FEW else ""
+    marker = "o" if len(x) <= _MAX_MARKERS else ""
     for (name, values), color in zip(curves.items(), (BLACK, BLACK), strict=False):
         axes.plot(x, values, color=color, linewidth=1.8, marker=marker, markersize=3.5, clip_on=False, gid=name)
     if len(curves) == 2:
@@ -213,13 +213,13 @@ def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -
 
 def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
     """Return the style of each verdict's band: coloured where the pair runs, grey and hatched where it does not."""
-    others = count(1 + max(series for series, _ in _KNOWN.values()))
+    others = count(1 + max(series for series, _ in _PHASE_STYLES.values()))
     styles: dict[str, dict[str, Any]] = {}
     for kind in dict.fromkeys(verdicts.tolist()):
         if kind in _FAULTS:
             styles[kind] = {"facecolor": (PALE, 0.35), "edgecolor": (GREY, 0.6), "hatch": _FAULTS[kind], "linewidth": 0}
         else:
-            series, veil = _KNOWN[kind] if kind in _KNOWN else (next(others), _VEIL)
+            series, veil = _PHASE_STYLES[kind] if kind in _PHASE_STYLES else (next(others), _OPACITY)
             styles[kind] = {"facecolor": (series_colour(series), veil), "edgecolor": "none", "linewidth": 0}
     return styles
 
@@ -239,11 +239,11 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
     (first, x), (second, y) = parameters.items()
     name = EFFICIENCY if EFFICIENCY in columns else next(iter(columns))
     x, y, values, verdicts = _sorted(x, y, columns[name], verdicts)
-    stuck = np.isin(verdicts, [kind for kind in _FAULTS if kind != _STANDS])
+    stuck = np.isin(verdicts, [kind for kind in _FAULTS if kind != _STILL_TURNS])
     shown = np.ma.masked_invalid(np.where(stuck, np.nan, values))
     figure = Figure(figsize=(WIDTH, 7.0), layout="constrained")
     axes = figure.add_subplot()
-    mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap=SCALE, rasterized=shown.size > _MANY, gid="map")
+    mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap=SCALE, rasterized=shown.size > _MAX_CELLS, gid="map")
     colour_bar(figure, axes, mesh, _SHOWN.get(name, name))
     name_axes(axes, first, second)
     if min(verdicts.shape) > 1:
@@ -285,7 +285,7 @@ def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
 def _name(axes: Axes, x: Floats, y: Floats, here: NDArray[np.bool_], kind: str) -> None:
     """Write the name of a region at the cell of the region that is closest to its centroid."""
     rows, cells = np.nonzero(here)
-    if len(rows) < _REGION * here.size:
+    if len(rows) < _MIN_SHARE * here.size:
         return
     at = np.argmin((rows - rows.mean()) ** 2 + (cells - cells.mean()) ** 2)
     place = float(x[rows[at], cells[at]]), float(y[rows[at], cells[at]])

@@ -64,51 +64,51 @@ _ONLY = 0.7  # position between both colours of the only layer of a train
 _CHORD, _COARSE = 0.002, 0.02  # maximum deviation of a simplified outline, in inches and in modules
 
 
-def from_below(standing: ProjectedScene) -> list[SceneWheel]:
+def from_below(projected: ProjectedScene) -> list[SceneWheel]:
     """Return the wheels in drawing order: the lowest first, and the largest first at equal heights."""
     return sorted(
-        standing.scene.wheels, key=lambda wheel: (float(standing.seen(standing.centre(wheel))[2]), -wheel.radius)
+        projected.scene.wheels, key=lambda wheel: (float(projected.seen(projected.centre(wheel))[2]), -wheel.radius)
     )
 
 
-def draw_flat(page: ScaledPage, standing: ProjectedScene) -> None:
+def draw_flat(page: ScaledPage, projected: ProjectedScene) -> None:
     """Draw all wheels, arms, wave generators, couplings and hubs of a scene in plan."""
-    scene, wheels = standing.scene, from_below(standing)
-    heights = sorted({round(float(standing.seen(standing.centre(wheel))[2]), 6) for wheel in wheels})
+    scene, wheels = projected.scene, from_below(projected)
+    heights = sorted({round(float(projected.seen(projected.centre(wheel))[2]), 6) for wheel in wheels})
     red = broken_wheels(scene)
     for order, wheel in enumerate(wheels):
-        place = heights.index(round(float(standing.seen(standing.centre(wheel))[2]), 6))
+        place = heights.index(round(float(projected.seen(projected.centre(wheel))[2]), 6))
         level = place / (len(heights) - 1) if len(heights) > 1 else _ONLY
-        if not standing.faces(wheel):
-            draw_across(page.axes, standing, wheel, page.at, red, 2 + order / len(wheels))
+        if not projected.faces(wheel):
+            draw_across(page.axes, projected, wheel, page.at, red, 2 + order / len(wheels))
             continue
-        _draw_wheel(page, standing, wheel, level, 2 + order / len(wheels), wheel.id in red)
-    _draw_arms(page, standing)
-    _draw_waves(page, standing)
+        _draw_wheel(page, projected, wheel, level, 2 + order / len(wheels), wheel.id in red)
+    _draw_arms(page, projected)
+    _draw_waves(page, projected)
     for coupling in scene.couplings:
-        _draw_coupling(page, standing, coupling)
-    for spot in {tuple(np.round(page.at(standing.seen(standing.centre(wheel))), 4)) for wheel in wheels}:
+        _draw_coupling(page, projected, coupling)
+    for spot in {tuple(np.round(page.at(projected.seen(projected.centre(wheel))), 4)) for wheel in wheels}:
         page.axes.add_artist(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
 
 
 def _draw_wheel(
-    page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, level: float, order: float, red: bool
+    page: ScaledPage, projected: ProjectedScene, wheel: SceneWheel, level: float, order: float, red: bool
 ) -> None:
     chord = min(_CHORD / page.scale, _COARSE * wheel.module)
-    outline = page.at(standing.seen(standing.outline(wheel, chord=chord)))
+    outline = page.at(projected.seen(projected.outline(wheel, chord=chord)))
     face = (*(_FAR + (_NEAR - _FAR) * level), 0.78)
     style: dict[str, Any] = {"edgecolor": RED if red else BLACK, "linewidth": 1.2 if red else 0.6, "zorder": order}
     if wheel.kind == "ring":
-        rim = page.at(standing.seen(standing.circle(wheel, wheel.root * 1.1)))
-        page.axes.add_artist(PathPatch(_hollow(rim, outline), facecolor=face, gid=f"wheel {wheel.id}", **style))
-    elif wave := standing.wave(wheel):
-        bore = page.at(standing.seen(standing.bore(wave)))
-        page.axes.add_artist(PathPatch(_hollow(outline, bore), facecolor=face, gid=f"wheel {wheel.id}", **style))
+        rim = page.at(projected.seen(projected.circle(wheel, wheel.root * 1.1)))
+        page.axes.add_artist(PathPatch(_area_between(rim, outline), facecolor=face, gid=f"wheel {wheel.id}", **style))
+    elif wave := projected.wave(wheel):
+        bore = page.at(projected.seen(projected.bore(wave)))
+        page.axes.add_artist(PathPatch(_area_between(outline, bore), facecolor=face, gid=f"wheel {wheel.id}", **style))
     else:
         page.axes.add_artist(Polygon(outline, facecolor=face, gid=f"wheel {wheel.id}", **style))
-    for pin in standing.pins(wheel):
-        page.axes.add_artist(Polygon(page.at(standing.seen(pin)), facecolor="white", **style))
-    centre = page.at(standing.seen(standing.centre(wheel)))
+    for pin in projected.pins(wheel):
+        page.axes.add_artist(Polygon(page.at(projected.seen(pin)), facecolor="white", **style))
+    centre = page.at(projected.seen(projected.centre(wheel)))
     page.axes.add_artist(
         Circle(
             (float(centre[0]), float(centre[1])),
@@ -123,7 +123,7 @@ def _draw_wheel(
     )
 
 
-def _hollow(outer: Floats, inner: Floats) -> Path:
+def _area_between(outer: Floats, inner: Floats) -> Path:
     """Return the path of the area between two closed lines."""
     codes = [
         code for line in (outer, inner) for code in (Path.MOVETO, *[Path.LINETO] * (len(line) - 1), Path.CLOSEPOLY)
@@ -131,49 +131,49 @@ def _hollow(outer: Floats, inner: Floats) -> Path:
     return Path(np.concatenate([outer, outer[:1], inner[::-1], inner[-1:]]), codes)
 
 
-def _draw_arms(page: ScaledPage, standing: ProjectedScene) -> None:
-    arms = list(arms_of(standing))
+def _draw_arms(page: ScaledPage, projected: ProjectedScene) -> None:
+    arms = list(arms_of(projected))
     wide = 4.5 if len(arms) < 6 else 2.5
     for body, start, end in arms:
-        line = page.at(standing.seen(np.array([start, end])))
-        name = f"arm {standing.scene.bodies[body].id}"
+        line = page.at(projected.seen(np.array([start, end])))
+        name = f"arm {projected.scene.bodies[body].id}"
         page.axes.plot(*line.T, color="white", linewidth=wide + 2, solid_capstyle="round", zorder=4)
         page.axes.plot(*line.T, color=ORANGE, linewidth=wide, solid_capstyle="round", zorder=4, gid=name)
 
 
-def _draw_waves(page: ScaledPage, standing: ProjectedScene) -> None:
+def _draw_waves(page: ScaledPage, projected: ProjectedScene) -> None:
     """Draw each wave generator from its axis to the points where it deflects its thin wheel outwards."""
-    for wave in standing.scene.waves:
-        name = f"wave {standing.scene.bodies[wave.by].id}"
+    for wave in projected.scene.waves:
+        name = f"wave {projected.scene.bodies[wave.by].id}"
         page.axes.add_artist(
-            Polygon(page.at(standing.seen(standing.bore(wave))), fill=False, edgecolor=ORANGE, zorder=4)
+            Polygon(page.at(projected.seen(projected.bore(wave))), fill=False, edgecolor=ORANGE, zorder=4)
         )
-        hub = standing.centre(standing.scene.wheels[wave.wheel])
-        for lobe in standing.lobes(wave):
-            line = page.at(standing.seen(np.array([hub, lobe])))
+        hub = projected.centre(projected.scene.wheels[wave.wheel])
+        for lobe in projected.lobes(wave):
+            line = page.at(projected.seen(np.array([hub, lobe])))
             page.axes.plot(*line.T, color=ORANGE, linewidth=2.5, solid_capstyle="butt", zorder=4, gid=name)
 
 
-def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
+def _draw_coupling(page: ScaledPage, projected: ProjectedScene, coupling: SceneCoupling) -> None:
     """Draw the pin and the part of the slot that it can reach, or the pins in their holes."""
     if coupling.hole:
-        _draw_holes(page, standing, coupling)
+        _draw_holes(page, projected, coupling)
         return
-    pin = page.at(standing.seen(standing.pose.point(coupling.pin, coupling.pin_at)))
-    (ends,) = coupling_spans(standing, coupling, page.at, page.scale)
+    pin = page.at(projected.seen(projected.pose.point(coupling.pin, coupling.pin_at)))
+    (ends,) = coupling_spans(projected, coupling, page.at, page.scale)
     page.axes.plot(*ends.T, color=PURPLE, linewidth=5.5, solid_capstyle="round", zorder=5, gid=f"slot {coupling.id}")
     page.axes.plot(*ends.T, color="white", linewidth=3.0, solid_capstyle="round", zorder=5)
     spot = (float(pin[0]), float(pin[1]))
     page.axes.add_artist(Circle(spot, 0.045, facecolor=PURPLE, edgecolor=BLACK, zorder=6, gid=f"pin {coupling.id}"))
 
 
-def _draw_holes(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
+def _draw_holes(page: ScaledPage, projected: ProjectedScene, coupling: SceneCoupling) -> None:
     for what, body, places, size in (
         ("hole", coupling.slot, coupling.holes_at, coupling.hole),
         ("pin", coupling.pin, coupling.pins_at, coupling.pin_diameter),
     ):
         for at, place in enumerate(places):
-            x, y = page.at(standing.seen(standing.pose.point(body, place)))
+            x, y = page.at(projected.seen(projected.pose.point(body, place)))
             gid = f"{what} {at + 1} {coupling.id}"
             round_ = Circle((float(x), float(y)), size / 2 * page.scale, zorder=5, gid=gid)
             face, edge = ("white", PURPLE) if what == "hole" else (PURPLE, BLACK)
@@ -204,13 +204,13 @@ class PlanNames:
 
     @classmethod
     def of(
-        cls, standing: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
+        cls, projected: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
     ) -> PlanNames:
         """Return the candidate positions for some wheels of a scene; `at` converts view coordinates to inches."""
-        centres = np.array([at(standing.seen(standing.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
+        centres = np.array([at(projected.seen(projected.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
         reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
-        ends = [at(standing.seen(np.array([start, end]))) for _, start, end in arms_of(standing)]
-        pins = [span for each in standing.scene.couplings for span in coupling_spans(standing, each, at, scale)]
+        ends = [at(projected.seen(np.array([start, end]))) for _, start, end in arms_of(projected)]
+        pins = [span for each in projected.scene.couplings for span in coupling_spans(projected, each, at, scale)]
         return cls(wheels, centres, reach, _points_along([*ends, *pins]), scale)
 
     def place(self) -> tuple[list[tuple[SceneWheel, Box]], list[Callout]]:
@@ -316,7 +316,7 @@ def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[n
 _MINIMUM, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: minimum and maximum side of the plan, mean share of a wheel
 _RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
 _SIDE = 1.1  # inches: minimum width of the side view
-_TOLD = 8.5  # points: text above the plan
+_NOTE_SIZE = 8.5  # points: text above the plan
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
@@ -324,9 +324,9 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
 
     Pairs in a loop that does not close are red. The verdict on a train that does not turn is written above the plan.
     """
-    standing = project_scene(scene, turns)
-    plan = _PlanSize.of(standing)
-    written, margin = _names(standing, plan, labels)
+    projected = project_scene(scene, turns)
+    plan = _PlanSize.of(projected)
+    written, margin = _names(projected, plan, labels)
     beside = [wide + _RIM if wide else 0.0 for wide in margin.widths]
     width = max(plan.size[0] + 2 * _RIM + sum(beside) + plan.deep_room, 5.5)
     said = _verdict(scene, width)
@@ -337,21 +337,21 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     left = (width - plan.size[0] - sum(beside) - plan.deep_room) / 2 + beside[0]
     shift = np.array([left, _FOOT + _RIM + over]) - plan.low
     page = ScaledPage(axes, plan.scale, shift, _FOOT - 0.1)
-    if standing.flat:
-        draw_flat(page, standing)
+    if projected.flat:
+        draw_flat(page, projected)
     else:
-        draw_obliquely(axes, standing, page.at)
+        draw_obliquely(axes, projected, page.at)
     for wheel, (x, y, _, _) in written:
         words, x, y = f"{wheel.id}\n{wheel.teeth}", x + shift[0], y + shift[1]
         write(axes, x, y, words, fontsize=FINE, gid=f"name {wheel.id}", linespacing=1.0)
     margin.moved(float(shift[0]), float(shift[1])).draw(axes)
     if plan.deep:
         start = left + plan.size[0] + beside[1] + 2 * _RIM
-        draw_side(page, standing, SideScale(start, plan.deep, plan.bottom, plan.depth))
+        draw_side(page, projected, SideScale(start, plan.deep, plan.bottom, plan.depth))
     _scale_bar(axes, plan.scale)
     _remark(page, scene, width)
     _write_above(axes, shifted, said)
-    handles = list(_legend(standing, margin.has_lists))
+    handles = list(_legend(projected, margin.has_lists))
     figure.legend(
         handles=handles,
         loc="lower right",
@@ -381,15 +381,15 @@ class _PlanSize:
     """Width of the side view; 0 without one."""
 
     @classmethod
-    def of(cls, standing: ProjectedScene) -> _PlanSize:
+    def of(cls, projected: ProjectedScene) -> _PlanSize:
         """Return the dimensions of a scene in its pose."""
-        wheels = standing.scene.wheels
-        points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in wheels), *_hubs(standing)])
+        wheels = projected.scene.wheels
+        points = np.concatenate([*(projected.seen(_extent(projected, wheel)) for wheel in wheels), *_hubs(projected)])
         low, high = points.min(0), points.max(0)
         size = np.maximum(high - low, 1e-6)  # a train of points only has no extent, and the scale divides by it
         side = min(max(_MINIMUM, _WHEEL * len(wheels) ** 0.5 * 1.7), _MOST)
         scale = side / float(size[:2].max())
-        layered = standing.flat and size[2] > 1e-9 and len({wheel.layer for wheel in wheels}) > 1
+        layered = projected.flat and size[2] > 1e-9 and len({wheel.layer for wheel in wheels}) > 1
         deep = max(float(size[2]) * scale, _SIDE) if layered else 0.0
         return cls(scale, scale * low[:2], scale * size[:2], float(low[2]), float(size[2]), deep)
 
@@ -404,19 +404,19 @@ class _PlanSize:
 
 
 def _names(
-    standing: ProjectedScene, plan: _PlanSize, labels: bool
+    projected: ProjectedScene, plan: _PlanSize, labels: bool
 ) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
     """Return the names on wheels, and those next to the plan, in inches relative to the origin of the train."""
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
-    facing = [wheel for wheel in from_below(standing)[::-1] if standing.faces(wheel)] if standing.flat else []
-    names = PlanNames.of(standing, facing, plan.at, plan.scale)
-    if labels and standing.flat:
+    facing = [wheel for wheel in from_below(projected)[::-1] if projected.faces(wheel)] if projected.flat else []
+    names = PlanNames.of(projected, facing, plan.at, plan.scale)
+    if labels and projected.flat:
         written, callouts = names.place()
-        across = [wheel for wheel in standing.scene.wheels if not standing.faces(wheel)]
-        callouts += oblique_callouts(standing, plan.at, across)
+        across = [wheel for wheel in projected.scene.wheels if not projected.faces(wheel)]
+        callouts += oblique_callouts(projected, plan.at, across)
     elif labels:
-        callouts = oblique_callouts(standing, plan.at, standing.scene.wheels)
+        callouts = oblique_callouts(projected, plan.at, projected.scene.wheels)
     edges = float(plan.low[0]) - _RIM, float(plan.low[0] + plan.size[0]) + _RIM
     margin = find_margin(callouts, edges, (float(plan.low[1]), float(plan.low[1] + plan.size[1])))
     return names.place_beside(written, margin.lines), margin
@@ -426,10 +426,10 @@ def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> N
     """Write the lines on brakes and clutches, then the verdict, below the title."""
     height = axes.get_ylim()[1]
     for row, (words, color) in enumerate(shifted):
-        write(axes, 0.15, height - 0.64 - 0.17 * row, words, color, ha="left", fontsize=_TOLD, gid="elements")
+        write(axes, 0.15, height - 0.64 - 0.17 * row, words, color, ha="left", fontsize=_NOTE_SIZE, gid="elements")
     if said:
         axes.text(
-            0.15, height - 0.55 - 0.17 * len(shifted), said, fontsize=_TOLD, color=RED, va="top", parse_math=False
+            0.15, height - 0.55 - 0.17 * len(shifted), said, fontsize=_NOTE_SIZE, color=RED, va="top", parse_math=False
         )
 
 
@@ -447,14 +447,14 @@ def _verdict(scene: Scene, width: float) -> str:
     """Return the verdict on a train that does not turn, wrapped to a width; empty for a train that turns."""
     if scene.verdict["kind"] == "determined":
         return ""
-    room = int((width - 0.3) / (_TOLD * LETTER))
+    room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
     lines = wrap(f"{scene.verdict['kind']}: {scene.verdict['text']}", room)
     return "\n".join(lines[:4]) + (" ..." if len(lines) > 4 else "")
 
 
 def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
     """Return lines of the closed and then of the open brakes and clutches, with their colours."""
-    room = int((width - 0.3) / (_TOLD * LETTER))
+    room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
     lines = []
     for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
         some = [each.text for each in scene.elements if each.closed is closed]
@@ -462,17 +462,17 @@ def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
     return lines
 
 
-def _extent(standing: ProjectedScene, wheel: SceneWheel) -> Floats:
+def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
     """Return points around a wheel that bound it."""
     most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
     half = wheel.thickness / 2
-    return np.concatenate([standing.circle(wheel, most, half), standing.circle(wheel, most, -half)])
+    return np.concatenate([projected.circle(wheel, most, half), projected.circle(wheel, most, -half)])
 
 
-def _hubs(standing: ProjectedScene) -> list[Floats]:
+def _hubs(projected: ProjectedScene) -> list[Floats]:
     """Return a point on the axis of each body, so that trains without wheels have a size too."""
-    bodies = standing.scene.bodies
-    return [standing.seen([standing.pose.point(at, body.point)]) for at, body in enumerate(bodies)]
+    bodies = projected.scene.bodies
+    return [projected.seen([projected.pose.point(at, body.point)]) for at, body in enumerate(bodies)]
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
@@ -494,9 +494,9 @@ def _scale_bar(axes: Axes, scale: float) -> None:
     write(axes, 0.2 + length * scale / 2, y + 0.12, f"{length:g} mm", fontsize=FINE)
 
 
-def _legend(standing: ProjectedScene, lists: bool) -> Iterator[Line2D | Patch]:
-    scene = standing.scene
-    if standing.flat:
+def _legend(projected: ProjectedScene, lists: bool) -> Iterator[Line2D | Patch]:
+    scene = projected.scene
+    if projected.flat:
         yield Line2D([], [], color=BLUE, linestyle="-.", linewidth=0.6, label="pitch circles")
     if any(body.role == "carrier" for body in scene.bodies):
         yield Line2D([], [], color=ORANGE, linewidth=4.5, label="carriers")

@@ -80,7 +80,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     if len(flow.nodes) > _MOST:
         what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
         raise GearTrainError(Problem(what, f"the maximum is {_MOST}", "draw a part of the train"))
-    words = _Words(flow, watts)
+    words = _NodeLabels(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
     title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)
     head = _HEAD + 0.17 * title.count("\n")
@@ -91,19 +91,19 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     axes.set_ylim(placed.low + placed.height + _FOOT, placed.low - head)
     axes.set_axis_off()
     for turn in placed.turns:
-        _back(axes, placed, turn)
+        _draw_return_band(axes, placed, turn)
     for band in placed.bands:
-        _ahead(axes, placed, band)
+        _draw_forward_band(axes, placed, band)
     for spot in placed.spots:
         if spot.node:
-            _spot(axes, placed, spot, spot.node, words)
-    _loops(axes, placed, flow)
+            _draw_node(axes, placed, spot, spot.node, words)
+    _write_circulating(axes, placed, flow)
     axes.text(0.1, placed.low - head + 0.12, title, fontsize=TEXT, color=BLACK, va="top", parse_math=False, gid="title")
     figure.legend(handles=list(_legend(placed)), loc="lower center", ncols=6, fontsize=SMALL, frameon=False)
     return figure
 
 
-class _Words:
+class _NodeLabels:
     """Labels of nodes, with powers as shares of the power put in."""
 
     def __init__(self, flow: PowerFlow, watts: float | None) -> None:
@@ -135,7 +135,7 @@ class _Words:
 # --------------------------------------------------------------------------------------------------------------- bands
 
 
-def _ahead(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
+def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
     """Draw a forward band: circulating power above, through power below."""
     circling = float(band[0].stream.circling) * placed.scale
     for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
@@ -173,13 +173,13 @@ def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color
     )
 
 
-def _back(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
+def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
     """Draw a return band: out to the right, up, leftwards above everything else, down and in."""
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2
-    inner = _track(right, right + turn.right, left, left - turn.left, piece.start, piece.end, turn.lane + w, TURN)
-    outer = _track(
+    inner = _band_edge(right, right + turn.right, left, left - turn.left, piece.start, piece.end, turn.lane + w, TURN)
+    outer = _band_edge(
         right, right + turn.right + w, left, left - turn.left - w, piece.start + w, piece.end + w, turn.lane, TURN + w
     )
     points = [*inner, *reversed(outer), inner[0]]
@@ -187,7 +187,7 @@ def _back(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
     _fill(axes, points, [_MOVE, *edge, _LINE, *edge, _CLOSE], PURPLE, 1.0)
 
 
-def _track(
+def _band_edge(
     right: float, far: float, left: float, near: float, start: float, end: float, lane: float, r: float
 ) -> list[tuple[float, float]]:
     """Return one edge of a return band, with rounded corners of radius r."""
@@ -205,7 +205,7 @@ def _track(
 # --------------------------------------------------------------------------------------------------------------- nodes
 
 
-def _spot(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNode, words: _Words) -> None:
+def _draw_node(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNode, words: _NodeLabels) -> None:
     x = placed.x[spot.column]
     if spot.width:
         pair = node.kind != "shaft"
@@ -227,10 +227,10 @@ def _spot(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNode, w
     write(axes, x, spot.top - 0.21, name, color, va="bottom", fontweight=weight, zorder=5)
     write(axes, x, spot.top - 0.05, amount, color if spot.width == 0 else GREY, va="bottom", zorder=5)
     if spot.shed:
-        _shed(axes, spot, x + spot.width / 2, words.loss(node, placed.sheds[node]))
+        _draw_loss(axes, spot, x + spot.width / 2, words.loss(node, placed.sheds[node]))
 
 
-def _shed(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
+def _draw_loss(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
     """Draw the loss of a node as a band that leaves at the lower right corner and turns downwards."""
     w, r, k = spot.shed, BEND, _ROUND
     y = spot.top + spot.height
@@ -246,7 +246,7 @@ def _shed(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
     write(axes, middle, tip + 0.03, text, RED, va="top", zorder=5)
 
 
-def _loops(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:
+def _write_circulating(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:
     """Write the circulating power of each loop in the middle of its highest return band."""
     for loop in flow.loops:
         turn = min(

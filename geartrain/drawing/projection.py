@@ -191,14 +191,14 @@ class ScaledPage:
         return np.asarray(seen[..., :2] * self.scale + self.shift)
 
 
-def arms_of(standing: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
+def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
     """Yield the body, a point of its own axis and a point of the borne axis for every arm of a carrier."""
-    scene = standing.scene
+    scene = projected.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
         if body.parent is None or scene.bodies[body.parent].role != "carrier":
             continue
-        ends = standing.pose.point(body.parent, scene.bodies[body.parent].point), standing.pose.point(at, body.point)
+        ends = projected.pose.point(body.parent, scene.bodies[body.parent].point), projected.pose.point(at, body.point)
         key = (body.parent, *np.round(ends[1], 6))
         if key not in seen:
             seen.add(key)
@@ -206,20 +206,20 @@ def arms_of(standing: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
 
 
 def coupling_spans(
-    standing: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
+    projected: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
 ) -> list[Floats]:
     """Return lines (2, 2) [in] across the area of a coupling: along its slot, or two diameters of each of its holes.
 
     at, scale   conversion of view coordinates (..., 3) to inches (..., 2), and inches per millimetre
     """
-    pose, half = standing.pose, coupling.hole / 2 * scale
+    pose, half = projected.pose, coupling.hole / 2 * scale
     if coupling.hole:
-        middles = [at(standing.seen(pose.point(coupling.slot, place))) for place in coupling.holes_at]
+        middles = [at(projected.seen(pose.point(coupling.slot, place))) for place in coupling.holes_at]
         across = half * np.array([[[-1, 0], [1, 0]], [[0, -1], [0, 1]]])
         return [middle + line for middle in middles for line in across]
-    pin = at(standing.seen(pose.point(coupling.pin, coupling.pin_at)))
-    body = standing.scene.bodies[coupling.slot]
-    hub = at(standing.seen(pose.point(coupling.slot, coupling.slot_at if body else body.point)))
+    pin = at(projected.seen(pose.point(coupling.pin, coupling.pin_at)))
+    body = projected.scene.bodies[coupling.slot]
+    hub = at(projected.seen(pose.point(coupling.slot, coupling.slot_at if body else body.point)))
     along, reach = pin - hub, coupling.offset * scale
     far = float(np.hypot(*along)) or 1.0
     return [hub + np.outer([max(far - 1.2 * reach, 0.3 * far), far + 0.6 * reach + 0.04], along / far)]
@@ -246,21 +246,21 @@ class _Face:
     edge: float
 
 
-def draw_obliquely(axes: Axes, standing: ProjectedScene, place: Place) -> None:
+def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
     """Draw every wheel by its two ends and the surface between them, with a colour for each body, and arms above all.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
-    scene = standing.scene
+    scene = projected.scene
     red = broken_wheels(scene)
-    faces = [(wheel, face) for wheel in scene.wheels for face in _faces(standing, wheel)]
+    faces = [(wheel, face) for wheel in scene.wheels for face in _faces(projected, wheel)]
     _draw_faces(axes, sorted(faces, key=lambda each: each[1].depth), place, red, 2.0)
-    _draw_arbors(axes, standing, place)
+    _draw_arbors(axes, projected, place)
 
 
-def oblique_callouts(standing: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
+def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
     """Return a callout for each wheel, anchored where its face is not hidden by a nearer wheel."""
-    ends = {wheel.id: _ends(standing, wheel) for wheel in standing.scene.wheels if wheels}
+    ends = {wheel.id: _ends(projected, wheel) for wheel in projected.scene.wheels if wheels}
     outlines = {
         name: _silhouette(place(np.concatenate([far.points, near.points]))) for name, (far, near) in ends.items()
     }
@@ -290,10 +290,10 @@ def _inner_points(rim: Floats, place: Place) -> Floats:
 
 
 def draw_across(
-    axes: Axes, standing: ProjectedScene, wheel: SceneWheel, place: Place, red: set[str], order: float
+    axes: Axes, projected: ProjectedScene, wheel: SceneWheel, place: Place, red: set[str], order: float
 ) -> None:
     """Draw a wheel that the plan shows from its side."""
-    faces = sorted(_faces(standing, wheel), key=lambda face: face.depth)
+    faces = sorted(_faces(projected, wheel), key=lambda face: face.depth)
     _draw_faces(axes, [(wheel, face) for face in faces], place, red, order)
 
 
@@ -327,11 +327,11 @@ def _tint(wheel: SceneWheel, light: float) -> Floats:
     return np.asarray(own + (1 - own) * (0.3 + 0.6 * light))
 
 
-def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
+def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
     """Yield strips of the surface between both ends, then the far end and the near end; for a worm, its thread."""
-    far, near = _ends(standing, wheel)
+    far, near = _ends(projected, wheel)
     if wheel.kind == "worm":
-        yield from _thread(standing, wheel)
+        yield from _thread(projected, wheel)
         yield near
         return
     first, last = near.points, far.points
@@ -348,10 +348,10 @@ def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
     yield near
 
 
-def _thread(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
+def _thread(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
     """Yield the visible surface of a worm as tiles between sections along its axis."""
     heights = np.linspace(-0.5, 0.5, _SECTIONS + 1) * wheel.thickness
-    rows = np.array([standing.seen(standing.outline(wheel, height=height)) for height in heights])
+    rows = np.array([projected.seen(projected.outline(wheel, height=height)) for height in heights])
     after = np.roll(rows, -1, axis=1)
     tiles = np.stack([rows[:-1], after[:-1], after[1:], rows[1:]], axis=2).reshape(-1, 4, 3)
     normals = np.cross(tiles[:, 2] - tiles[:, 0], tiles[:, 3] - tiles[:, 1])
@@ -360,28 +360,28 @@ def _thread(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
         yield _Face(points, float(points[:, 2].mean()), float(up), 0.0)
 
 
-def _ends(standing: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
+def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
     """Return the end faces of a wheel with their teeth: the one away from the reader, then the visible one."""
-    (high, wide), (low, narrow) = standing.ends(wheel)
-    first = standing.seen(standing.outline(wheel, wide, high))
-    last = standing.seen(standing.outline(wheel, narrow, low))
-    up = standing.seen(standing.axis(wheel)) * np.sign(high - low)
+    (high, wide), (low, narrow) = projected.ends(wheel)
+    first = projected.seen(projected.outline(wheel, wide, high))
+    last = projected.seen(projected.outline(wheel, narrow, low))
+    up = projected.seen(projected.axis(wheel)) * np.sign(high - low)
     near, light = (first, float(up[2])) if up[2] > 0 else (last, -float(up[2]))
     far = last if near is first else first
     back = _Face(far, float(far[:, 2].min()) - 1.0, 0.3, 0.5)
     return back, _Face(near, float(near[:, 2].mean()), 0.45 + 0.4 * light, 0.8)
 
 
-def _draw_arbors(axes: Axes, standing: ProjectedScene, place: Place) -> None:
+def _draw_arbors(axes: Axes, projected: ProjectedScene, place: Place) -> None:
     """Draw the axes of wheels through their centres, and an arm from each carrier to each axis that it bears."""
-    for wheel in standing.scene.wheels:
-        centre, along = standing.centre(wheel), standing.axis(wheel)
+    for wheel in projected.scene.wheels:
+        centre, along = projected.centre(wheel), projected.axis(wheel)
         reach = max(2.5 * wheel.thickness, 0.25 * wheel.radius)
-        line = place(standing.seen(np.array([centre - reach * along, centre + reach * along])))
+        line = place(projected.seen(np.array([centre - reach * along, centre + reach * along])))
         axes.plot(*line.T, color=BLACK, linewidth=1.2, zorder=4)
-    for body, start, end in arms_of(standing):
-        line = place(standing.seen(np.array([start, end])))
-        axes.plot(*line.T, color=ORANGE, linewidth=4.0, zorder=4, gid=f"arm {standing.scene.bodies[body].id}")
+    for body, start, end in arms_of(projected):
+        line = place(projected.seen(np.array([start, end])))
+        axes.plot(*line.T, color=ORANGE, linewidth=4.0, zorder=4, gid=f"arm {projected.scene.bodies[body].id}")
 
 
 _FACE = (np.array(to_rgb(SHADE)) + np.array(to_rgb(FILL))) / 2  # colour of a bar
@@ -398,17 +398,17 @@ class SideScale:
         return self.left + (height - self.low) * self.scale
 
 
-def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> None:
+def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
     """Draw the train from its right, as high as the plan: layers side by side, the reader's side on the right."""
-    red = broken_wheels(standing.scene)
+    red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
-    for wheel in sorted(standing.scene.wheels, key=lambda each: float(standing.seen(standing.centre(each))[0])):
+    for wheel in sorted(projected.scene.wheels, key=lambda each: float(projected.seen(projected.centre(each))[0])):
         edge = RED if wheel.id in red else BLACK
         style: dict[str, Any] = {"facecolor": (*_FACE, 0.7), "edgecolor": edge, "linewidth": 0.6, "zorder": 3}
-        if not standing.faces(wheel):
-            _draw_across_side(page, standing, wheel, depth, style)
+        if not projected.faces(wheel):
+            _draw_across_side(page, projected, wheel, depth, style)
             continue
-        x, y, z = map(float, standing.seen(standing.centre(wheel)))
+        x, y, z = map(float, projected.seen(projected.centre(wheel)))
         half = max(wheel.tip, wheel.root) * page.scale
         middle = float(page.at(np.array([x, y, z]))[1])
         left, right = depth.at(z - wheel.thickness / 2), depth.at(z + wheel.thickness / 2)
@@ -422,12 +422,12 @@ def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> N
 
 
 def _draw_across_side(
-    page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
+    page: ScaledPage, projected: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
 ) -> None:
     """Draw a wheel that does not face the reader: its teeth if it faces right, otherwise its silhouette."""
-    ends = [face.points for face in _ends(standing, wheel)]
+    ends = [face.points for face in _ends(projected, wheel)]
     places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
-    if abs(float(standing.seen(standing.axis(wheel))[0])) > _FACES_RIGHT:
+    if abs(float(projected.seen(projected.axis(wheel))[0])) > _FACES_RIGHT:
         outline = places[int(np.argmax([points[:, 0].mean() for points in ends]))]
     else:
         every = np.concatenate(places)

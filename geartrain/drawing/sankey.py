@@ -187,14 +187,14 @@ def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[Powe
     """Return forward and return streams: in each loop, one stream of purely circulating power returns."""
     ahead = [stream for stream in streams if stream.circling < stream.power]
     back: list[PowerStream] = []
-    for stream in _met(streams):
+    for stream in _depth_first(streams):
         if stream.circling == stream.power:
             closes = stream.source in _reached(ahead, stream.target)
             (back if closes else ahead).append(stream)
     return ahead, back
 
 
-def _met(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
+def _depth_first(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
     """Yield all streams by depth-first search from where power enters, the largest stream of a node first."""
     after: dict[PowerNode, list[PowerStream]] = {}
     for stream in sorted(streams, key=lambda each: (each.source.kind != "in", -each.power)):
@@ -286,8 +286,8 @@ def order_columns(table: Sequence[list[SankeySpot]]) -> None:
     )
     for begin in beginnings:
         trial = [begin(column) for column in declared]
-        _untangle(trial)
-        found.append((_tangle(trial, range(len(trial))), trial))
+        _reduce_crossings(trial)
+        found.append((_crossing_cost(trial, range(len(trial))), trial))
     _, best = min(found, key=lambda each: each[0])
     for column, order in zip(table, best, strict=True):
         column[:] = order
@@ -298,17 +298,17 @@ def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
     return sorted(column, key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
 
 
-def _untangle(table: Sequence[list[SankeySpot]]) -> None:
+def _reduce_crossings(table: Sequence[list[SankeySpot]]) -> None:
     """Reduce crossings by barycentre sweeps in both directions, then by swapping spots."""
     whole = range(len(table))
-    best, minimum = [list(column) for column in table], _tangle(table, whole)
+    best, minimum = [list(column) for column in table], _crossing_cost(table, whole)
     for sweep in range(_SWEEPS):
         forth = sweep % 2 == 0
         places = _ranks(table)
         for column in table if forth else reversed(table):
-            column.sort(key=lambda spot: _middle(spot, forth, places))
+            column.sort(key=lambda spot: _barycentre(spot, forth, places))
             places |= _ranks([column])
-        if (tangle := _tangle(table, whole)) < minimum:
+        if (tangle := _crossing_cost(table, whole)) < minimum:
             best, minimum = [list(column) for column in table], tangle
     for column, order in zip(table, best, strict=True):
         column[:] = order
@@ -321,11 +321,13 @@ def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
     """Swap spots of one column where that reduces crossings; return whether any were swapped."""
     column, swapped = table[at], False
     near = range(max(0, at - 1), min(len(table), at + 2))
-    tangle = _tangle(table, near)
+    tangle = _crossing_cost(table, near)
     for upper in range(len(column) - 1):
         for lower in range(upper + 1, len(column)):
             column[upper], column[lower] = column[lower], column[upper]
-            if (now := _tangle(table, near)) < tangle - 1e-9:  # gains at the level of rounding could alternate for ever
+            if (
+                now := _crossing_cost(table, near)
+            ) < tangle - 1e-9:  # gains at the level of rounding could alternate for ever
                 tangle, swapped = now, True
             else:
                 column[upper], column[lower] = column[lower], column[upper]
@@ -336,7 +338,7 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
     return {spot: (at + 0.5) / len(column) for column in table for at, spot in enumerate(column)}
 
 
-def _middle(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
+def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
     """Return the mean position of the neighbours on one side, weighted by width (barycentre)."""
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
@@ -345,7 +347,7 @@ def _middle(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -
     return sum(places[other] * width for other, width in others) / sum(width for _, width in others)
 
 
-def _tangle(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
+def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
     """Return the cost of crossings near some columns: products of crossing widths, plus a constant per crossing."""
     total = 0.0
     for at in columns:
@@ -381,17 +383,18 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
     for sweep in range(4 * _HEIGHT_SWEEPS):
         forth = sweep % 2 == 0
         for column in table if forth else reversed(table):
-            _ports(table)
+            _set_band_tops(table)
             # first sweeps level the bands of one side for a rough fit, later ones those of both sides
             wanted = [
-                _wanted(spot, sweep >= _HEIGHT_SWEEPS or forth, sweep >= _HEIGHT_SWEEPS or not forth) for spot in column
+                _level_top(spot, sweep >= _HEIGHT_SWEEPS or forth, sweep >= _HEIGHT_SWEEPS or not forth)
+                for spot in column
             ]
-            for spot, top in zip(column, _apart(column, wanted), strict=True):
+            for spot, top in zip(column, _separated_tops(column, wanted), strict=True):
                 spot.top = top
-    _ports(table)
+    _set_band_tops(table)
 
 
-def _wanted(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
+def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
     """Return the top at which a spot's bands are level, and its weight; bands that pass a column weigh the most."""
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
@@ -404,7 +407,7 @@ def _wanted(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
     return spot.top + shift / weight, weight
 
 
-def _apart(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
+def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
     """Return the tops of a column without overlap that minimise the weighted squared distances to the wanted tops.
 
     The method is isotonic regression by pooling adjacent violators.
@@ -424,7 +427,7 @@ def _apart(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) 
     return [mean + offset for mean, offset in zip(means, offsets, strict=True)]
 
 
-def _ports(table: Sequence[Sequence[SankeySpot]]) -> None:
+def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
     """Set the tops of bands at both ends, in the order of the spots they connect to, return bands uppermost."""
     for column in table:
         for spot in column:

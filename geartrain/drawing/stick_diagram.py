@@ -108,7 +108,7 @@ _FAR = 24  # steps that a name may be moved beyond its vertical line
 
 
 @dataclass(frozen=True, slots=True)
-class _Words:
+class _Label:
     """A label and its candidate positions, the best first."""
 
     text: str
@@ -118,13 +118,13 @@ class _Words:
 
 
 @dataclass(slots=True)
-class StickWords:
+class StickLabels:
     """All labels of a diagram; links are placed first, then wheels, then axes."""
 
     room: LabelSpace = field(default_factory=LabelSpace)
-    links: list[_Words] = field(default_factory=list)
-    wheels: list[_Words] = field(default_factory=list)
-    axes: list[_Words] = field(default_factory=list)
+    links: list[_Label] = field(default_factory=list)
+    wheels: list[_Label] = field(default_factory=list)
+    axes: list[_Label] = field(default_factory=list)
 
     def keep_off(self, xs: tuple[float, float], ys: tuple[float, float]) -> None:
         """Mark a line or a box as occupied, so that no label covers it."""
@@ -142,12 +142,12 @@ class StickWords:
         spots += [(right + 0.04 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, -_AWAY) for step in range(6)]
         tight = [text_box([link], _LINK_NAME, float(x), float(height), "bold") for x, height in spots]
         places = (*((x, height, across + 2 * _APART, tall) for x, height, across, tall in tight), *tight)
-        self.links.append(_Words(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
+        self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
 
     def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
         """Add a label along a vertical line, on its right or left, from its middle outwards."""
         places = tuple(_along(text, x, ends))
-        self.wheels.append(_Words(text, color, places, {"fontsize": FINE, "rotation": 90}))
+        self.wheels.append(_Label(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
         """Add the name of an axis: behind its end, or before the end above or below the line."""
@@ -157,7 +157,7 @@ class StickWords:
         ]
         spots += [(right - wide / 2 - step * _STEP, y + lift) for lift in (0.12, -0.12) for step in range(9)]
         places = tuple(text_box([axis], FINE, x, height) for x, height in spots)
-        self.axes.append(_Words(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
+        self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
         """Place and write all labels, those with the fewest free positions first; without a free position, at the best
@@ -207,7 +207,7 @@ class StickMesh:
     """Height at which its wheels touch."""
 
 
-_Try = tuple[
+_Arrangement = tuple[
     dict[str, StickShaft],
     list[tuple[Circuit, float]],
     list[StickCrank],
@@ -237,7 +237,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
     axis_of = _axes(train)
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
-    tries: list[tuple[int, int, _Try]] = []
+    tries: list[tuple[int, int, _Arrangement]] = []
     for at in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
         shafts = {link: StickShaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
         columns, cranks, lone, width = find_columns(train, planes, row, axis_of, shafts)
@@ -251,16 +251,16 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
         ]
         levels = find_levels(order, shafts, spans)
         row = {axis: level for level, axes in enumerate(levels) for axis in axes}
-        tries.append((_hidden(spans, row), at, (shafts, columns, cranks, lone, width, levels)))
+        tries.append((_overlaps(spans, row), at, (shafts, columns, cranks, lone, width, levels)))
         if not tries[-1][0]:
             break
     shafts, columns, cranks, lone, width, levels = min(tries)[2]
-    rows, height = _lanes(levels, shafts)
+    rows, height = _set_heights(levels, shafts)
     meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
     return StickSkeleton(rows, shafts, meshes, cranks, lone, width, height)
 
 
-def _hidden(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
+def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
     """Return the number of vertical lines that overlap another one."""
     known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
     return sum(
@@ -301,7 +301,7 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
     return order
 
 
-def _lanes(
+def _set_heights(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
     """Set the heights of shafts, and return the rows of axes and the total height.
@@ -317,7 +317,8 @@ def _lanes(
             lanes: list[list[StickShaft]] = []
             for shaft in own:
                 at = next(
-                    (at for at, lane in enumerate(lanes) if all(_apart(shaft, each) for each in lane)), len(lanes)
+                    (at for at, lane in enumerate(lanes) if all(_fit_side_by_side(shaft, each) for each in lane)),
+                    len(lanes),
                 )
                 if at == len(lanes):
                     lanes.append([])
@@ -329,7 +330,7 @@ def _lanes(
     return rows, y - GAP + 0.6
 
 
-def _apart(one: StickShaft, other: StickShaft) -> bool:
+def _fit_side_by_side(one: StickShaft, other: StickShaft) -> bool:
     """Return whether two shafts, with a name before each, do not overlap."""
     room = 0.35 + 0.07 * max(len(one.link), len(other.link))
     return max(one.xs) + room < min(other.xs) or max(other.xs) + room < min(one.xs)
@@ -426,7 +427,7 @@ class _Drawing:
         self.axes, self.train, self.skeleton = axes, train, skeleton
         self.couplings = {each.name: each for each in train.declaration.couplings}
         self.feet: dict[str, tuple[float, float]] = {}
-        self.words = StickWords()
+        self.words = StickLabels()
         for mesh in skeleton.meshes:
             ends = [mesh.meet, *(self._foot(link, mesh) for link in mesh.ends)]
             for x in (mesh.x, mesh.x + _COLUMN) if mesh.ring else (mesh.x,):
@@ -464,7 +465,7 @@ class _Drawing:
         else:
             for wheel, link, foot, side in zip(mesh.wheels, mesh.ends, (low, high), (-1, 1), strict=True):
                 end = mesh.meet + _TOUCH * side
-                self._upright(mesh.x, foot, end, wheel, link)
+                self._draw_wheel_line(mesh.x, foot, end, wheel, link)
                 self._tick(mesh.x, end, mesh.kind)
 
     def _foot(self, link: str, mesh: StickMesh) -> float:
@@ -480,11 +481,11 @@ class _Drawing:
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
         end = mesh.meet - _TOUCH * side
-        self._upright(mesh.x, foot[planet], end, mesh.wheels[planet], mesh.ends[planet])
+        self._draw_wheel_line(mesh.x, foot[planet], end, mesh.wheels[planet], mesh.ends[planet])
         self._tick(mesh.x, end, "spur")
         over, beside = mesh.meet + _TOUCH * side, mesh.x + _COLUMN
         self._line([mesh.x - _TICK, beside], [over, over], BLUE, _WHEEL, zorder=4)
-        self._upright(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
+        self._draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
         """Draw a pin in its slot; for links that stay parallel, two bars side by side."""
@@ -504,7 +505,7 @@ class _Drawing:
                 self.words.keep_off((mesh.x - 0.06, mesh.x + 0.06), (mesh.meet - 0.12, mesh.meet + 0.12))
         self.words.name_upright(mesh.name, mesh.x, (low, high), PURPLE)
 
-    def _upright(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
+    def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
         """Draw a wheel from its shaft to where it touches its mate, connected to its earlier occurrence if there is
         one.
         """
@@ -524,7 +525,7 @@ class _Drawing:
         """Draw a wheel that meshes with nothing."""
         link = self.train.declaration.wheels[wheel][0]
         y = self.skeleton.shafts[link].y
-        self._upright(x, y, y + _LONE, wheel, link)
+        self._draw_wheel_line(x, y, y + _LONE, wheel, link)
         self._tick(x, y + _LONE, "spur")
 
     def draw_crank(self, crank: StickCrank) -> None:

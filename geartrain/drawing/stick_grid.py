@@ -38,7 +38,7 @@ def find_levels(
     """
     ends = {axis: _ends(axis, shafts) for axis in order}
     level: dict[str, int] = {}
-    for axis in _walk(order, [(one, other) for one, other, _ in spans]):
+    for axis in _breadth_first(order, [(one, other) for one, other, _ in spans]):
         near = [level[mate] for one, other, _ in spans for mate in _mate(axis, one, other) if mate in level]
         middle = round(sum(near) / len(near)) if near else 0
         trials = [
@@ -88,7 +88,7 @@ def _cost(
     return cost
 
 
-def _walk(order: Sequence[str], pairs: Sequence[tuple[str, str]]) -> list[str]:
+def _breadth_first(order: Sequence[str], pairs: Sequence[tuple[str, str]]) -> list[str]:
     """Return the axes in breadth-first order, starting at the axis with the most neighbours."""
     mates = neighbours(order, pairs)
     seen: dict[str, None] = {}
@@ -176,7 +176,7 @@ def find_columns(
                     cranks.append(StickCrank(bearer, axis, x))
         x += _PLANE
         for circuit in plane:
-            column = _free(taken, circuit, train, axis_of, row)
+            column = _free_column(taken, circuit, train, axis_of, row)
             here = x + column * COLUMN
             columns.append((circuit, here))
             for link in (circuit.i, circuit.j):
@@ -212,7 +212,7 @@ def ring_of(train: GearTrain, circuit: Circuit) -> str:
     return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
 
 
-def _free(
+def _free_column(
     taken: list[list[tuple[float, float]]],
     circuit: Circuit,
     train: GearTrain,

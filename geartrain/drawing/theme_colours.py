@@ -183,7 +183,7 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
         rgb = _rgb_of(found)
     else:
         mixed = _mixed_faces(own, light, theme)
-        rgb = _between(own, theme) if mixed is None else mixed
+        rgb = _same_lightness(own, theme) if mixed is None else mixed
     red, green, blue = map(float, rgb)
     return red, green, blue, colour[3]
 
@@ -207,7 +207,7 @@ def _named(theme: Theme) -> Sequence[str]:
     return (*theme.series, *own)
 
 
-def _between(rgb: Floats, theme: Theme) -> Floats:
+def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
     """Return a colour with the same relative lightness between the theme's paper and ink as between white and black.
 
     The hue is kept, except in print, which has none.

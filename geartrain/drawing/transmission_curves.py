@@ -49,9 +49,9 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_ANY_SAMPLES = 1601
+_PERIOD_SAMPLES = 1601
 _LOST = 1e-12  # relative to the power: smaller losses are rounding
-_ANY_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "efficiency")
+_PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "efficiency")
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
@@ -76,7 +76,7 @@ def transmission_figure(transmission: TransmissionFunction, title: str) -> Figur
     >>> transmission_figure(transmission, "a pair").axes[-1].get_xlabel()
     "driver's angle (deg)"
     """
-    S = np.linspace(0, 2 * transmission.period, _ANY_SAMPLES)
+    S = np.linspace(0, 2 * transmission.period, _PERIOD_SAMPLES)
     curves = (
         np.degrees(transmission.error(S)),
         transmission.speed(S) / float(transmission.ratio),
@@ -87,7 +87,7 @@ def transmission_figure(transmission: TransmissionFunction, title: str) -> Figur
     }
     shown = len(curves) if np.abs(curves[-1] - 1).max() > _LOST else len(curves) - 1
     figure, panels = curve_panels([2.5] * shown)
-    for axes, y, words in zip(panels, curves, _ANY_LABELS, strict=False):
+    for axes, y, words in zip(panels, curves, _PERIOD_LABELS, strict=False):
         name_axes(axes, y=words)
         for corner in sorted(corners):
             axes.axvline(np.degrees(corner), color=GREY, linewidth=0.5)
@@ -106,7 +106,7 @@ _LABELS = (
     "arms of the force\n$b_i$ over pitch radius",
 )
 _EFFICIENCY = 2  # index of the panel of efficiency
-_STANDS: Any = (0, (0.7, 0.7))  # dashes of a dwell
+_DWELL_DASHES: Any = (0, (0.7, 0.7))  # dashes of a dwell
 _CENTRES = 5  # maximum number of ticks for the instant centre
 _CURVES: tuple[tuple[str, Any], ...] = (("", "-"), ("driven ", (0, (1.5, 0.7))))  # the driven wheel's curve: dashed
 _NEAR_RIM = 0.7  # share of the panel width beyond which a label is placed to the left of its line
@@ -155,7 +155,7 @@ def triangular_figure(transmission: TriangularTransmission, friction: PairFricti
     _jumps(panels[1], transmission)
     _instant_centre(panels[1], transmission.sizes.signs)
     _arms_key(panels[-1])
-    _time(panels[-1])
+    _label_time(panels[-1])
     name_axes(panels[0], title=_title(transmission, friction))
     legend_below(figure, 4, list(_legend(transmission)))
     return figure
@@ -179,7 +179,7 @@ def _panel(axes: Axes, transmission: TriangularTransmission, row: int, friction:
         for y, (whose, style) in zip(
             _values(transmission, friction, interval.phase, x, interval.held)[row], _CURVES, strict=False
         ):
-            line = {"linestyle": style if interval.held is None else _STANDS, "solid_capstyle": "butt"}
+            line = {"linestyle": style if interval.held is None else _DWELL_DASHES, "solid_capstyle": "butt"}
             line |= {"dash_capstyle": "butt", "gid": f"{whose}real {interval.phase}"}
             axes.plot(np.degrees(x), y, color=color, linewidth=4.0, **line)
             real.append(y)
@@ -331,7 +331,7 @@ def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
     beside.set_yticks(_centres(signs, *axes.get_ylim()))
 
 
-def _time(axes: Axes) -> None:
+def _label_time(axes: Axes) -> None:
     """Label the abscissa and draw an arrow in the direction of time, in which the driver's angle decreases."""
     axes.set_xlabel(r"driver angle $\alpha_1$ (deg)", fontsize=TEXT)
     axes.annotate(
@@ -367,7 +367,7 @@ def _legend(transmission: TriangularTransmission) -> Iterator[Line2D]:
             yield Line2D([], [], color=PHASES[phase], linewidth=4.0, label=f"{phase}, real path")
         yield Line2D([], [], color=PHASES[phase], linewidth=1.2, label=f"{phase}, ideal path")
     if DWELL in driving:
-        yield Line2D([], [], color=PHASES[DWELL], linewidth=4.0, linestyle=_STANDS, label=DWELL)
+        yield Line2D([], [], color=PHASES[DWELL], linewidth=4.0, linestyle=_DWELL_DASHES, label=DWELL)
 
 
 # ----------------------------------------------------------------------------------------- conjugate forms side by side
@@ -376,12 +376,12 @@ def _legend(transmission: TriangularTransmission) -> Iterator[Line2D]:
 Styles = Mapping[str, tuple[str, Dash]]
 
 _PATH_SAMPLES = 301  # samples of each side
-_BESIDE = 1e-6  # share of a side: closer to the pitch point some quantities are 0/0
+_NEAREST = 1e-6  # share of a side: closer to the pitch point some quantities are 0/0
 _MOST = 3.0  # panel height over the median of the forms' maxima; higher curves leave the panel
 _SPIKE = 6.0  # panel height over the 90 % quantile of a curve; spikes of faulty teeth leave the panel
 _FLAT = 0.8  # minimum over maximum beyond which a panel does not begin at 0
 _STRAIGHT = 0.1  # modules: minimum width that a panel shows
-_AWAY = 0.1  # pitches from the pitch point within which singular values do not set the panel height
+_SINGULAR = 0.1  # pitches from the pitch point within which singular values do not set the panel height
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
@@ -434,10 +434,10 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
         ("flank of gear 1, stretched", "flank of gear 2, stretched", "path of contact, stretched"),
         strict=False,
     ):
-        _drawn(axes, text)
-    for axes, (words, cost) in zip(panels.flat[3:], _costs(pitch, unit), strict=True):
+        _label_flank_panel(axes, text)
+    for axes, (words, cost) in zip(panels.flat[3:], _quantities(pitch, unit), strict=True):
         _along(axes, words, cost, paths, styles)
-    beyond = "; some curves extend beyond their panels" if any(map(_left, panels.flat[3:])) else ""
+    beyond = "; some curves extend beyond their panels" if any(map(_leaves_panel, panels.flat[3:])) else ""
     headed(figure, f"{_form_text(paths)}, {_pitch_title(pitch)}{beyond}")
     if len(paths) == 1:
         return figure
@@ -454,7 +454,7 @@ def _form_text(paths: Mapping[str, PathOfContact]) -> str:
     return f"{only} teeth" if len(paths) == 1 else "tooth forms side by side"
 
 
-def _left(axes: Axes) -> bool:
+def _leaves_panel(axes: Axes) -> bool:
     """Return whether a curve extends beyond its panel."""
     low, high = axes.get_ylim()
     drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
@@ -472,7 +472,7 @@ def _places(path: PathOfContact) -> Floats:
     approach, recess = path.arcs
     if min(approach, recess) < 0:
         return np.linspace(-approach, recess, _PATH_SAMPLES)
-    steps = np.linspace(_BESIDE, 1.0, _PATH_SAMPLES)
+    steps = np.linspace(_NEAREST, 1.0, _PATH_SAMPLES)
     sides = [-approach * steps[::-1]] if approach else []
     return np.concatenate([*sides, *([recess * steps] if recess else [])])
 
@@ -487,7 +487,7 @@ def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:
     axes.plot(points[:, 0], points[:, 1], color=color, linestyle=dashes, linewidth=1.8, gid=name)
 
 
-def _drawn(axes: Axes, text: str) -> None:
+def _label_flank_panel(axes: Axes, text: str) -> None:
     """Label a panel of flanks, not to scale because steep flanks would coincide."""
     axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
@@ -502,7 +502,7 @@ def _drawn(axes: Axes, text: str) -> None:
 # --------------------------------------------------------------------------------------------------------------- costs
 
 
-def _costs(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
+def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
     """Yield each quantity with its label; lengths in modules, so that spur and bevel gears are comparable."""
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)
@@ -525,7 +525,7 @@ def _along(
         with np.errstate(invalid="ignore"):  # where a flank turns back, H has no real root
             values = cost(path.at(X))
         _line(axes, name, styles, np.stack([pitches, values], axis=1))
-        away = values[(np.abs(pitches) > _AWAY) & np.isfinite(values)]
+        away = values[(np.abs(pitches) > _SINGULAR) & np.isfinite(values)]
         top = min(float(away.max(initial=0.0)), _SPIKE * float(np.quantile(away, 0.9))) if len(away) else 0.0
         low, high = min(low, float(away.min(initial=inf))), max(high, top)
         tops.append(top)

@@ -33,7 +33,7 @@ def conjugate_sections(design: PairDesign) -> Iterator[Section]:
     """Yield the sections on a pair; for teeth that cannot run, only wheels and path."""
     yield from (_wheels(design), _path(design))
     if design.losses_and_stresses is not None:
-        yield from (_costs(design.losses_and_stresses), _friction(design))
+        yield from (_losses_and_stresses(design.losses_and_stresses), _friction(design))
 
 
 def _wheels(design: PairDesign) -> Section:
@@ -98,7 +98,7 @@ _LOADED = {
 }
 
 
-def _costs(found: DesignLosses) -> Section:
+def _losses_and_stresses(found: DesignLosses) -> Section:
     from geartrain.teeth.conjugate.path_losses import ONE_PAIR, SHARED
 
     loads = found.measures.one_pair, found.measures.shared

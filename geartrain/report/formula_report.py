@@ -132,9 +132,9 @@ def formula_section(train: GearTrain, state: str | None, explained: bool = True)
 
     explained   whether the section begins with an explanation of the notation
     """
-    told = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
-    if told:
-        lines = (text for each in told for text in _lines(each, False))
+    shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
+    if shown:
+        lines = (text for each in shown for text in _lines(each, False))
         yield Section(_title(state), ((_HEAD,) if explained else ()) + tuple(lines))
 
 

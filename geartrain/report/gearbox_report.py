@@ -147,7 +147,7 @@ def describe_gear_search(found: GearSearch) -> Document:
         f"elements, of which {len(found.gears)} determine the output (exhaustive exact search)."
     )
     others = [
-        f"{effect}: {_some(ways)}."
+        f"{effect}: {_combinations_text(ways)}."
         for ways, effect in ((found.free, "The output is free with"), (found.locked, "The output is locked with"))
         if ways
     ]
@@ -169,7 +169,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
 
 
-def _some(ways: Sequence[Sequence[str]]) -> str:
+def _combinations_text(ways: Sequence[Sequence[str]]) -> str:
     """Return combinations of closed elements as text, abridged if there are many."""
     more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
     return "; ".join(", ".join(way) for way in ways[:_MOST]) + more

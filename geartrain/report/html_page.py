@@ -66,7 +66,7 @@ def to_html(documents: Sequence[Document]) -> str:
     check_pages()
     from markupsafe import Markup
 
-    script, numbers = _shipped("page.js"), count(1)
+    script, numbers = _resource("page.js"), count(1)
     page: str = _template("page.html").render(
         documents=documents,
         anchors=[_anchors(document, f"{at}-" if at else "") for at, document in enumerate(documents)],
@@ -75,7 +75,7 @@ def to_html(documents: Sequence[Document]) -> str:
             for page in documents
         ],
         words=WORDS,
-        style=Markup(_colours() + _shipped("page.css")),
+        style=Markup(_colours() + _resource("page.css")),
         script=Markup(script),
         policy=_policy(script, framed=any(document.aside.viewer for document in documents)),
     )
@@ -118,7 +118,7 @@ def _template(name: str) -> Any:
     """Return a compiled template, cached because compiling takes longer than rendering."""
     from jinja2 import Environment, FunctionLoader
 
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, loader=FunctionLoader(_shipped))
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, loader=FunctionLoader(_resource))
     filters: dict[str, Callable[..., Any]] = {
         "is_web": is_web,
         "is_cited": lambda cell: isinstance(cell, CitedText),
@@ -210,5 +210,5 @@ def _colours() -> str:
     return f":root {{ {light} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n"
 
 
-def _shipped(name: str) -> str:
+def _resource(name: str) -> str:
     return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")

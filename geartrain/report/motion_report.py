@@ -315,7 +315,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
     if rigid := _rigid(run.motion._problem.rigid):
         yield Section("Pairs that keep their ratio", (rigid,))
     if run.phase_statistics:
-        yield _phased(run)
+        yield _random_phases(run)
     if run.estimates:
         yield _estimates(run.estimates, deviation_name(run.motion))
     for name, lines in run.spectra.items():
@@ -390,10 +390,10 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             "backlash is not simulated."
         )
     if left := [tally for tally in run.statistics if tally.error_within != 0 or tally.speed_within != 0]:
-        yield f"The run is too long to search every pitch: the extremes of {', '.join(map(_left, left))}."
+        yield f"The run is too long to search every pitch: the extremes of {', '.join(map(_uncertainty_text, left))}."
 
 
-def _left(tally: RunningStatistics) -> str:
+def _uncertainty_text(tally: RunningStatistics) -> str:
     """Return the uncertainty of an output's extremes as text."""
     error, speed = tally.error_within, tally.speed_within
     if error is None or speed is None:
@@ -429,7 +429,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
     return Table(header, rows, wide=True)
 
 
-def _phased(run: MotionRun) -> Section:
+def _random_phases(run: MotionRun) -> Section:
     rows = []
     for at, tally in enumerate(run.statistics):
         sets = [tallies[at] for tallies in run.phase_statistics]

@@ -281,7 +281,7 @@ def triangular_verdict(mesh: TriangularMesh) -> str:
         why, fix = explain_clearance(transmission, mesh.window)
         words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
     elif mesh.losses.locks:
-        what, why, fix = _lock(mesh)
+        what, why, fix = _friction_lock(mesh)
         words = [f"Verdict: friction locks: {what}.", f"Why: {why}.", f"What to do: {fix}."]
     return " ".join(word for word in words if word)
 
@@ -405,7 +405,7 @@ def _collisions(transmission: TriangularTransmission) -> Section:
     return Section("Collisions", (text,), (Table(header, rows),))
 
 
-def _lock(mesh: TriangularMesh) -> tuple[str, str, str]:
+def _friction_lock(mesh: TriangularMesh) -> tuple[str, str, str]:
     """Return what, why and remedy of friction that locks."""
     declared = mesh.wheels.friction_law
     if declared is None:
@@ -421,7 +421,7 @@ def _losses(mesh: TriangularMesh) -> Section:
     if not mesh.tells_losses:
         return Section("Friction", (f"{mesh.friction_words}.",))
     if transmission.locks:
-        what, why, _ = _lock(mesh)
+        what, why, _ = _friction_lock(mesh)
         return Section("Friction", (f"{what}: {why}.",))
     lines = [
         f"{mesh.friction_words}. Sliding efficiency: mean {transmission.efficiency_mean():.9f} at constant "

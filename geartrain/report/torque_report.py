@@ -258,7 +258,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
     lines += [f"Not included: {each}: {each.why}." for each in found.left_out]
-    lines += _there_and_back(figures.drives)
+    lines += _both_directions(figures.drives)
     if not found.verdict:
         yield Section(head, lines)
         return
@@ -408,7 +408,7 @@ def summary_text(torques: Torques) -> str:
 # ------------------------------------------------------------------------------------------------------ there and back
 
 
-def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
+def _both_directions(drives: DrivenWays | None) -> Iterator[str]:
     for way in drives or ():
         torques, first, last = way.way
         efficiency = torques.efficiency

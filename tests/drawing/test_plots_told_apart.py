@@ -208,7 +208,7 @@ def test_outputs_in_rows_have_their_errors_below_each_other() -> None:
     figure = motion_figure(MotionRun(train.motion(outputs=("mercury", "mars", "moon", "venus", "jupiter")), 20, 2001))
     columns = {
         word: {round(axes.get_position().x0, 1) for axes in figure.axes if word in axes.get_ylabel()}
-        for word in ("error", "speed")
+        for word in ("anomaly", "speed")
     }
     assert all(len(places) == 1 for places in columns.values()), columns
 
@@ -216,7 +216,7 @@ def test_outputs_in_rows_have_their_errors_below_each_other() -> None:
 def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
     figure = motion_figure(MotionRun(load("longcase-clock-cycloidal").motion(), 2, 101), title="a clock")
     assert "every output moves uniformly" in figure.get_suptitle()
-    assert not any("error" in axes.get_ylabel() for axes in figure.axes)
+    assert not any(word in axes.get_ylabel() for axes in figure.axes for word in ("error", "anomaly"))
 
 
 def test_outputs_without_error_that_are_left_out_are_told() -> None:
@@ -252,7 +252,7 @@ def test_a_spike_leaves_its_panel_where_the_rest_would_be_flat() -> None:
     values = np.asarray(heat.get_ydata(), dtype=float)
     assert np.nanmax(values) > 100 * np.nanmedian(values)
     assert figure.axes[4].get_ylim()[1] < 30 * np.nanmedian(values)
-    assert "curves that leave a panel" in figure.get_suptitle()
+    assert "curves extend beyond their panels" in figure.get_suptitle()
 
 
 def test_numbers_of_many_great_counts_stand_apart() -> None:

@@ -270,9 +270,9 @@ def test_a_sweep_of_one_value_is_drawn_too(shape: tuple[int, ...]) -> None:
 def test_arrays_that_are_no_sweep_are_refused() -> None:
     x = np.linspace(0, 1, 4)
     for parameters, verdicts in (({}, x), ({"a": x, "b": x}, x), ({"a": x}, x[:3]), ({"a": x[:0]}, x[:0])):
-        with pytest.raises(QuestionError, match="no sweep"):
+        with pytest.raises(QuestionError, match="cannot draw a sweep"):
             sweep_figure(parameters, {"efficiency_mean": x}, verdicts.astype(str))
-    with pytest.raises(QuestionError, match="no sweep"):
+    with pytest.raises(QuestionError, match="cannot draw a sweep"):
         sweep_figure({"a": x}, {}, x.astype(str))
 
 

@@ -289,8 +289,8 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
     """Plot a curve and return its abscissae and values.
 
     If a curve oscillates so often that it would fill its panel, only its beginning is plotted, between its bounds. The
-    criterion is the total variation over the range, compared with six times `_TURNING_POINTS` in a wide panel and three times
-    in a narrow one.
+    criterion is the total variation over the range, compared with six times `_TURNING_POINTS` in a wide panel and three
+    times in a narrow one.
     """
     turns, values = trace.turns, whole
     room = 6 if panel.get_gridspec().ncols == 1 else 3

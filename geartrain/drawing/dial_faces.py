@@ -31,7 +31,7 @@ from geartrain.scene.dial_scale import DialScale, clock_point, engrave, plain_ci
 from geartrain.scene.pose import body_errors, turns_of
 from geartrain.scene.stroke_letters import HANDS
 
-_MOST = 60  # faces
+_MOST = 60  # maximum number of faces on a page
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
 _OUTER = _FACE / 2 - 0.2  # inches: radius of a face
 _FINEST = 0.3  # points: minimum line width
@@ -263,7 +263,7 @@ def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture) 
     where = reading.turned * scale.way % scale.turns
     text = f"at {where if is_short(where, 12) else decimal(where, 6)} turn"
     error = reading.error * scale.way
-    if abs(error) > 5e-7:
+    if abs(error) > 5e-7:  # turns, below the printed precision of six decimals
         text += f" {'+' if error > 0 else '-'} {abs(error) * 360:.3g}°"
     if face.name and (shown := scale.told(reading.at * scale.way)):  # a plain face has ticks but no cells
         text += f", {shown}"

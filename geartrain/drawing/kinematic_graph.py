@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_MOST = 150  # links
+_MOST = 150  # maximum number of links on a page
 _EDGE, _HUB = 1.05, 0.055  # inches: length of an edge, and addition for each further edge at its ends
 _VERTEX_DISTANCE = 0.33  # inches: wanted distance of an edge from vertices that are not its ends
 _PENALTY = 6.0  # penalty per inch of missing distance, in inches of bend
@@ -168,7 +168,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
     _, _, turned = np.linalg.svd(middle, full_matrices=False)
     flat = middle @ turned.T if len(links) > 2 else middle
     signs = np.where(flat[np.abs(flat).argmax(0), [0, 1]] < 0, -1.0, 1.0) if len(links) > 2 else 1.0
-    return np.asarray(np.round(flat * signs, 3))
+    return np.asarray(np.round(flat * signs, 3))  # coarser than rounding errors, so that all machines agree
 
 
 def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -> list[Floats]:

@@ -46,11 +46,11 @@ class Point(NamedTuple):
         return [link + mark for link, mark in zip(self.links, self.marks, strict=True)]
 
 
-_MOST = 120  # panels
+_MOST = 120  # maximum number of panels on a page
 _MINIMUM, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: minimum width and height of a panel, maximum width of a row
 _NARROW, _EDGE = 5.0, 0.45  # inches: minimum width of a page, and margin at its right
 _GAP, _HEAD = 0.7, 0.95  # inches between panels, and for the names above and below one
-_FINE = 8.5  # points
+_FINE = 8.5  # points: font size
 _UPRIGHT = 1.4  # height over width of a page beyond which states are arranged in columns
 _LONG = 11  # letters of the longest fraction that is not written as a decimal
 

@@ -35,8 +35,8 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
 
 _FINEST = 0.7  # points: minimum width of a band
-_MOST = 300  # nodes
-_HEAD, _FOOT = 0.6, 0.45  # inches above and below
+_MOST = 300  # maximum number of nodes
+_HEAD, _FOOT = 0.6, 0.45  # inches: margins above and below
 _MOVE, _LINE, _CURVE, _CLOSE = map(int, (Path.MOVETO, Path.LINETO, Path.CURVE4, Path.CLOSEPOLY))
 _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a quarter circle, over its radius
 

@@ -108,7 +108,7 @@ class SankeyLayout:
     height: float
 
 
-_MINIMUM_GAP = 0.62  # between columns
+_MINIMUM_GAP = 0.62  # minimum gap between columns
 _CLEAR = 0.06  # between text and a return band next to it
 
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from geartrain.spherical import Configuration
 
 
-_SIZE = 7.5  # inches
-_VIEW = (0.32, -0.43, 0.84)  # towards the reader
+_SIZE = 7.5  # inches: side of the figure
+_VIEW = (0.32, -0.43, 0.84)  # direction towards the reader
 _TOOTH = np.array([-0.30, -0.17, 0.17, 0.30])  # foot, tip, tip, foot, in pitches from the middle of a tooth
 _STRONG = 0.55  # opacity of a face
 _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone

@@ -50,7 +50,7 @@ PLATE, STEM = 2.6, 1.6
 """Line widths of a plate and of its stem [pt]."""
 _HALF, _PLATE = 0.42, 0.11  # inches: half the height of an element, half a plate
 _CLOSED, _OPEN = 0.012, 0.045  # inches: half the gap between the plates of an element
-_ELEMENT_NAME = 8.0  # points
+_ELEMENT_NAME = 8.0  # points: font size of an element's name
 
 
 def width_of(train: GearTrain) -> float:
@@ -368,13 +368,13 @@ def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> f
     return min(max(counts[0] / sum(counts), minimum), most) if minimum < most else (minimum + most) / 2
 
 
-_MOST = 160  # gear pairs
+_MOST = 160  # maximum number of pairs on a page
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
-_NAME = 8.5  # points
+_NAME = 8.5  # points: font size
 _LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: line widths distinguish parts without colour
 _TOUCH = 0.032  # inches from where two wheels meet to the middle of either's mark
 _BEARING = 0.08  # inches: half of the mark of a carrier's bearing
-_LONE = 0.55  # inches of a wheel that meshes with nothing
+_LONE = 0.55  # inches: height of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
 
 

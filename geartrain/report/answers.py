@@ -22,7 +22,12 @@ from geartrain.train.outputs import looks_away
 _SECONDS = 86400  # seconds of a day
 _EXACT = 1e-9  # ppm, or days: smaller errors are rounding
 _YEAR = 300  # days: shorter than any year and longer than other units of time
-_SPANS = (("d", Fraction(1)), ("h", Fraction(1, 24)), ("min", Fraction(1, 1440)), ("s", Fraction(1, 86400)))  # in days
+_SPANS = (
+    ("d", Fraction(1)),
+    ("h", Fraction(1, 24)),
+    ("min", Fraction(1, 1440)),
+    ("s", Fraction(1, 86400)),
+)  # units of time in days
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:

@@ -205,7 +205,7 @@ def _sharing(found: FormComparison) -> Section:
     """Return the section with shared load; a sentence if two tooth pairs are never in contact at once."""
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
-    if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):
+    if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):  # tolerance for a contact ratio of exactly 1
         return Section(
             "Ratios, shared load", ("Only one tooth pair is in contact at a time, so that the ratios are the same.",)
         )

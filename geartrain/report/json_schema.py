@@ -321,7 +321,7 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 def _summary(what: Any) -> str:
     """Return the first paragraph of a docstring on one line; "" for an object without a docstring of its own."""
-    maker = getattr(what, "func", what)  # of a cached property
+    maker = getattr(what, "func", what)  # the function of a cached property
     own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
     text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
     return " ".join((text or "").split("\n\n")[0].split())

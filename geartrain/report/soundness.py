@@ -133,7 +133,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
             continue
         speeds = {link: Fraction(answer[link]) for link in (escapement.link, bearer)}
         speed = abs(relative_speed(escapement.link, bearer, speeds.__getitem__, train.kinematics.signs) * second)
-        if abs(speed - escapement.speed) > escapement.speed / 10**9:
+        if abs(speed - escapement.speed) > escapement.speed / 10**9:  # tolerance for speeds solved in floats
             state = f"state {answer.state}: " if answer.state is not None else ""
             beat = f"half a tooth of {escapement.teeth} every {escapement.beat} is {figure(escapement.speed)} turn/s"
             yield (
@@ -161,7 +161,9 @@ def _wanted(result: OutputResult) -> str:
     if result.published_holds is False and result.output.published:
         published = result.output.published
         words.append(f"published {published.value} as {published.as_}, {result_words(result)}")
-    for declared, target in zip(result.output.targets, result.targets, strict=False):  # no result without a speed
+    for declared, target in zip(
+        result.output.targets, result.targets, strict=False
+    ):  # without a speed there are no results
         if target.met is False:
             off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
             words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")

@@ -455,6 +455,7 @@ def _run(found: TorqueCycle) -> str:
     if found.period is not None:
         whole = found.span / found.period
         text += f"; everything repeats after {turns_text(found.period)}"
+        # tolerance for a run of exactly one period
         text += "" if whole >= 1 - 1e-9 else ", and this run is a part of the period"
     return text + "."
 

@@ -45,8 +45,8 @@ if TYPE_CHECKING:
 
 
 _CIRCUITS_ABREAST = 6
-_MOST_SPACED, _MOST_LETTERS = 32, 72  # links of a matrix whose columns are separated by blanks, and of the largest one
-_MOST_CARRIERS = 4  # carriers of circuits that are named
+_MOST_SPACED, _MOST_LETTERS = 32, 72  # maximum links of a matrix with blanks between columns, and of any matrix
+_MOST_CARRIERS = 4  # maximum number of carriers named in a summary
 _LETTERS = {"": ".", "revolute": "R", "gear": "G", "several": "+"}
 SOURCES = "Sources"
 """Title of the section of references; a page has a list with links instead."""

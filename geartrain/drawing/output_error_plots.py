@@ -331,7 +331,7 @@ class _Loss(NamedTuple):
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    r"""Draw the crank torque over the run with its mean and extremes, and below it the losses by part.
+    """Draw the crank torque over the run with its mean and extremes, and below it the losses by part.
 
     Parameters
     ----------

@@ -453,8 +453,8 @@ def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
         for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
             own, off = superposed.own, superposed.off
             rows.append(("", how, *_degrees(own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
-    header = ("output", "method", f"{deviation} p-p (deg)", "rms (deg)", "maximum difference (deg)")
-    header = (*header, "rms difference (deg)")
+    differences = ("maximum difference (deg)", "rms difference (deg)")
+    header = ("output", "method", f"{deviation} p-p (deg)", "rms (deg)", *differences)
     text = (
         "Approximations compared with the composed motion, all at the sampled positions only. Differences are "
         "pointwise, after subtraction of each mean."

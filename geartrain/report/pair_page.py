@@ -123,7 +123,7 @@ def describe_pair(
     >>> import geartrain
     >>> page = describe_pair(geartrain.load("planetary-24-18-60-involute").meshes[0])
     >>> page.title, [section.title for section in page.sections]
-    ('Involute teeth 24/18 spur', ['Wheels', 'Path of contact', 'Costs', 'Friction'])
+    ('Involute teeth 24/18 spur', ['Wheels', 'Path of contact', 'Losses and stresses', 'Friction'])
     """
     if isinstance(mesh, TriangularMesh):
         return _triangular_page(mesh, outlines, operation)

@@ -157,7 +157,7 @@ def test_a_rate_at_which_teeth_part_is_noted(rate: str, noted: bool, tmp_path: P
     file = tmp_path / "fast.yaml"
     file.write_text(f"{FAST}{rate}\n", encoding="utf-8")
     told = call("check", file).stdout
-    assert ("the teeth of d2~e part from 0.48188 turn/s of 'crank' on" in told) == noted
+    assert ("the teeth of d2~e separate from 0.48188 turn/s of 'crank' on" in told) == noted
     assert "ok " in told
 
 

@@ -375,7 +375,7 @@ def test_an_empty_search_says_what_removed_how_many() -> None:
     assert len(found) == 0
     assert found.removed["loops that do not close"] == found.considered == 4
     assert "No tooth counts meet every condition" in str(found)
-    assert "removed: 4 by loops" in " ".join(str(found).split())
+    assert "rejected: 4 by loops" in " ".join(str(found).split())
 
 
 def test_suggestions_give_sets_with_teeth() -> None:

@@ -1,19 +1,21 @@
 """Circular-arc clock teeth after British Standard 978, Part 2: radial flanks under tips that are arcs of circles.
 
-The wheel's addendum f comes from the epicycloid that the arc replaces: a circle half as wide as the pinion's pitch
-circle rolls on the wheel's, and f_a modules is where it meets its mirror image over a tooth half a pitch thick. For z
-leaves and ratio u, in units of the rolling circle's radius, with k = 1 + 2 u,
+The wheel's addendum f is derived from the epicycloid that the arc replaces. A circle with half the diameter of the
+pinion's pitch circle rolls on the wheel's pitch circle. The epicycloid and its mirror image over a tooth half a pitch
+thick intersect f_a modules above the pitch circle. For z leaves and ratio u, in units of the rolling circle's radius,
+with k = 1 + 2 u,
 
     t = pi / z + 2 u b,   tan b = sin t / (k - cos t),   f_a = z / 4 (sqrt(1 + k^2 - 2 k cos t) - 2 u).
 
-The tip stands 0.95 f_a m over the pitch circle and the arc has a radius of 1.40 f_a m. It passes through the end of the
-tooth's thickness on the pitch circle and through the tip on the middle of the tooth; the flank below is the tangent to
-it from the axle. Leaves are thinner than half a pitch, and a wheel's teeth are exactly half.
+The tip is 0.95 f_a modules above the pitch circle, and the arc has a radius of 1.40 f_a modules. The arc passes through
+the end of the tooth's thickness on the pitch circle and through the tip on the centre line of the tooth. The flank
+below is the tangent to the arc from the axis of the wheel. The leaves of a pinion are thinner than half a pitch, the
+teeth of a wheel exactly half a pitch thick.
 
 Sources: the iteration is H. Sparks's, "Designing Cycloidal Gears" (2013), who found it to agree with the standard's
 tables. The tables of f = 0.95 f_a and of the radius for the wheel, the three profiles of leaves and the tangent flank
 are as M. Robinson's OpenSCAD library (2016) transcribes them from the standard; the standard itself was not at hand.
-The depth of the leaves, the wheel's addendum and 0.4 modules, is Sparks's.
+The depth of the leaves, which is the wheel's addendum and 0.4 modules, is Sparks's.
 """
 
 from __future__ import annotations
@@ -52,9 +54,10 @@ _SCOPE = "these teeth are for external pairs of spur wheels, no rings or bevels;
 
 
 def addendum_factor(z: int, ratio: float) -> float:
-    """f_a of a wheel that drives a pinion of z leaves, wheel over pinion being `ratio`; see the equations above.
+    """Return f_a of a wheel that drives a pinion of z leaves with the ratio wheel over pinion `ratio`.
 
-    A fixed-point iteration that shrinks by b's slope, less than one, at each step.
+    The equations in the module's docstring are solved by fixed-point iteration. It contracts, because the slope of b is
+    below one.
     """
     k, b, t = 1 + 2 * ratio, 0.0, 0.0
     for _ in range(200):
@@ -67,12 +70,12 @@ def addendum_factor(z: int, ratio: float) -> float:
 
 
 def _wheel_number(raw: object) -> object:
-    """A declaration gives numbers as text."""
+    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
     return int(raw) if raw in ("1", "2") else raw
 
 
 class CircularArc(ToothForm):
-    """Circular-arc clock teeth as BS 978 Part 2 has them: radial flanks, ogive tips, thin leaves.
+    """Circular-arc clock teeth of BS 978 Part 2: radial flanks, ogival tips, thin leaves.
 
     They are not conjugate: error, play and efficiency come from the contact of their outlines (docs/shapes.md).
 
@@ -135,7 +138,7 @@ class CircularArc(ToothForm):
     # ----------------------------------------------------------------------------------------------- teeth of a pair
 
     def teeth(self, z1: int, z2: int, module: float | None = None) -> tuple[ArcTooth, ArcTooth]:
-        """The teeth of both wheels.
+        """Return the teeth of both wheels.
 
         Parameters
         ----------
@@ -192,7 +195,7 @@ class CircularArc(ToothForm):
         return made[0], made[1]
 
     def distance(self, z1: int, z2: int, module: float | None = None) -> float:
-        """Distance of the axes.
+        """Return the centre distance.
 
         Parameters
         ----------
@@ -213,7 +216,7 @@ class CircularArc(ToothForm):
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, direction: int = 1, module: float | None = None
     ) -> OutlineTransmission:
-        """The transmission function of a pair, from the contact of its outlines.
+        """Return the transmission function of a pair, computed from the contact of its outlines.
 
         Parameters
         ----------
@@ -244,7 +247,10 @@ class CircularArc(ToothForm):
         return OutlineTransmission(gears, friction, driver, direction)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair on parallel axes, its first wheel driving; rings and bevels are refused."""
+        """Return the mesh of a pair on parallel axes, its first wheel driving.
+
+        Raise `GearTrainError` for internal gears and bevel wheels.
+        """
         from geartrain.teeth.contact.outline_mesh import OutlineMesh
 
         del shaft_angle
@@ -260,12 +266,14 @@ class CircularArc(ToothForm):
     # ------------------------------------------------------------------------------------------------- a maker's play
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Why a maker's play does not hold for this pair: declared play or thickness wins.
+        """Return the reason why a requested backlash cannot be applied to this pair.
+
+        A declared backlash or thickness takes precedence over the backlash of the manufacturing options.
 
         Returns
         -------
         Problem or None
-            None where neither is declared.
+            None if neither is declared.
         """
         if self.backlash is None and self.thickness is None:
             return None
@@ -274,17 +282,17 @@ class CircularArc(ToothForm):
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
-        """The same teeth, the leaves thinner where they leave less play.
+        """Return the same teeth with leaves thinned to this backlash where they have less.
 
         Parameters
         ----------
         backlash : Quantity
-            Least play on the pitch circle, in modules or with a unit.
+            Minimum backlash on the pitch circle, in modules or with a unit.
 
         Returns
         -------
         CircularArc
-            A copy.
+            A copy with this `backlash`.
         """
         return self.model_copy(update={"backlash": backlash})
 
@@ -303,7 +311,7 @@ def _modules(length: Quantity, module: float | None, name: str) -> float:
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Equal pairs of a long train are looked at once."""
+    """Return the outlines of a pair, cached so that equal pairs of a long train are computed once."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
     lead = (first.thickness + second.thickness) / 2
@@ -315,30 +323,33 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """A tooth with radial flanks and a tip of two arcs, lengths in modules."""
+    """Tooth with radial flanks and a tip of two arcs. Lengths are in modules."""
 
     z: int
-    """Teeth of the wheel; `thickness` of one along the pitch circle."""
+    """Number of teeth of the wheel."""
     thickness: float
     addendum: float
-    """Height of the tip over the pitch circle; `radius` of the arcs."""
+    """Height of the tip above the pitch circle."""
     radius: float
     dedendum: float
-    """Depth of the root under it."""
+    """Depth of the root below the pitch circle."""
 
     @property
     def tip(self) -> float:
-        """Radius of the tip (modules)."""
+        """Radius of the tip circle [module]."""
         return self.z / 2 + self.addendum
 
     @property
     def root(self) -> float:
-        """Radius of the root circle (modules)."""
+        """Radius of the root circle [module]."""
         return self.z / 2 - self.dedendum
 
     @property
     def centre(self) -> tuple[float, float]:
-        """Of the arc on the side of positive x, the middle of the tooth along y; beyond it for a pointed tip."""
+        """Centre (x, y) of the arc on the side of positive x [module].
+
+        The centre line of the tooth is the y axis. The centre of the arc of a pointed tip is beyond it, at negative x.
+        """
         half = self.thickness / self.z
         x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
         chord = hypot(x, self.tip - y)
@@ -347,7 +358,10 @@ class ArcTooth:
 
     @property
     def fits(self) -> bool:
-        """True if the arc spans from the pitch circle to the tip and rises all the way, and the flank ends on it."""
+        """True if the sizes give a tooth.
+
+        The arc must span from the pitch circle to the tip, rise all the way, and leave a flank below it.
+        """
         half = self.thickness / self.z
         chord = hypot(self.z / 2 * sin(half), self.tip - self.z / 2 * cos(half))
         if 2 * self.radius < chord or not 0 < half < pi / self.z:
@@ -359,13 +373,15 @@ class ArcTooth:
 
     @property
     def flank(self) -> tuple[float, float]:
-        """Radius at which the flank ends and the arc begins, and angle (rad) of the flank from the tooth's middle."""
+        """Radius [module] at which the flank ends and the arc begins, and angle of the flank from the centre line
+        [rad].
+        """
         x, y = self.centre
         far = hypot(x, y)
         return sqrt(far**2 - self.radius**2), atan2(x, y) + asin(self.radius / far)
 
     def outline(self) -> GearOutline:
-        """All teeth of the wheel, for the contact of outlines."""
+        """Return the outline of the wheel with all its teeth, for the contact of outlines."""
         import numpy as np
 
         from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
@@ -382,7 +398,10 @@ class ArcTooth:
         return GearOutline((ToothFlanks.symmetric(side),), self.z)
 
     def vertices(self) -> Iterator[Vertex]:
-        """The tooth about the x axis, from root to root, with the bulge of each edge; the arcs are exact."""
+        """Yield the vertices (x, y, bulge) of the tooth about the x axis, from root to root.
+
+        The bulge of an edge is the tangent of a quarter of its angle, so that the arcs are exact.
+        """
         (start, lean), (cx, cy) = self.flank, self.centre
         sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)
         along, beside = cos(lean), sin(lean)

@@ -1,7 +1,8 @@
 """Coefficients of Coulomb friction and of restitution as a train declares them.
 
-Restitution is Newton's law of impact: where two sides meet at a speed u they part at e u, with e from 0 (they stay
-together) to 1 (no energy is lost); of the energy in u the part 1 - e^2 is lost.
+Restitution is Newton's law of impact: two sides that approach each other at a speed u separate at the speed e u. The
+coefficient e is from 0 (they stay together) to 1 (no energy is lost), and the fraction 1 - e^2 of the kinetic energy of
+the approach is lost.
 """
 
 from __future__ import annotations
@@ -24,7 +25,10 @@ from geartrain.numerics.quantity import Figure, Friction, parse_friction
 
 
 class CoulombFriction(BaseModel):
-    """Dry friction: a part of the normal force, whatever the speed of sliding. A bare number is `sliding`."""
+    """Dry friction: a fraction of the normal force that does not depend on the sliding speed.
+
+    A bare number is the coefficient `sliding`.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
@@ -54,7 +58,7 @@ class CoulombFriction(BaseModel):
 
     @model_serializer(mode="wrap")
     def _told(self, handler: Any) -> Any:
-        """As it was declared: the bare number where there is no more."""
+        """Serialize the coefficient as it was declared, as a bare number if only `sliding` is given."""
         return str(self.sliding) if self.static is None and self.deviation is None else handler(self)
 
     @classmethod
@@ -67,7 +71,7 @@ def _sliding(raw: object) -> object:
 
 
 DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
-"""The same, or a bare number."""
+"""Field type: Coulomb friction, or a bare number for its coefficient `sliding`."""
 
 
 def _from_nothing_to_all(figure: Figure) -> Figure:
@@ -84,4 +88,4 @@ def _from_nothing_to_all(figure: Figure) -> Figure:
 
 
 DeclaredRestitution = Annotated[Figure, AfterValidator(_from_nothing_to_all)]
-"""A coefficient of restitution, 0 to 1."""
+"""Coefficient of restitution, 0 to 1."""

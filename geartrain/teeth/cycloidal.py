@@ -1,4 +1,5 @@
-"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, of one rolling circle a side."""
+"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, with one rolling circle for each side.
+"""
 
 from __future__ import annotations
 
@@ -22,13 +23,14 @@ _HALF = Figure.parse("1/2")
 
 
 class Cycloidal(ConjugateToothForm):
-    """Cycloidal teeth, as in clocks: by default every dedendum is radial.
+    """Cycloidal teeth, as in clocks, by default with a radial dedendum.
 
-    Epicycloids outside the pitch circles, hypocycloids inside; one rolling circle makes each side (docs/shapes.md).
+    The profile is an epicycloid outside the pitch circle and a hypocycloid inside. One rolling circle generates the
+    addendum of one wheel and the dedendum of the other (docs/shapes.md).
 
     See Also
     --------
-    geartrain.teeth.Lantern : pins in place of the teeth of one wheel.
+    geartrain.teeth.Lantern : pins instead of the teeth of one wheel.
 
     Examples
     --------
@@ -89,12 +91,14 @@ class Cycloidal(ConjugateToothForm):
             raise bad("length", f"teeth {both:.6g} modules thick in all do not fit into a pitch", fix)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """As other forms say it; a declared thickness is a play too.
+        """Return the reason why a requested backlash cannot be applied to this pair.
+
+        A declared thickness determines the backlash, as a declared backlash does.
 
         Returns
         -------
         Problem or None
-            None where neither is declared.
+            None if neither is declared.
         """
         if self.thickness is None:
             return super().own_backlash(pair)
@@ -103,12 +107,12 @@ class Cycloidal(ConjugateToothForm):
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, with what would let them.
+            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
         """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -125,7 +129,7 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Rolling circles of approach and recess: modules, or rad."""
+        """Return the radii of the rolling circles of approach and recess, in modules or, for bevel pairs, in rad."""
         if self.rolling is not None:
             if wheels.bevel:
                 raise refused(
@@ -149,7 +153,7 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """The arc (X) that ends at an addendum."""
+    """Return the arc of contact, as pitch-line displacement X, that ends at an addendum of `height` modules."""
     from math import asin, sin
 
     from geartrain.teeth.conjugate.closed_form_sides import circle_reach, cone_reach

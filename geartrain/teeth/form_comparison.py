@@ -1,7 +1,7 @@
 """Comparison of conjugate tooth forms with the 20 degree involute of the same wheels and the same arcs of contact.
 
-Forms are comparable where they are in contact equally long: arcs of approach and recess are given, in pitches, and each
-form makes the pair that has them. Costs are ratios to those of the involute.
+Forms are compared at equal arcs of contact. The arcs of approach and recess are given, in pitches, and each form
+constructs the pair that has them. Losses, stresses and temperatures are ratios to the values of the involute.
 """
 
 from __future__ import annotations
@@ -28,25 +28,26 @@ if TYPE_CHECKING:
 REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Forms that are compared where none are named: one reading of each."""
+"""Forms that are compared by default, with one reading of each."""
 _MOST_PITCHES = 100.0  # of an arc
 _EIGHTH = 0.125  # turn: from 45 deg on teeth of uniform stress are no longer determined by their pressure angle
 
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """One form of a comparison: its path and measures, or why it cannot run."""
+    """Result for one form of a comparison: its path of contact and measures, or the faults that keep it from running.
+    """
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
     name: str
-    """As it was asked for, with its reading."""
+    """Name of the form as requested, with its reading."""
     path: PathOfContact | None
     measures: PathMeasures | None
     ratios: PathRatios | None = None
     """Measures over those of the involute; None for teeth that cannot run."""
     faults: tuple[ToothFault, ...] = ()
-    """Why they cannot; of kind "refused" where the form gives no such pair."""
+    """Reasons why the teeth cannot run, of kind "refused" if the form does not give such a pair."""
 
     @property
     def runs(self) -> bool:
@@ -63,13 +64,13 @@ class MeasuredForm(Result):
 
     @property
     def pressure_angle(self) -> float | None:
-        """At the pitch point (rad); None without a path."""
+        """Pressure angle at the pitch point [rad]; None without a path."""
         return None if self.path is None else float(self.path.at(0.0).psi)
 
 
 @dataclass(frozen=True)
 class FormComparison(Result):
-    """Forms beside the 20 degree involute of the same pair and arcs."""
+    """Tooth forms compared with the 20 degree involute of the same pair and arcs."""
 
     PAGE = "report.conjugate_pair_page:describe_form_comparison"
 
@@ -80,29 +81,32 @@ class FormComparison(Result):
     )
 
     teeth: tuple[int, int]
-    """Of the two wheels."""
+    """Tooth numbers of the two wheels."""
     matched: str
-    """What all have in common, in words."""
+    """Text that lists the properties that all compared pairs have in common."""
     base: MeasuredForm
-    """The involute itself."""
+    """Result for the involute."""
     forms: tuple[MeasuredForm, ...]
-    """The forms that are compared."""
+    """Results for the compared forms."""
 
     @property
     def path(self) -> PathOfContact:
-        """The path of the involute."""
+        """Path of contact of the involute."""
         assert self.base.path is not None
         return self.base.path
 
     @property
     def measures(self) -> PathMeasures:
-        """What the involute costs."""
+        """Losses, stresses and temperatures of the involute."""
         assert self.base.measures is not None
         return self.base.measures
 
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
-    """What can be compared, by name: a conjugate form, and the reading of it where it has several."""
+    """Return the forms that can be compared by name: the class of a conjugate form, and the parameters of its reading.
+
+    A form with several readings is listed once without a reading and once for each, such as `uniform_temperature_b`.
+    """
     found: dict[str, tuple[type[ConjugateToothForm], dict[str, str]]] = {}
     for name, model in tooth_forms().items():
         if not issubclass(model, ConjugateToothForm):
@@ -119,30 +123,30 @@ def compare_forms(
     arcs: tuple[float, float] = (0.5, 0.5),
     pressure_angle: Quantity | None = None,
 ) -> FormComparison:
-    """Loss, stress, heat, flash and depth of forms as ratios to those of the 20 degree involute.
+    """Compute loss, stress, heat, flash temperature and depth of tooth forms as ratios to the 20 degree involute.
 
-    Costs are those of docs/shapes.md, to first order in friction; the criteria are W. D. Smith's (1993).
+    The measures are those of docs/shapes.md, to first order in friction. The criteria are W. D. Smith's (1993).
 
     Parameters
     ----------
     wheels : WheelPair
-        Tooth numbers of the two, and how their axes stand.
+        Tooth numbers of the two wheels, and the arrangement of their axes.
     names : sequence of str
-        Of `comparable_forms`.
+        Names of the forms, keys of `comparable_forms`.
     arcs : tuple of float
-        Of approach and recess, matched by all [pitch]; together 1 or more.
+        Arcs of approach and recess of all forms [pitch], 1 or more together.
     pressure_angle : Quantity, optional
-        Of the forms that have one, below 45 deg; by default as each declares it.
+        Pressure angle of the forms that have one, below 45 deg. Default: the default of each form.
 
     Returns
     -------
     FormComparison
-        The involute, and each form with its ratios or what keeps it from running.
+        The involute, and each form with its ratios or the faults that keep it from running.
 
     Raises
     ------
     QuestionError
-        For unknown names and wrong parameters, and where the involute itself cannot run.
+        For unknown names and wrong parameters, and if the involute itself cannot run.
 
     Examples
     --------
@@ -164,12 +168,12 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """The 20 degree involute with these arcs of approach and recess (pitches), whatever addenda they take."""
+    """Return the 20 degree involute pair with these arcs of approach and recess (pitches), whatever its addenda."""
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 
 def arcs_error(text: str) -> QuestionError:
-    """What is said of arcs that no pair can have."""
+    """Return the error for arcs of contact that are out of range."""
     fix = "give those of approach and recess in pitches, such as 0.5,0.5; together 1 or more"
     return QuestionError(Problem(f"arcs {text} are none", "", fix, "--arcs"))
 
@@ -177,7 +181,7 @@ def arcs_error(text: str) -> QuestionError:
 def _check(
     known: Mapping[str, object], names: Sequence[str], arcs: tuple[float, float], angle: Quantity | None
 ) -> None:
-    """Raise `QuestionError` for what cannot be compared."""
+    """Raise `QuestionError` for unknown names, arcs out of range and pressure angles of 45 deg or more."""
     if not names:
         raise QuestionError(Problem("no form is named", "", f"use some of: {', '.join(known)}", "--forms"))
     for name in names:
@@ -193,7 +197,9 @@ def _check(
 
 
 def _no_base(base: MeasuredForm) -> QuestionError:
-    """What keeps the involute with which forms are compared from running; its pressure angle is not to choose."""
+    """Return the error for a reference involute that cannot run. Fixes by its pressure angle, which is given, are left
+    out.
+    """
     what = "the 20 deg involute, with which forms are compared, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
     return QuestionError(
@@ -211,7 +217,7 @@ def _form(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> MeasuredForm:
-    """One form with these arcs, or what refuses them."""
+    """Return the result for one form with these arcs, with faults of kind "refused" if the form rejects them."""
     own = angle if "pressure_angle" in model.model_fields else {}
     try:
         return _measured(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base)
@@ -227,7 +233,8 @@ def _beside(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> Iterator[MeasuredForm]:
-    """For a form that works in recess only, the involute with its arcs: it tells what is due to these."""
+    """Yield the involute with the arcs of the first form that works in recess only, to separate the effect of its arcs.
+    """
     for form in found:
         if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:
             yield _measured("involute, recess only", Involute.pair_of_arcs(wheels, form.pitches, angle), base)
@@ -244,7 +251,7 @@ def _measured(name: str, pair: ConjugatePair, base: PathMeasures | None = None) 
 
 
 def _matched(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
-    """What all pairs have in common, in words."""
+    """Return the text that lists the properties that all compared pairs have in common."""
     notes = dict.fromkeys(model.matched for model in models if model.matched)
     common = "; ".join([f"arcs, {arcs[0]:g} pitches of approach and {arcs[1]:g} of recess", *notes])
     loads = "one pair of teeth bears all, or those in contact share it; first order in friction"

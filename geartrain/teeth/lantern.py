@@ -1,4 +1,4 @@
-"""Lantern wheels: round pins on one wheel, and on the other the teeth that are their exact mate."""
+"""Lantern wheels: round pins on one wheel, and conjugate teeth on the other."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ _BEYOND = 1 + 1e-8  # times what the pins cut off: without it rounding may leave
 
 
 def _first_or_second(raw: object) -> object:
-    """A declaration gives numbers as text."""
+    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
     return int(raw) if raw in ("1", "2") else raw
 
 
 class Lantern(ConjugateToothForm):
-    """Round pins on one wheel, a lantern, and teeth that mate with them on the other.
+    """Round pins on one wheel, the lantern, and conjugate teeth on the other.
 
-    A tooth is the curve beside the epicycloid of the pins' centres, by the radius of a pin (docs/shapes.md). By default
-    all contact is on one side of the pitch point.
+    A tooth profile is the parallel curve of the epicycloid of the pins' centres, at the distance of a pin radius
+    (docs/shapes.md). By default all contact is on one side of the pitch point.
 
     See Also
     --------
-    geartrain.teeth.Cycloidal : what the mate's teeth would be for pins without a diameter.
+    geartrain.teeth.Cycloidal : teeth of the mate in the limit of pins without a diameter.
 
     Examples
     --------
@@ -77,17 +77,17 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """None: these teeth have a law at their design distance only.
+        """Return None, since the transmission function of these teeth is known at the design centre distance only.
 
         Returns
         -------
         None
-            Never another distance than that of the design.
+            The centre distance is that of the design.
 
         Raises
         ------
         RangeError
-            Where another centre distance is declared.
+            If another centre distance is declared.
         """
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
@@ -100,12 +100,12 @@ class Lantern(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where pins do not reach the pitch circle or touch each other; `RangeError` for bevels and rings of pins.
+            If pins do not reach the pitch circle or touch each other; `RangeError` for bevel wheels and for a ring of pins.
         """
         from geartrain.teeth.conjugate.closed_form_sides import flank_start, lantern, pin_angle
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -132,23 +132,27 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """The pair with as much contact, all of it in recess, beyond what the pins on their way in cut off.
+        """Return the pair with the same total arc of contact, all of it in recess.
+
+        The arc is extended by the part that the approaching pins cut off the mate's flanks.
 
         Parameters
         ----------
         wheels : WheelPair
             The two wheels.
         arcs : tuple of float
-            Of approach and recess, gear 1 driving [pitch], whose sum counts.
+            Arcs of approach and recess with gear 1 driving [pitch]. Only their sum is used.
         given : mapping
-            What else the form declares.
+            Other parameters of the form.
         """
         usual = conjugate_pair_of(cls.declared(given), wheels)
         lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _BEYOND
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _cut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""
+        """Return an undercut fault if the approaching pins leave less of the mate's flank than the arcs need, else
+        nothing.
+        """
         from geartrain.teeth.pair_results import ToothFault
 
         left = (outside + min(inside, -start)) / pitch.p
@@ -169,7 +173,7 @@ class Lantern(ConjugateToothForm):
         return (fault,)
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
-        """Which wheel has the pins, and how large their circle and they are.
+        """Return the wheel that carries the pins, the radius of the pin circle and the radius of a pin.
 
         Returns
         -------
@@ -183,7 +187,7 @@ class Lantern(ConjugateToothForm):
         return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
-        """Distance of the pins from the axle, and their radius, in modules."""
+        """Return the distance of the pins from the axis and their radius, in modules."""
         A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
         B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
         z = wheels.z1 if self.pins == 1 else wheels.z2
@@ -205,7 +209,10 @@ class Lantern(ConjugateToothForm):
     def _arcs(
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
-        """Arcs (X) on the mate's addendum and on its dedendum; by default a pitch from where the flank begins."""
+        """Return the arcs (X) on the mate's addendum and on its dedendum.
+
+        By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
+        """
         from geartrain.teeth.conjugate.closed_form_sides import pin_arc, pin_reach
 
         if self.addendum is not None:

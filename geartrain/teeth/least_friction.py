@@ -1,4 +1,4 @@
-"""Teeth of least friction within a greatest pressure angle; and, for the record, the source's own extremal."""
+"""Teeth of minimum friction for a given maximum pressure angle, and the extremal printed in the source."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ _CEILING, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of least friction: a constant pressure angle from the pitch point, then the slowest contact allowed.
+    """Teeth of minimum friction: a constant pressure angle from the pitch point, then the minimum contact speed allowed.
 
-    Along the dedendum the contact keeps the speed `margin`. `literal` gives the source's shape instead: above 45 deg,
-    clear of the pitch point, and of no use as a pair (docs/errata.md).
+    Along the dedendum the contact keeps the speed `margin`. `literal` gives the extremal printed in the source instead: its
+    pressure angles are above 45 deg, it does not include the pitch point, and it is not usable as a pair (docs/errata.md).
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : the other optima of that source.
+    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : the other optima of the same source.
 
     Examples
     --------
@@ -107,12 +107,12 @@ class LeastFriction(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, with what would let them.
+            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
         """
         pitch = wheels.pitch
         return self._standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)
@@ -129,7 +129,10 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """What a contact at the distance d loses, mu S up to a factor; None where friction is the same everywhere."""
+        """Return the loss density mu S of a contact at the distance d from the pitch point, up to a factor.
+
+        Return None if friction is the same at every contact.
+        """
         if self.friction_law is None or self.pitch_line_speed is None or self.friction_law.of_pitch_line:
             return None
         by = PairFriction(self.friction_law, self.pitch_line_speed.si)

@@ -77,11 +77,12 @@ def _wheel_number(raw: object) -> object:
 class CircularArc(ToothForm):
     """Circular-arc clock teeth of BS 978 Part 2: radial flanks, ogival tips, thin leaves.
 
-    They are not conjugate: error, play and efficiency come from the contact of their outlines (docs/shapes.md).
+    They are not conjugate. Their transmission error, backlash and efficiency are computed from the contact of their
+    outlines (docs/shapes.md).
 
     See Also
     --------
-    geartrain.teeth.Cycloidal : the teeth that the arcs stand for.
+    geartrain.teeth.Cycloidal : the teeth that the arcs approximate.
 
     Examples
     --------
@@ -328,9 +329,11 @@ class ArcTooth:
     z: int
     """Number of teeth of the wheel."""
     thickness: float
+    """Thickness of a tooth along the pitch circle."""
     addendum: float
     """Height of the tip above the pitch circle."""
     radius: float
+    """Radius of the arcs of the tip."""
     dedendum: float
     """Depth of the root below the pitch circle."""
 

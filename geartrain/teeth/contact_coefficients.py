@@ -58,7 +58,7 @@ class CoulombFriction(BaseModel):
 
     @model_serializer(mode="wrap")
     def _told(self, handler: Any) -> Any:
-        """Serialize the coefficient as it was declared, as a bare number if only `sliding` is given."""
+        """Return the coefficient as it was declared, as a bare number if only `sliding` is given."""
         return str(self.sliding) if self.static is None and self.deviation is None else handler(self)
 
     @classmethod

@@ -1,5 +1,4 @@
-"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, with one rolling circle for each side.
-"""
+"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, one rolling circle a side."""
 
 from __future__ import annotations
 

@@ -60,8 +60,8 @@ class CycloidalDisc:
     clearance : float
         Distance by which the outline of the disc is set back from every pin.
     deflection : float or None
-        Deflection of one pin under the whole force on the pitch circle of the disc. None: all pins that push are loaded in
-        proportion to their lever arms, as if there were no clearance.
+        Deflection of one pin under the whole force on the pitch circle of the disc. None: all pins that push are loaded
+        in proportion to their lever arms, as if there were no clearance.
     """
 
     lobes: int
@@ -121,7 +121,7 @@ class CycloidalDisc:
         return found
 
     def curvature(self, angle: Floats) -> Floats:
-        """Return the curvature of the outline [1/module] at the contact with a pin, negative where the outline is concave.
+        """Return the curvature of the outline [1/module] at the contact with a pin, negative where it is concave.
 
         angle   position of the pin from the pitch point, about the axis of the ring (rad)
         """
@@ -162,9 +162,10 @@ class CycloidalDisc:
         return found
 
     def _twist(self, arms: Floats) -> Floats:
-        """Return the angle (rad) by which the disc turns under load until enough pins bear the torque: docs/reducers.md (7).
+        """Return the angle (rad) of the disc under load at which enough pins bear the torque: docs/reducers.md (7).
 
-        Pins with longer lever arms come into contact first. Their number is the smallest for which the next pin stays free.
+        Pins with longer lever arms come into contact first. Their number is the smallest for which the next pin stays
+        free.
         """
         assert self.deflection is not None
         ordered = -np.sort(-arms, axis=0)
@@ -260,7 +261,7 @@ class CycloidalDisc:
 
 
 class DiscTransmission(ExactRatio):
-    """Transmission function of a disc in its ring of pins, in the frame of the eccentric: the exact ratio at every instant.
+    """Transmission function of a disc in its ring of pins, in the frame of the eccentric, with the exact ratio.
 
     Parameters
     ----------
@@ -316,7 +317,8 @@ class DiscTransmission(ExactRatio):
     def _phase(self, S: ArrayLike) -> Floats:
         """Return the angle (rad) of a pin from the line of centres.
 
-        At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is there, between two pins.
+        At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is there, between two
+        pins.
         """
         S = self.direction * np.asarray(S, dtype=float)
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
@@ -396,8 +398,7 @@ class DiscMesh(GearMesh):
 
     @property
     def stands(self) -> float:
-        """Position of a lobe at angle 0, in pitches past the line of centres: between two pins, less half the backlash.
-        """
+        """Position of a lobe at angle 0 [pitches past the line of centres], between two pins less half the backlash."""
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:

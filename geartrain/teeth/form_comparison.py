@@ -35,8 +35,7 @@ _EIGHTH = 0.125  # turn: from 45 deg on teeth of uniform stress are no longer de
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one form of a comparison: its path of contact and measures, or the faults that keep it from running.
-    """
+    """Result for one form of a comparison: path of contact and measures, or the faults that keep it from running."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
@@ -233,7 +232,9 @@ def _beside(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> Iterator[MeasuredForm]:
-    """Yield the involute with the arcs of the first form that works in recess only, to separate the effect of its arcs.
+    """Yield the involute with the arcs of the first form that works in recess only.
+
+    The comparison separates the effect of these arcs from the effect of the form.
     """
     for form in found:
         if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:

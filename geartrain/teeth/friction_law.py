@@ -39,8 +39,8 @@ SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: float, viscous: float) -> Floats:
     """Return mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md (16).
 
-    The Stribeck curve falls from static to kinetic friction, and rises with a viscous term. v and speed are in m/s, viscous
-    in s/m.
+    The Stribeck curve falls from static to kinetic friction, and rises with a viscous term. v and speed are in m/s,
+    viscous in s/m.
     """
     import numpy as np
 
@@ -62,8 +62,8 @@ def buckingham(V: Floats) -> Floats:
 def buckingham_constants() -> tuple[float, float, float]:
     """Compute the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
 
-    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) of the lower speed and q = sqrt(V2/V1), the two other values
-    give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
+    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) of the lower speed and q = sqrt(V2/V1), the two other
+    values give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
     """
     (_, rest), (slow, low), (fast, high) = BUCKINGHAM
     q = sqrt(fast / slow)
@@ -77,7 +77,7 @@ def buckingham_constants() -> tuple[float, float, float]:
 
 
 def dokos(v: Floats, slowest: float) -> Floats:
-    """Return mu, which falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, linearly in log v: docs/shapes.md (18).
+    """Return mu, which falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, docs/shapes.md (18).
 
     The coefficient is constant below and above these speeds. Smith prints only both end values and the ratio of speeds
     ("gradually"). Linear interpolation in log v is an assumption, and so is any value of `slowest`.
@@ -274,8 +274,8 @@ _NAME = re.compile(r"[a-z_]+")
 def law_of_text(raw: object) -> object:
     """Parse a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`.
 
-    Return it as a declaration has it. Values of a column of a table are separated by colons. Any other input is returned
-    unchanged.
+    Return it as a declaration has it. Values of a column of a table are separated by colons. Any other input is
+    returned unchanged.
     """
     parts = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(parts, list) or not parts or not _NAME.fullmatch(str(parts[0]).strip()):
@@ -293,7 +293,7 @@ FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
 
 @dataclass(frozen=True, slots=True)
 class PairFriction(Shown):
-    """Friction law of a pair whose pitch line runs at a known speed: the coefficient as a function of the sliding speed.
+    """Friction law of a pair whose pitch line runs at a known speed: the coefficient by the sliding speed.
 
     Examples
     --------

@@ -129,8 +129,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def gears(self) -> tuple[str, str]:
-        """Names of gear 1 and gear 2: the order in which the pair names its wheels, unless the form has another order.
-        """
+        """Names of gear 1 and gear 2, in the order of the pair unless the form has another order."""
         return self.gear.pair
 
     @property
@@ -232,8 +231,8 @@ class GearMesh(Shown, ABC):
         Returns
         -------
         WheelOutline
-            A tooth is on the x axis. The two wheels mesh at `centre_distance` if a tooth space of gear 2 faces a tooth of
-            gear 1.
+            A tooth is on the x axis. The two wheels mesh at `centre_distance` if a tooth space of gear 2 faces a tooth
+            of gear 1.
 
         Raises
         ------
@@ -315,8 +314,8 @@ class GearMesh(Shown, ABC):
         Returns
         -------
         float or None
-            Backlash on the pitch circle [module], negative if the teeth jam. None for teeth that run as designed only at
-            their own centre distance.
+            Backlash on the pitch circle [module], negative if the teeth jam. None for teeth that run as designed only
+            at their own centre distance.
         """
         del gap
         return None
@@ -388,7 +387,9 @@ class GearMesh(Shown, ABC):
 
     @property
     def tells_losses(self) -> bool:
-        """True if the losses can be computed: a coefficient is declared, or a friction law and the speed that it needs.
+        """True if the losses can be computed.
+
+        They need a declared coefficient, or a friction law and the pitch-line speed.
         """
         return self.friction is not None or (self.rubs and self.wheels.pitch_line is not None)
 

@@ -105,7 +105,8 @@ class Lantern(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If pins do not reach the pitch circle or touch each other; `RangeError` for bevel wheels and for a ring of pins.
+            If pins do not reach the pitch circle or touch each other; `RangeError` for bevel wheels and for a ring of
+            pins.
         """
         from geartrain.teeth.conjugate.closed_form_sides import flank_start, lantern, pin_angle
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair

@@ -27,10 +27,11 @@ _CEILING, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of minimum friction: a constant pressure angle from the pitch point, then the minimum contact speed allowed.
+    """Teeth of minimum friction: a constant pressure angle from the pitch point, then the minimum contact speed.
 
-    Along the dedendum the contact keeps the speed `margin`. `literal` gives the extremal printed in the source instead: its
-    pressure angles are above 45 deg, it does not include the pitch point, and it is not usable as a pair (docs/errata.md).
+    Along the dedendum the contact keeps the speed `margin`. `literal` gives the extremal printed in the source instead:
+    its pressure angles are above 45 deg, it does not include the pitch point, and it is not usable as a pair
+    (docs/errata.md).
 
     See Also
     --------

@@ -70,7 +70,9 @@ class MeshingWheels:
     counts: tuple[int, int]
     """Tooth numbers."""
     kinds: tuple[str, str] = ("spur", "spur")
+    """Kinds of the wheels, such as "spur", "helical", "bevel" or "contrate"."""
     internal: tuple[bool, bool] = (False, False)
+    """True for each wheel that is a ring."""
     friction: float | None = None
     """Coefficient of friction; None if none is declared."""
     distance: float | None = None
@@ -92,8 +94,7 @@ class MeshingWheels:
 
     @property
     def pitch_distance(self) -> float | None:
-        """Centre distance [m] at which the pitch circles of the declared modules touch; None without a declared length.
-        """
+        """Centre distance [m] at which the declared pitch circles touch; None without a declared length."""
         z1, z2 = self.counts
         return (
             self.distance

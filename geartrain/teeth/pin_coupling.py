@@ -1,10 +1,10 @@
-"""Pins in slots and pins in holes as a train declares them: couplings whose mean motion is a winding number.
+"""Pins in slots and pins in holes as a train declares them: couplings whose mean ratio is a winding number.
 
-A pin on one link works in a slot of another whose axis lies `offset` away. In the frame of their carrier the
-slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e: over one turn
-of the pin the slot turns m times, m = 1 where the pin's circle encloses the slot's axis (r > e), else m = 0.
+A pin on one link works in a slot of another link, whose axis is at the distance `offset`. In the frame of their
+carrier, the slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e. Over
+one turn of the pin the slot turns m times: m = 1 if the pin's circle encloses the slot's axis (r > e), else m = 0.
 
-Three pins or more in round holes, each wider than its pin by 2 e, keep two links parallel: m = 1 at every instant.
+Three or more pins in round holes, each wider than its pin by 2 e, keep two links parallel: m = 1 at every instant.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def _whole(raw: object) -> object:
-    """A declaration gives numbers as text."""
+    """Convert decimal text to an integer, since a declaration gives numbers as text."""
     return int(raw) if isinstance(raw, str) and raw.isdecimal() else raw
 
 
@@ -38,7 +38,7 @@ def _not_negative(length: Quantity) -> Quantity:
 
 
 class _Coupling(BaseModel):
-    """A coupling of two links by pins."""
+    """Coupling of two links by pins."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
@@ -64,12 +64,12 @@ class _Coupling(BaseModel):
 
     @property
     def name(self) -> str:
-        """The declared id, or pin~slot."""
+        """Declared id, or pin~slot."""
         return self.id or f"{self.pin}~{self.slot}"
 
     @property
     def transmission(self) -> PinToSlotTransmission | None:
-        """The law of motion with the pin driving; None where the dimensions are not declared."""
+        """Transmission function with the pin driving; None if the dimensions are not declared."""
         if self.pin_radius is None or self.offset is None:
             return None
         from geartrain.teeth.pin_transmission import PinToSlotTransmission
@@ -79,7 +79,7 @@ class _Coupling(BaseModel):
 
 
 class PinAndSlot(_Coupling):
-    """A pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
+    """Pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
 
     kind: Literal["pin_and_slot"] = Field(description="The pin's circle encloses the slot's axis: mean ratio 1")
 
@@ -90,7 +90,7 @@ class PinAndSlot(_Coupling):
 
 
 class PinFollower(_Coupling):
-    """A pin in a slotted follower whose axis lies outside the pin's circle: the follower swings about its carrier."""
+    """Pin in a slotted follower whose axis lies outside the pin's circle: the follower oscillates about its carrier."""
 
     kind: Literal["pin_follower"] = Field(description="The pin's circle leaves the slot's axis out: mean ratio 0")
 
@@ -101,15 +101,15 @@ class PinFollower(_Coupling):
 
 
 class _Uniform(_Coupling):
-    """What keeps two links parallel, so that both turn alike at every instant."""
+    """Coupling that keeps two links parallel, so that both turn at the same speed at every instant."""
 
     @model_validator(mode="after")
     def _has_no_friction(self) -> _Uniform:
         if self.friction is not None:
             raise PydanticCustomError(
                 "pin",
-                "friction of a {kind} coupling is not worked out",
-                {"kind": self.kind, "fix": "give the gear pair of its disc an `efficiency` that has it"},  # type: ignore[attr-defined]
+                "friction of a {kind} coupling is not modelled",
+                {"kind": self.kind, "fix": "declare its loss as the `efficiency` of the gear pair of its disc"},  # type: ignore[attr-defined]
             )
         for name in ("pin_radius", "offset", "pin_diameter"):
             length = getattr(self, name, None)
@@ -120,15 +120,16 @@ class _Uniform(_Coupling):
 
     @property
     def transmission(self) -> None:
-        """None: the ratio at every instant is that of the means."""
+        """None, since the ratio at every instant is the mean ratio."""
         return None
 
 
 class PinsInHoles(_Uniform):
-    """Pins in round holes that keep two links parallel, as those of a cycloidal reducer.
+    """Pins in round holes that keep two links parallel, as the output pins of a cycloidal reducer do.
 
-    Both turn alike at every instant about axes that are `offset` apart: holes are wider than their pins by twice that.
-    `slot` is the link with the holes, `pin_radius` the radius of the circle on which pins stand.
+    Both links turn at the same speed at every instant about axes that are `offset` apart. The diameter of a hole is the
+    diameter of its pin and twice `offset`. `slot` is the link with the holes, `pin_radius` the radius of the circle
+    through the centres of the pins.
     """
 
     kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at all times")
@@ -139,9 +140,9 @@ class PinsInHoles(_Uniform):
 
 
 class Parallel(_Uniform):
-    """Whatever else keeps two links parallel: cranks side by side, a cross between two slots, a flexible wall.
+    """Any other coupling that keeps two links parallel: parallel cranks, an Oldham cross, a flexible wall.
 
-    Which of the two is the `pin` and which the `slot` does not matter. It is not drawn.
+    The links `pin` and `slot` are interchangeable. The coupling is not drawn.
     """
 
     kind: Literal["parallel"] = Field(description="Cranks side by side, or a cross: ratio 1 at all times")
@@ -158,7 +159,7 @@ Coupling = Annotated[PinAndSlot | PinFollower | PinsInHoles | Parallel, Field(di
 
 
 def winding_number(kind: str) -> int:
-    """Mean ratio slot over pin in the carrier's frame: 0 for a pin and follower, 1 for all others."""
+    """Return the mean ratio slot over pin in the carrier's frame: 0 for a pin and follower, 1 for all others."""
     return 0 if kind == "pin_follower" else 1
 
 
@@ -217,9 +218,10 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
 def pin_transmission(
     pin_radius: float, offset: float, friction: float = 0.0, driver: Literal["pin", "slot"] = "pin"
 ) -> PinTransmission:
-    """The law of a pin in a slot, whichever drives, `offset` being the distance of the two axes.
+    """Return the transmission function of a pin in a slot with either side driving.
 
-    Raises `RangeError` where it does not turn; its place is `driver` or `friction` where that one is to be changed.
+    `offset` is the distance of the two axes. Raise `RangeError` if the coupling cannot turn. The error's place is
+    `driver` or `friction` if that value is to be changed.
     """
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 

@@ -1,4 +1,4 @@
-"""Cycloidal reducers: a disc of lobes in a ring of round pins, one more than its lobes."""
+"""Cycloidal reducers: a lobed disc in a ring of round pins that has one pin more than the disc has lobes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,20 @@ _CROWDED = 1.7  # distance of two pins over the diameter of one, unless that is 
 
 
 class PinRing(ToothForm):
-    """A disc of lobes that rolls in a ring of round pins, one more than lobes: a cycloidal reducer's.
+    """Lobed disc of a cycloidal reducer in a ring of round pins, one pin more than lobes.
+
+    The ratio is exact at every instant, and half of all pins bear load. The module is twice the eccentricity, since the
+    centre of the disc is half a module from the centre of the ring (docs/reducers.md).
+
+    See Also
+    --------
+    geartrain.teeth.Lantern : pins on an external wheel.
+
+    Examples
+    --------
+    >>> disc = PinRing(form="pin_ring").disc(11)
+    >>> round(disc.circle, 3), round(disc.pin, 3), round(disc.maximum_load, 3)
+    (8.571, 1.305, 0.335)
 
     The ratio is exact at every instant, and half of all pins bear. The module is twice the eccentricity, for the disc's
     centre is half a module from that of the ring (docs/reducers.md).
@@ -72,18 +85,18 @@ class PinRing(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """With the loads of its pins."""
+        """Return the class of figures that includes the loads on the pins."""
         from geartrain.teeth.cycloidal_disc import DiscFigures
 
         return DiscFigures
 
     def disc(self, lobes: int, module: float | None = None) -> CycloidalDisc:
-        """The disc and its pins.
+        """Return the disc and its pins.
 
         Parameters
         ----------
         lobes : int
-            Of the disc, 3 or more.
+            Number of lobes of the disc, 3 or more.
         module : float, optional
             Module [m], for lengths with a unit.
 
@@ -95,7 +108,7 @@ class PinRing(ToothForm):
         Raises
         ------
         GearTrainError
-            Where these sizes give no disc.
+            If these sizes do not give a disc.
         """
         from geartrain.teeth.cycloidal_disc import CycloidalDisc
 
@@ -144,28 +157,28 @@ class PinRing(ToothForm):
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, module: float | None = None
     ) -> DiscTransmission:
-        """The transmission function of a pair.
+        """Return the transmission function of a pair.
 
         Parameters
         ----------
         z1, z2 : int
-            Lobes of the disc, and pins of the ring: one more.
+            Number of lobes of the disc, and number of pins of the ring, which is one more.
         friction : float
-            Coefficient of friction, 0 or more: of pins that do not roll.
+            Coefficient of friction of pins that do not roll, 0 or more.
         driver : {1, 2}
-            Which wheel drives, seen from the eccentric.
+            Number of the driving wheel in the frame of the eccentric.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         DiscTransmission
-            Exact at every instant.
+            Exact ratio at every instant.
 
         Raises
         ------
         GearTrainError
-            Where these sizes give no disc.
+            If these sizes do not give a disc.
         """
         from geartrain.teeth.cycloidal_disc import DiscTransmission
 
@@ -178,12 +191,12 @@ class PinRing(ToothForm):
         return DiscTransmission(self.disc(z1, module), friction, driver)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a disc and its ring, whichever the pair names first.
+        """Return the mesh of a disc and its ring, in either order.
 
         Returns
         -------
         GearMesh
-            What a train asks of the pair.
+            The pair as a train uses it.
         """
         from geartrain.teeth.cycloidal_disc import DiscMesh
 
@@ -197,12 +210,14 @@ class PinRing(ToothForm):
         return DiscMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Why a maker's play does not hold for this pair: declared clearance wins.
+        """Return the reason why a requested backlash cannot be applied to this pair.
+
+        A declared clearance takes precedence over the backlash of the manufacturing options.
 
         Returns
         -------
         Problem or None
-            None where none is declared.
+            None if no clearance is declared.
         """
         if not self.clearance.value:
             return None
@@ -212,17 +227,17 @@ class PinRing(ToothForm):
         )
 
     def thinned(self, backlash: Quantity) -> PinRing:
-        """The same disc, so far back from its pins that it has this play.
+        """Return the same disc with the clearance from its pins that gives this backlash.
 
         Parameters
         ----------
         backlash : Quantity
-            On the pitch circle, in modules or with a unit.
+            Backlash on the pitch circle, in modules or with a unit.
 
         Returns
         -------
         PinRing
-            A copy.
+            A copy with this `clearance`.
         """
         half = f"{float(backlash.value) / 2!r} {backlash.unit or ''}".strip()
         return self.model_copy(update={"clearance": Quantity.parse(half, "length", plain=True)})

@@ -27,7 +27,7 @@ _NARROW = 1e-13  # of a period: a stretch that is none
 
 
 class _Nodes(NamedTuple):
-    """Driver angles, their weights in an integral, and at each efficiency and mean coefficient of friction."""
+    """Quadrature nodes: driver angles, weights, and efficiency and mean coefficient of friction at each."""
 
     S: Floats
     weights: Floats
@@ -36,17 +36,18 @@ class _Nodes(NamedTuple):
 
 
 class RubbedTransmission(DerivedTransmission):
-    """A law with friction that depends on speed: its motion is the law's own, its losses those of each contact.
+    """Transmission function with friction that depends on speed.
 
-    At a driver angle where teeth slide at v the coefficient is mu(v), and a contact passes (1 + mu out) / (1 + mu into)
-    of its power (docs/shapes.md, section 15); contacts at once take equal shares of the driver's torque.
+    The motion is that of the given transmission function. Losses are computed at each contact: at a driver angle at
+    which teeth slide at the speed v, the coefficient is mu(v), and a contact transmits (1 + mu out) / (1 + mu into) of
+    its power (docs/shapes.md, section 15). Simultaneous contacts take equal shares of the driver's torque.
 
     Parameters
     ----------
     transmission : TransmissionFunction
-        Of the pair, whatever its own friction.
+        Transmission function of the pair. Its own friction is ignored.
     by : PairFriction
-        The friction, and the speed of the pitch line.
+        Friction law and pitch-line speed.
 
     Examples
     --------
@@ -64,25 +65,25 @@ class RubbedTransmission(DerivedTransmission):
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """The law's own."""
+        """Return the transmission error of the underlying transmission function."""
         return self.transmission.error(S)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """The law's own."""
+        """Return the speed ratio of the underlying transmission function."""
         return self.transmission.speed(S)
 
     def reversed_motion(self) -> RubbedTransmission:
-        """The law of the other flanks, rubbed by the same friction."""
+        """Return the transmission function of the coast flanks with the same friction."""
         return RubbedTransmission(self.transmission.reversed_motion(), self.by)
 
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """The law's own."""
+        """Return the sliding of the underlying transmission function."""
         return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
-        """Coefficient of friction at each contact; NaN where there is none.
+        """Return the coefficient of friction at each contact; NaN for no contact.
 
         Parameters
         ----------
@@ -92,11 +93,16 @@ class RubbedTransmission(DerivedTransmission):
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Power out over power in at driver angles S (rad); NaN where nothing touches or friction locks."""
+        """Return power out over power in at driver angles S (rad); NaN where teeth are not in contact or friction
+        locks.
+        """
         return self._passed(self.rubbing(S))[0]
 
     def _passed(self, rubbing: ContactRubbing) -> tuple[Floats, Floats]:
-        """Mean efficiency and coefficient of contacts at once; NaN where there is none, the first where one locks."""
+        """Return mean efficiency and mean coefficient of simultaneous contacts.
+
+        Both are NaN without a contact. The efficiency is NaN if one of the contacts locks.
+        """
         sliding, into, out = rubbing
         mu = self.by(sliding)
         touching = ~np.isnan(out)
@@ -113,19 +119,19 @@ class RubbedTransmission(DerivedTransmission):
 
     @property
     def locks(self) -> bool:
-        """True if the coefficient of the moment locks the pair at some driver angle."""
+        """True if the coefficient of friction locks the pair at some driver angle."""
         return self.transmission.locking_friction < inf and bool(np.isnan(self._sampled.efficiency).any())
 
     @cached_property
     def _stretches(self) -> list[tuple[float, float]]:
-        """The smooth stretches of one period, in driver angle."""
+        """Intervals of driver angle [rad] in one period on which the transmission function is smooth."""
         cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
     @cached_property
     def _sampled(self) -> _Nodes:
-        """Nodes of a whole period where teeth touch, with weights whose sum is 1."""
+        """Nodes of a whole period at which teeth are in contact, with weights whose sum is 1."""
         if (given := self.transmission.rubbing_nodes()) is not None:
             S, weights, rubbing = given
             parts = [_Nodes(S, weights, *self._passed(rubbing))]
@@ -137,7 +143,10 @@ class RubbedTransmission(DerivedTransmission):
         return _Nodes(S[touching], weights / weights.sum(), efficiency[touching], coefficient[touching])
 
     def _graded(self, whole: _Nodes, low: float, high: float, depth: int = 0) -> Iterator[_Nodes]:
-        """Nodes on one stretch, halved until the power put in for a constant load is integrated to rounding."""
+        """Yield nodes on one interval by adaptive Gauss-Legendre quadrature.
+
+        The interval is bisected until the work put in for a constant load is integrated to rounding error.
+        """
         middle = (low + high) / 2
         ends = ((low, middle), (middle, high))
         halves = [self._nodes(*each) for each in ends]
@@ -155,18 +164,20 @@ class RubbedTransmission(DerivedTransmission):
         return _Nodes(S, (high - low) / 2 * w, *self._passed(self.rubbing(S)))
 
     def efficiency_mean(self) -> float:
-        """Mean over the driver's angle in contact at constant driver torque; NaN where friction locks."""
+        """Return the mean efficiency over the driver's angle in contact, at constant driver torque; NaN if friction
+        locks.
+        """
         return nan if self.locks else float(self._sampled.weights @ self._sampled.efficiency)
 
     def efficiency_at_constant_load(self) -> float:
-        """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
+        """Return the work done on a constant load torque over the work put in, per pitch; NaN if friction locks."""
         if self.locks:
             return nan
         speed, at = self.speed(self._sampled.S), self._sampled
         return float((at.weights @ speed) / (at.weights @ (speed / at.efficiency)))
 
     def efficiency_minimum(self) -> float:
-        """Least efficiency among the nodes of all stretches and at their ends; NaN where friction locks."""
+        """Return the minimum efficiency at the nodes and the ends of all smooth intervals; NaN if friction locks."""
         if self.locks:
             return nan
         if self.transmission.rubbing_nodes() is not None:
@@ -177,12 +188,14 @@ class RubbedTransmission(DerivedTransmission):
 
 
 def rubbed(transmission: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
-    """The law of a pair with the friction that its wheels declare, where that depends on speed; else as it is."""
+    """Return the transmission function with the declared friction of its wheels if that depends on speed, else
+    unchanged.
+    """
     by = pair_friction(wheels)
     return transmission if by is None else RubbedTransmission(transmission, by)
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
-    """The law of friction of a pair at its speed; None where friction is a number, or no speed is known."""
+    """Return the friction law of a pair at its pitch-line speed; None if friction is a number or no speed is known."""
     declared, at = wheels.friction_law, wheels.pitch_line
     return None if declared is None or at is None else PairFriction(declared, at)

@@ -1,6 +1,6 @@
-"""Standard teeth where none are declared: involutes without shift, as tall as run with every mate.
+"""Standard teeth for pairs that declare none: involutes without profile shift, as tall as they run with every mate.
 
-What is drawn, what turns on the screen, what is kept free in a layout and what is cut all come from here.
+Drawings, the viewer, layouts and exports of wheels all take their teeth from here.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MOST_TEETH = 10_000
 
 @dataclass(frozen=True, slots=True)
 class UndeclaredWheel:
-    """A wheel that declares no teeth: its tooth number, and whether it is a ring."""
+    """Wheel that declares no tooth form: its tooth number, and whether it is a ring."""
 
     z: int
     internal: bool = False
@@ -31,22 +31,23 @@ class UndeclaredWheel:
 
 @dataclass(frozen=True, slots=True)
 class StandardTeeth:
-    """Standard teeth of a wheel: pressure angle (deg) and addendum (modules)."""
+    """Standard teeth of a wheel: pressure angle [deg] and addendum [module]."""
 
     angle: int
     addendum: float
 
     @property
     def words(self) -> str:
-        """What they are."""
+        """Description of the teeth in prose."""
         return f"involute, {self.angle} degrees (no form is declared)"
 
 
 def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[str, str]]) -> dict[str, StandardTeeth]:
-    """The teeth of all wheels: of those that are connected by `pairs` the same pressure angle, of each its addendum.
+    """Return the standard teeth of all wheels by name.
 
-    A wheel is as tall as it runs with the worst of its mates. Where no pressure angle lets all run, 20 degrees is kept,
-    and the pair that does not run says why.
+    Wheels that are connected by `pairs` have the same pressure angle, and each has the largest addendum with which it
+    runs with all its mates. If no pressure angle lets all pairs run, 20 degrees is used, and the verdict on a pair that
+    does not run gives the reason.
     """
     mates: dict[str, list[str]] = {name: [] for name in gears}
     for first, second in pairs:
@@ -75,7 +76,7 @@ def _hanging_together(first: str, mates: Mapping[str, list[str]]) -> list[str]:
 def _design(
     group: Iterable[str], gears: Mapping[str, UndeclaredWheel], mates: Mapping[str, list[str]], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """The teeth of wheels that are connected; None if at this pressure angle some pair of them does not run."""
+    """Return the teeth of connected wheels; None if at this pressure angle some pair of them does not run."""
     addenda: dict[str, float] = {}
     edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
     for name in group:
@@ -91,12 +92,12 @@ def _design(
 
 
 def _turned(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
-    """The two wheels of a pair, a ring last."""
+    """Return the two wheels of a pair, a ring last."""
     return (second, first) if first.internal else (first, second)
 
 
 def _tallest(first: UndeclaredWheel, second: UndeclaredWheel, angle: int) -> float | None:
-    """The tallest teeth with which a pair runs."""
+    """Return the largest addendum (modules) with which a pair runs; None if it runs with none."""
     return next((height for height in _ADDENDA if _runs(first, second, angle, height, height)), None)
 
 
@@ -111,17 +112,17 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """A mate for a wheel that meshes with none: an equal one, or a pinion half as large as a ring."""
+    """Return a mate for a wheel that meshes with none: an equal wheel, or for a ring a pinion of half its teeth."""
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 
 def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) -> Involute:
-    """The form of a pair of standard wheels with some play (modules); both have one pressure angle."""
+    """Return the form of a pair of standard wheels with some backlash (modules). Both have the same pressure angle."""
     return _form(first.angle, first.addendum, second.addendum, backlash)
 
 
 def check_size(z: int) -> None:
-    """Raise `GearTrainError` for a wheel of more teeth than are ever cut."""
+    """Raise `GearTrainError` for a wheel of more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
         what, why = f"a wheel of {z} teeth is not cut tooth by tooth", f"a wheel has {MOST_TEETH} at most"
         raise GearTrainError(Problem(what, why, "take a disc for a likeness"))

@@ -1,4 +1,6 @@
-"""Teeth of uniform temperature: the frictional heat on each bit of profile, all of it carried off by the lubricant."""
+"""Teeth of uniform temperature: uniform frictional heat per area of profile, removed by the lubricant where it is
+produced.
+"""
 
 from __future__ import annotations
 
@@ -22,15 +24,16 @@ _INVOLUTE = pi / 9  # 20 deg, whose working depth is the default
 
 
 class UniformTemperature(ConjugateToothForm):
-    """Teeth of uniform temperature: the heat of friction per area of profile is the same at every instant.
+    """Teeth of uniform temperature: the frictional heat per area of profile is the same at every instant.
 
-    Three readings of the source: a, on the first wheel only; b, on the hotter of the two, which is always the
-    dedendum; c, as b, but a constant pressure angle from the pitch point until that heat is reached, which keeps the
-    stress there finite (docs/shapes.md).
+    There are three readings of the source. In reading a, the heat is uniform on the first wheel. In reading b, it is
+    uniform on the hotter profile of the two, which is always the dedendum. In reading c, as in b, but with a constant
+    pressure angle from the pitch point until that heat is reached, which keeps the stress finite there
+    (docs/shapes.md).
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : the other optima of that source.
+    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : the other optima of the same source.
 
     Examples
     --------
@@ -69,12 +72,12 @@ class UniformTemperature(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, with what would let them.
+            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
         """
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
@@ -86,7 +89,7 @@ class UniformTemperature(ConjugateToothForm):
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
-        """Approach and recess with gamma = (A + B) / heat."""
+        """Return approach and recess with gamma = (A + B) / heat."""
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
         from geartrain.teeth.conjugate.path_of_contact import none
 
@@ -105,7 +108,7 @@ class UniformTemperature(ConjugateToothForm):
         return found[0], found[1]
 
     def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
-        """The sides with the wanted working depth, which grows with gamma."""
+        """Return approach and recess with the requested working depth, which increases with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
         from geartrain.teeth.conjugate.path_losses import depth, to_depth
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact

@@ -50,7 +50,7 @@ _LEAVES = {  # addendum and radius of the arc (modules), by profile and by wheth
     "B": {False: (0.67, 0.70), True: (0.805, 0.84)},
     "C": {False: (0.855, 1.05), True: (1.05, 1.25)},
 }
-_SCOPE = "these teeth are for external pairs of spur wheels, no rings or bevels; a contrate is taken for a spur wheel"
+_SCOPE = "circular-arc teeth are for external pairs of spur wheels; a contrate wheel is treated as a spur wheel"
 
 
 def addendum_factor(z: int, ratio: float) -> float:
@@ -97,29 +97,39 @@ class CircularArc(ToothForm):
 
     any_distance: ClassVar[bool] = True
 
-    form: Literal["circular_arc"] = Field(description="The name of this form")
+    form: Literal["circular_arc"] = Field(description="Name of the tooth form")
     pinion: Annotated[Literal[1, 2], BeforeValidator(_wheel_number)] | None = Field(
         None,
-        description="Which wheel of the pair has leaves; default the one with fewer teeth, of equal ones the second",
+        description="Number of the wheel that is the pinion, 1 or 2; default the wheel with fewer teeth, the second of "
+        "equal ones",
     )
     leaf: Literal["A", "B", "C"] | None = Field(
-        None, description="Tips of the leaves: A round, B and C pointed; default C to 7 leaves, B to 9, A from 10"
+        None,
+        description="Tip profile of the leaves: A round, B and C pointed; default C up to 7 leaves, B for 8 and 9, A "
+        "from 10",
     )
     addendum: TwoFigures | None = Field(
-        None, description="Height of the tips in modules, one or one a wheel; default the standard's"
+        None,
+        description="Addendum in modules, one value, or a list of two (first, second wheel); default that of the "
+        "standard",
     )
     radius: TwoFigures | None = Field(
-        None, description="Radius of the arcs in modules, one or one a wheel; default the standard's"
+        None,
+        description="Radius of the tip arcs in modules, one value, or a list of two (first, second wheel); default "
+        "that of the standard",
     )
     thickness: TwoFigures | None = Field(
-        None, description="Thickness on the pitch circle in modules, one or one a wheel; default the standard's"
+        None,
+        description="Tooth thickness on the pitch circle in modules, one value, or a list of two (first, second "
+        "wheel); default that of the standard",
     )
     backlash: Length | None = Field(
         None,
-        description="Least play on the pitch circle, in modules or with a unit; thins the leaves where they have less",
+        description="Minimum backlash on the pitch circle, in modules or with a unit; the leaves are thinned if they "
+        "have less; default that of the standard",
     )
     centre_distance: Length | None = Field(
-        None, description="Distance of the two axes, in modules or with a unit; default half the sum of the teeth"
+        None, description="Centre distance, in modules or with a unit; default half the sum of the tooth numbers"
     )
 
     @model_validator(mode="after")
@@ -127,13 +137,13 @@ class CircularArc(ToothForm):
         for name in ("addendum", "radius", "thickness"):
             for figure in getattr(self, name) or ():
                 if figure.value <= 0:
-                    raise bad("length", f"{name} {figure.text} is no size of a tooth", "write modules above 0")
+                    raise bad("length", f"{name} {figure.text} is not above 0", "give a number of modules above 0")
         if self.thickness is not None and self.backlash is not None:
-            raise bad("backlash", "thickness and backlash are both given", "give one of them")
+            raise bad("backlash", "thickness and backlash are both given", "remove `thickness` or `backlash`")
         if self.backlash is not None and not self.backlash.value >= 0:
-            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "write 0 or more")
+            raise bad("backlash", f"a backlash of {self.backlash.text} would jam the teeth", "give 0 or more")
         if self.centre_distance is not None and self.centre_distance.value <= 0:
-            raise bad("length", f"centre_distance {self.centre_distance.text} is no length", "write it above 0")
+            raise bad("length", f"centre_distance {self.centre_distance.text} is not above 0", "give a length above 0")
         return self
 
     # ----------------------------------------------------------------------------------------------- teeth of a pair
@@ -160,7 +170,9 @@ class CircularArc(ToothForm):
         """
         for z in (z1, z2):
             if not _FEWEST <= z <= _MOST_TEETH:
-                why = f"BS 978 has leaves from 6 on, and here {_FEWEST} to {_MOST_TEETH} teeth are made"
+                why = (
+                    f"circular-arc teeth are computed for {_FEWEST} to {_MOST_TEETH} teeth (BS 978 begins at 6 leaves)"
+                )
                 raise refused(f"a wheel of {z} teeth has no circular-arc teeth", why, IDEAL)
         pinion = self.pinion or (1 if z1 < z2 else 2)
         zp, zw = (z1, z2) if pinion == 1 else (z2, z1)
@@ -187,10 +199,10 @@ class CircularArc(ToothForm):
             tooth = ArcTooth(z, thickness, addendum, radius, deep if at + 1 == pinion else max(deep, pi / 2))
             if not tooth.fits:
                 raise refused(
-                    f"no circular-arc tooth of {z} is {thickness:.4g} modules thick and {addendum:.4g} high on arcs of "
-                    f"{radius:.4g}",
-                    "the arc must rise from the pitch circle to the tip, and a flank be left under it",
-                    "leave addendum, radius and thickness to the standard, or take a greater radius or a thinner tooth",
+                    f"circular-arc teeth of a wheel of {z} cannot be {thickness:.4g} modules thick and {addendum:.4g} "
+                    f"high with arcs of radius {radius:.4g}",
+                    "the arc must rise from the pitch circle to the tip and leave a flank below it",
+                    "remove `addendum`, `radius` and `thickness`, or give a larger radius or a smaller thickness",
                 )
             made.append(tooth)
         return made[0], made[1]
@@ -257,14 +269,13 @@ class CircularArc(ToothForm):
         del shaft_angle
         odd = [kind for kind in wheels.kinds if kind not in ("spur", "contrate")]
         if odd or any(wheels.internal):
-            why = f"a {odd[0]} wheel does not mesh as spur wheels do" if odd else "a ring has its teeth inside"
-            raise refused("it cannot have circular-arc teeth", why, f"{_SCOPE}; {IDEAL}")
+            raise refused(f"a {f'{odd[0]} wheel' if odd else 'ring'} cannot have circular-arc teeth", _SCOPE, IDEAL)
         transmission = self.transmission(*wheels.counts, wheels.friction or 0.0, module=wheels.module)
         teeth = self.teeth(*wheels.counts, wheels.module)
         cut = [FixedTooth(each.tip, each.root, tuple(each.vertices())) for each in teeth]
         return OutlineMesh(wheels, self, wheels.driver, transmission, (cut[0], cut[1]))
 
-    # ------------------------------------------------------------------------------------------------- a maker's play
+    # ------------------------------------------------------------------------------------------------- backlash
 
     def own_backlash(self, pair: str) -> Problem | None:
         """Return the reason why a requested backlash cannot be applied to this pair.
@@ -278,8 +289,8 @@ class CircularArc(ToothForm):
         """
         if self.backlash is None and self.thickness is None:
             return None
-        why = "it declares its backlash or thickness, and what is declared wins"
-        fix = "leave --backlash out, or take it out of the file"
+        why = "a declared backlash or thickness takes precedence over the option"
+        fix = "leave --backlash out, or remove `backlash` and `thickness` from the file"
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
@@ -303,9 +314,9 @@ def _modules(length: Quantity, module: float | None, name: str) -> float:
         return float(length.value)
     if module is None:
         raise refused(
-            f"the {name} {length.text} has nothing to be compared with",
+            f"the {name} {length.text} cannot be converted to modules",
             "the wheels declare no module with a unit",
-            f"give the `module` of both wheels, or the {name} as a plain number of modules",
+            f"declare the `module` of both wheels with a unit, or give the {name} as a number of modules",
         )
     return length.si / module
 

@@ -32,14 +32,16 @@ class CoulombFriction(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
-    sliding: Friction = Field(description="Coefficient while surfaces slide")
+    sliding: Friction = Field(description="Coefficient of sliding friction")
     static: Friction | None = Field(
-        None, description="Coefficient at rest, which a start has to overcome; `sliding` or more, default `sliding`"
+        None,
+        description="Coefficient of static friction, which a start has to overcome; `sliding` or more, default "
+        "`sliding`",
     )
     deviation: Friction | None = Field(
         None,
-        description="Standard deviation of a normal distribution about `sliding`, for Monte Carlo; `static` keeps its "
-        "ratio to `sliding`; default 0",
+        description="Standard deviation of the normal distribution of `sliding` in Monte Carlo runs; `static` keeps "
+        "its ratio to `sliding`; default 0",
     )
 
     @model_validator(mode="after")
@@ -51,7 +53,7 @@ class CoulombFriction(BaseModel):
                 {
                     "static": self.static.text,
                     "sliding": self.sliding.text,
-                    "fix": "what slides is never harder to move than what rests: give `static` as `sliding` or more",
+                    "fix": "give a `static` friction of `sliding` or more, or leave `static` out",
                 },
             )
         return self
@@ -78,10 +80,10 @@ def _from_nothing_to_all(figure: Figure) -> Figure:
     if not 0 <= figure.value <= 1:
         raise PydanticCustomError(
             "restitution",
-            "a restitution of {text} is none",
+            "a restitution of {text} is out of range",
             {
                 "text": figure.text,
-                "fix": "it is from 0, where what meets stays together, to 1, where no energy is lost",
+                "fix": "give a number from 0 (no rebound) to 1 (no loss of energy)",
             },
         )
     return figure

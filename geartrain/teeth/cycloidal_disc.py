@@ -33,14 +33,14 @@ _FEWEST, _MOST = 16, 4096  # points of a lobe
 _PHASES = 64  # of a pitch, for means
 _FREE = 0.1  # modules between lobes and the ring behind the pins
 _WORDS = (
-    "Discs of lobes in rings of pins, each in the frame of its eccentric. Shortening is the ring's pitch radius over "
-    "that of the pins' circle; bearing, how many pins bear at once, which are fewer where a clearance and the "
-    "`deflection` of a pin are given; the greatest load is that of one pin over the force on the disc's pitch circle, "
-    "pins equally stiff; play in degrees of the driven wheel; efficiency of pins that do not roll, as the pair is "
-    "driven, and driven back."
+    "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring over the "
+    "radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
+    "`deflection` of a pin is given. Maximum load: load on one pin over the force on the disc's pitch circle, for pins "
+    "of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the pair "
+    "is driven, and driven back."
 )
 _HEADER = (
-    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "greatest load", "play (deg)"),
+    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "maximum load", "backlash (deg)"),
     *("efficiency", "driven back"),
 )
 

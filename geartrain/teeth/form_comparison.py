@@ -173,8 +173,9 @@ def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> Conjugat
 
 def arcs_error(text: str) -> QuestionError:
     """Return the error for arcs of contact that are out of range."""
-    fix = "give those of approach and recess in pitches, such as 0.5,0.5; together 1 or more"
-    return QuestionError(Problem(f"arcs {text} are none", "", fix, "--arcs"))
+    why = f"arcs of approach and recess are from 0 to {_MOST_PITCHES:g} pitches, and not both 0"
+    fix = "give two arcs with a sum of 1 or more, such as `--arcs 0.5,0.5`"
+    return QuestionError(Problem(f"arcs of {text} are out of range", why, fix, "--arcs"))
 
 
 def _check(
@@ -182,16 +183,18 @@ def _check(
 ) -> None:
     """Raise `QuestionError` for unknown names, arcs out of range and pressure angles of 45 deg or more."""
     if not names:
-        raise QuestionError(Problem("no form is named", "", f"use some of: {', '.join(known)}", "--forms"))
+        raise QuestionError(
+            Problem("no tooth form is given", "", f"give one or more of: {', '.join(known)}", "--forms")
+        )
     for name in names:
         if name not in known:
-            fix = suggest(name, list(known), otherwise=f"use some of: {', '.join(known)}", wide=True)
-            raise QuestionError(Problem(f"there is no tooth form '{name}' to compare", "", fix, "--forms"))
+            fix = suggest(name, list(known), otherwise=f"give one or more of: {', '.join(known)}", wide=True)
+            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix, "--forms"))
     if not 0 <= min(arcs) <= max(arcs) <= _MOST_PITCHES or sum(arcs) <= 0:
         raise arcs_error(",".join(f"{arc:g}" for arc in arcs))
     if angle is not None and not 0 < angle.base < _EIGHTH:
-        why = "at 45 deg and above teeth of uniform stress are no longer determined by it"
-        fix = "give one between 0 and 45 deg; 20 deg is usual"
+        why = "from 45 deg on, the pressure angle does not determine teeth of uniform stress"
+        fix = "give an angle between 0 and 45 deg, such as `--pressure-angle 20deg`"
         raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "--pressure-angle"))
 
 
@@ -199,10 +202,10 @@ def _no_base(base: MeasuredForm) -> QuestionError:
     """Return the error for a reference involute that cannot run. Fixes by its pressure angle, which is given, are left
     out.
     """
-    what = "the 20 deg involute, with which forms are compared, cannot run: "
+    what = "the 20 deg involute, the reference of the comparison, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
     return QuestionError(
-        Problem(what + fault.what, fault.why, f"{fix}, or give other teeth", "--arcs")
+        Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "--arcs")
         for fault, fix in zip(base.faults, fixes, strict=True)
     )
 
@@ -254,6 +257,6 @@ def _measured(name: str, pair: ConjugatePair, base: PathMeasures | None = None) 
 def _matched(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
     """Return the text that lists the properties that all compared pairs have in common."""
     notes = dict.fromkeys(model.matched for model in models if model.matched)
-    common = "; ".join([f"arcs, {arcs[0]:g} pitches of approach and {arcs[1]:g} of recess", *notes])
-    loads = "one pair of teeth bears all, or those in contact share it; first order in friction"
-    return f"Matched: {common}. Two loads: {loads}."
+    common = "; ".join([f"arcs of contact, {arcs[0]:g} pitches in approach and {arcs[1]:g} in recess", *notes])
+    loads = "one tooth pair bears the whole load, or the tooth pairs in contact share it"
+    return f"Matched: {common}. Two loads: {loads}. Results are to first order in friction."

@@ -160,12 +160,18 @@ class StribeckFriction(FrictionLaw):
     [0.2, 0.1241, 0.08]
     """
 
-    law: Literal["stribeck"] = Field(description="Falls from rest to full sliding: Stribeck")
-    static: Coefficient = Field(description="Coefficient at rest")
-    kinetic: Coefficient = Field(description="Coefficient that it falls to")
-    speed: PositiveVelocity = Field(description="Speed of sliding at which 1/e of the fall is left")
-    exponent: PositiveFigure = Field(Figure.parse("2"), description="Of the speed, 2 by default; 1/2 to 2 are usual")
-    viscous: Coefficient = Field(Figure.parse("0"), description="What a speed of 1 m/s adds")
+    law: Literal["stribeck"] = Field(
+        description="Stribeck friction, which falls from `static` to `kinetic` with the sliding speed"
+    )
+    static: Coefficient = Field(description="Coefficient of static friction, at speed 0")
+    kinetic: Coefficient = Field(
+        description="Coefficient of kinetic friction, the limit at high speed without `viscous`"
+    )
+    speed: PositiveVelocity = Field(
+        description="Sliding speed at which 1/e of the difference of `static` and `kinetic` remains"
+    )
+    exponent: PositiveFigure = Field(Figure.parse("2"), description="Exponent of the speed, usually 1/2 to 2")
+    viscous: Coefficient = Field(Figure.parse("0"), description="Increase of the coefficient per m/s of sliding speed")
 
     def coefficient(self, speed: Floats) -> Floats:
         """Return the coefficient by `stribeck`."""
@@ -183,7 +189,7 @@ class BuckinghamFriction(FrictionLaw):
     [0.0517, 0.0112, 0.0385]
     """
 
-    law: Literal["buckingham"] = Field(description="Lubricated cast iron, by pitch-line speed: Buckingham")
+    law: Literal["buckingham"] = Field(description="Buckingham's friction of lubricated cast iron, by pitch-line speed")
 
     @property
     def of_pitch_line(self) -> bool:
@@ -205,10 +211,10 @@ class DokosFriction(FrictionLaw):
     [0.53, 0.48, 0.18]
     """
 
-    law: Literal["dokos"] = Field(description="Dry steel on dry steel, by speed of sliding: Dokos")
+    law: Literal["dokos"] = Field(description="Dokos's friction of dry steel on dry steel, by sliding speed")
     slowest: PositiveVelocity = Field(
         SLOWEST_OF_DOKOS,
-        description="Speed at which the coefficient is 0.53; default 0.0001 in/s, which is no source's",
+        description="Sliding speed up to which the coefficient is 0.53, an assumption: the source gives no speed",
     )
 
     def coefficient(self, speed: Floats) -> Floats:
@@ -226,18 +232,22 @@ class TabulatedFriction(FrictionLaw):
     [0.2, 0.175, 0.1]
     """
 
-    law: Literal["table"] = Field(description="Coefficients at speeds of your own")
-    speeds: tuple[Velocity, ...] = Field(description="Speeds, each above the last; level before the first and beyond")
-    coefficients: tuple[Coefficient, ...] = Field(description="The coefficient at each")
-    of: Speeds = Field("sliding", description="Of which speed: sliding, at each contact, or pitch_line")
+    law: Literal["table"] = Field(description="Table of coefficients at given speeds, interpolated linearly")
+    speeds: tuple[Velocity, ...] = Field(
+        description="Speeds in rising order; the coefficient is constant outside their range"
+    )
+    coefficients: tuple[Coefficient, ...] = Field(description="Coefficient of friction at each speed")
+    of: Speeds = Field("sliding", description="Speed of the table: sliding (at each contact) or pitch_line")
 
     @model_validator(mode="after")
     def _is_a_table(self) -> TabulatedFriction:
         speeds = [speed.base for speed in self.speeds]
         if len(speeds) != len(self.coefficients) or len(speeds) < 2:
-            raise _bad("speeds and coefficients are no two columns", "give as many of both, two at least")
+            raise _bad(
+                "speeds and coefficients do not form a table", "give as many coefficients as speeds, two or more"
+            )
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
-            raise _bad("these speeds do not rise from 0 or more", "write them in rising order")
+            raise _bad("the speeds are not in rising order from 0 or more", "give them in rising order")
         return self
 
     @property

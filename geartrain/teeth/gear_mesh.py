@@ -289,7 +289,7 @@ class GearMesh(Shown, ABC):
 
         `RangeError` is raised for teeth of another form.
         """
-        why, fix = "these sizes are of straight flanks that meet in a point", "declare `tooth_form: {form: triangular}`"
+        why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property
@@ -362,7 +362,7 @@ class GearMesh(Shown, ABC):
         if declared is None:
             return f"Coefficient of friction {self.transmission.friction:g}"
         if at is None:
-            return f"Friction by the law '{declared.law}' of speed, and no speed is known"
+            return f"Friction by the law '{declared.law}', which needs a speed, and the speed is not known"
         return (
             f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
             f"{self.losses.friction:.6g}"

@@ -31,7 +31,7 @@ class Ideal(ToothForm):
     (Fraction(1, 2), (0.0, 0.0), 1.0)
     """
 
-    form: Literal["ideal"] = Field(description="The name of this form")
+    form: Literal["ideal"] = Field(description="Name of the tooth form")
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
         """Return None, since these teeth add nothing to the ratio.

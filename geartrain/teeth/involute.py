@@ -48,21 +48,29 @@ class Involute(ConjugateToothForm):
     any_distance: ClassVar[bool] = True
     more_contact: ClassVar[str] = "take more teeth, taller ones, or a smaller pressure angle"
 
-    form: Literal["involute"] = Field(description="The name of this form")
+    form: Literal["involute"] = Field(description="Name of the tooth form")
     pressure_angle: Angle = Field("20 deg", validate_default=True, description="Pressure angle of the rack")
     shift: TwoFigures = Field(
-        "0", validate_default=True, description="How far the rack is shifted outwards, in modules; one or one a wheel"
+        "0",
+        validate_default=True,
+        description="Profile shift in modules, positive outwards, one value, or a list of two (first, second wheel)",
     )
     addendum: TwoFigures = Field(
-        "1", validate_default=True, description="Height of the tips over the rack's pitch line, in modules"
+        "1",
+        validate_default=True,
+        description="Addendum from the rack's pitch line, in modules, one value, or a list of two (first, second "
+        "wheel)",
     )
     dedendum: TwoFigures = Field(
-        "1.25", validate_default=True, description="Depth of the roots under the rack's pitch line, in modules"
+        "1.25",
+        validate_default=True,
+        description="Dedendum from the rack's pitch line, in modules, one value, or a list of two (first, second "
+        "wheel)",
     )
     proportions: Literal["full", "deep", "stub"] | None = Field(
         None,
-        description="In place of addendum and dedendum, in modules: full has 1 and 1.25 (ISO 53 A), deep 1 and 1.4, "
-        "stub 0.8 and 1",
+        description="Named addendum and dedendum, instead of the two, in modules: full has 1 and 1.25 (ISO 53 A), deep "
+        "1 and 1.4, stub 0.8 and 1",
     )
 
     @model_validator(mode="before")
@@ -72,7 +80,9 @@ class Involute(ConjugateToothForm):
         if heights is None or not isinstance(given, dict):
             return given
         if twice := {"addendum", "dedendum"} & given.keys():
-            raise bad("height", f"{min(twice)} and proportions are both given", "give one of them")
+            raise bad(
+                "height", f"{min(twice)} and proportions are both given", f"remove `{min(twice)}` or `proportions`"
+            )
         rest = {name: value for name, value in given.items() if name != "proportions"}
         return {**rest, "addendum": heights[0], "dedendum": heights[1]}
 
@@ -82,12 +92,12 @@ class Involute(ConjugateToothForm):
         for name in ("addendum", "dedendum"):
             for height in getattr(self, name):
                 if height.value <= 0:
-                    raise bad("height", f"{name} {height.text} is no height", "write modules above 0")
+                    raise bad("height", f"{name} {height.text} is not above 0", "give a number of modules above 0")
         for name in ("shift", "addendum", "dedendum"):
             for length in getattr(self, name):
                 if abs(length.value) > _MOST_MODULES:
                     raise bad(
-                        "height", f"{name} {length.text} is taller than any wheel", f"write at most {_MOST_MODULES:g}"
+                        "height", f"{name} {length.text} is out of range", f"give at most {_MOST_MODULES:g} modules"
                     )
         return self
 
@@ -220,7 +230,7 @@ class Involute(ConjugateToothForm):
             if distance <= minimum:
                 raise refused(
                     f"a centre distance of {distance:.6g} modules is too short for these involutes",
-                    f"their base circles need more than {minimum:.6g}; the unshifted design has {wheels.distance:g}",
+                    f"their base circles need more than {minimum:.6g}; without profile shift it is {wheels.distance:g}",
                     "give a longer centre_distance or a larger pressure_angle",
                 )
         thinned = wheels.modules(self.backlash, "backlash")
@@ -257,9 +267,11 @@ class Involute(ConjugateToothForm):
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         if sum(figure.value for figure in self.shift):
-            raise refused("the shifts of a bevel pair do not sum to 0", "its axes keep their pitch cones", _PAIR)
+            raise refused(
+                "the shifts of a bevel pair do not sum to 0", "the shaft angle fixes their pitch cones", _PAIR
+            )
         if self.centre_distance is not None:
-            raise refused("bevel wheels have no centre distance", "their axes meet", "leave out centre_distance")
+            raise refused("bevel wheels have no centre distance", "their axes intersect", "remove `centre_distance`")
         pitch, psi = wheels.pitch, self.pressure_angle.si
         arcs = []
         for at, R, z in ((1, pitch.R2, wheels.z2), (0, pitch.R1, wheels.z1)):
@@ -268,15 +280,15 @@ class Involute(ConjugateToothForm):
             if not base_cone(R, psi) <= tip < pi:
                 raise refused(
                     f"the tips of wheel {at + 1} do not lie beyond its base cone",
-                    f"they stand {height:g} modules over its pitch cone",
-                    "give it a greater addendum or a smaller shift inwards",
+                    f"they are {height:g} modules above its pitch cone",
+                    "give it a larger addendum or a smaller negative shift",
                 )
             arcs.append(spherical_arc(R, psi, tip))
         if sum(arcs) <= 0:
             raise refused(
                 "the teeth do not reach each other",
-                "the tips of one wheel part from the line of action before those of the other meet it",
-                "give greater addenda, or shift the wheels less far apart",
+                "the tips of one wheel leave the line of action before the tips of the other wheel reach it",
+                "give larger addenda, or smaller shifts",
             )
         approach, recess = (forms.involute(max(X, 0.0), psi) for X in arcs)
         return ConjugatePair(

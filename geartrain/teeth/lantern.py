@@ -46,32 +46,38 @@ class Lantern(ConjugateToothForm):
     ('the teeth run', [0.0, 1.0])
     """
 
-    matched: ClassVar[str] = "the pins of a lantern have all of it in recess, beyond what they cut off"
+    matched: ClassVar[str] = "for a lantern the sum in recess only, beyond the part that its pins cut off"
 
-    form: Literal["lantern"] = Field(description="The name of this form")
+    form: Literal["lantern"] = Field(description="Name of the tooth form")
     pins: Annotated[Literal[1, 2], BeforeValidator(_first_or_second)] = Field(
-        2, description="Which wheel of the pair is the lantern"
+        2, description="Number of the wheel that is the lantern"
     )
-    pin_diameter: Length = Field("1.5", validate_default=True, description="In modules or with a unit")
+    pin_diameter: Length = Field(
+        "1.5", validate_default=True, description="Diameter of the pins, in modules or with a unit"
+    )
     pin_radius: Length | None = Field(
         None,
-        description="Distance of the pins from the lantern's axis, in modules or with a unit; default pitch radius",
+        description="Radius of the circle through the pins' centres, in modules or with a unit; default the pitch "
+        "radius",
     )
     arcs: TwoFigures | None = Field(
         None,
-        description="Arcs of approach and recess in pitches; default one, on the addendum of the pins' "
-        "mate, and what the pins cut off it",
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default one pitch on "
+        "the "
+        "addendum of the pins' mate, beyond the part that the pins cut off",
     )
-    addendum: Figure | None = Field(None, description="In place of arcs: addendum of the pins' mate in modules")
+    addendum: Figure | None = Field(None, description="Addendum of the pins' mate in modules, instead of arcs")
 
     @model_validator(mode="after")
     def _parameters_make_sense(self) -> Lantern:
         lengths = {"pin_diameter": self.pin_diameter, "pin_radius": self.pin_radius, "addendum": self.addendum}
         for name, length in lengths.items():
             if length is not None and length.value <= 0:
-                raise bad("length", f"{name} {length.text} is no length", "write it above 0")
+                raise bad("length", f"{name} {length.text} is not above 0", "give a length above 0")
         if self.arcs is not None and self.addendum is not None:
-            raise bad("arcs", "arcs and addendum are both given", "give one of them: each follows from the other")
+            raise bad(
+                "arcs", "arcs and addendum are both given", "remove `arcs` or `addendum`: each determines the other"
+            )
         if self.arcs is not None:
             check_arcs(self.arcs)
         return self
@@ -92,9 +98,9 @@ class Lantern(ConjugateToothForm):
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(
-                    f"this lantern is {distance - wheels.distance:+.6g} modules off its centre distance",
-                    "its mate keeps the ratio at the design distance only, and off it the law of pins is not covered",
-                    "leave out centre_distance, or take another tooth_form",
+                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off its design",
+                    "its mate keeps the ratio at the design distance only, and other distances are not modelled",
+                    "remove `centre_distance`, or give another tooth_form",
                 )
             )
         return None
@@ -116,7 +122,7 @@ class Lantern(ConjugateToothForm):
         if wheels.bevel:
             raise _beyond("a bevel lantern", "round pins on a cone have no mate in closed form")
         if wheels.internal and self.pins == 2:
-            raise _beyond("a ring of pins", "`tooth_form: pin_ring` has it, for a disc of one lobe less")
+            raise _beyond("a ring of pins", "`tooth_form: pin_ring` models it, for a disc with one lobe less")
         pitch = wheels.pitch
         R, mate = (pitch.R2, pitch.R1) if self.pins == 2 else (pitch.R1, pitch.R2)
         A, B = self._sizes(R, wheels)
@@ -166,9 +172,9 @@ class Lantern(ConjugateToothForm):
             "undercut",
             mate,
             -start if self.pins == 1 else start,
-            f"gear {mate} is undercut by the pins on their way in",
-            f"they leave of its flanks what begins {side}, with {left:.6g} pitches of contact",
-            f"give an arc of {max(-where, 0):.4g} pitches at most on its dedendum and of at least {1 + where:.6g} on "
+            f"gear {mate} is undercut by the approaching pins",
+            f"its remaining flanks begin {side}, with {left:.6g} pitches of contact",
+            f"give an arc of at most {max(-where, 0):.4g} pitches on its dedendum and of at least {1 + where:.6g} on "
             "its addendum, a smaller pin_diameter, or a smaller pin_radius",
         )
         return (fault,)
@@ -195,15 +201,15 @@ class Lantern(ConjugateToothForm):
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"its radius is {R:.6g} modules and theirs {B:.6g}, so no contact passes the pitch point",
+                f"its radius is {R:.6g} modules and that of a pin {B:.6g}, so no contact passes the pitch point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
         most = 2 * A * sin(pi / z)
         if most <= 2 * B:
             raise refused(
                 f"pins of {2 * B:.6g} modules touch each other",
-                f"{z} of them stand {most:.6g} modules apart",
-                f"give a pin_diameter below {most:.6g} modules, half of which leaves room for the mate's teeth",
+                f"the centres of {z} pins are {most:.6g} modules apart",
+                f"give a pin_diameter below {most:.6g} modules; half of that leaves space for the mate's teeth",
             )
         return A, B
 
@@ -228,5 +234,5 @@ class Lantern(ConjugateToothForm):
 
 def _beyond(what: str, why: str) -> RangeError:
     return RangeError(
-        Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or take another tooth_form")
+        Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or give another tooth_form")
     )

@@ -45,25 +45,30 @@ class LeastFriction(ConjugateToothForm):
     [0.9895, 0.9847]
     """
 
-    form: Literal["least_friction"] = Field(description="The name of this form")
+    form: Literal["least_friction"] = Field(description="Name of the tooth form")
     pressure_angle: Angle | None = Field(
-        None, description="Greatest pressure angle, at the pitch point, at most 45 deg; default 25 deg"
+        None, description="Maximum pressure angle, which is at the pitch point, at most 45 deg; default 25 deg"
     )
     friction_law: FrictionLawOfText | None = Field(
-        None, description="Law of speed under which the loss is to be least; default a coefficient, whatever it is"
+        None, description="Friction law for which the loss is minimised; default a constant coefficient of any value"
     )
     pitch_line_speed: PositiveVelocity | None = Field(
-        None, description="Speed of the pitch line for which they are made, with friction_law"
+        None, description="Pitch-line speed for which the teeth are designed, required with friction_law"
     )
     margin: Figure | None = Field(
-        None, description="Least speed of the contact along a dedendum over the pitch-line speed; default 0.15"
+        None, description="Minimum speed of the contact along a dedendum over the pitch-line speed; default 0.15"
     )
-    literal: bool = Field(False, description="The source's extremal, from pressure_angles down, on one side")
+    literal: bool = Field(
+        False, description="Use the extremal printed in the source, on one side only, with falling pressure_angles"
+    )
     pressure_angles: tuple[Angle, Angle] | None = Field(
         None, description="First and last pressure angle of the literal shape; default [80 deg, 50 deg]"
     )
     arcs: TwoFigures | None = Field(
-        None, description="Arcs of approach and recess in pitches; default half each, literal [0, 1]"
+        None,
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default 1/2 each, for "
+        "the "
+        "literal shape [0, 1]",
     )
 
     @model_validator(mode="after")
@@ -72,39 +77,43 @@ class LeastFriction(ConjugateToothForm):
             check_arcs(self.arcs)
         if (self.friction_law is None) != (self.pitch_line_speed is None):
             fix = "give both, or neither"
-            raise bad("friction_law", "teeth for a law of friction are made for one speed of the pitch line", fix)
+            raise bad("friction_law", "friction_law and pitch_line_speed belong together", fix)
         return self._literal_makes_sense() if self.literal else self._usual_makes_sense()
 
     def _usual_makes_sense(self) -> LeastFriction:
         if self.pressure_angles is not None:
-            raise bad("literal", "pressure_angles belong to the literal shape", "give pressure_angle, or literal: true")
+            raise bad(
+                "literal", "pressure_angles are for the literal shape only", "give `pressure_angle`, or `literal: true`"
+            )
         if self.pressure_angle is not None:
             check_angle("pressure_angle", self.pressure_angle, 0.125)
         if self.margin is not None and self.margin.value <= 0:
-            raise bad("margin", f"a margin of {self.margin.text} lets the contact stand still", "write it above 0")
+            raise bad("margin", f"with a margin of {self.margin.text} the contact would stop", "give a margin above 0")
         fastest = sin((self.pressure_angle or _CEILING).si)
         if (self.margin or _MARGIN).value >= fastest:
             raise bad(
                 "margin",
                 f"a margin of {(self.margin or _MARGIN).text} is not below {fastest:.6g}, the speed at the pitch point",
-                "write it below the sine of the pressure angle, or give a larger pressure_angle",
+                "give a margin below the sine of the pressure angle, or a larger pressure_angle",
             )
         return self
 
     def _literal_makes_sense(self) -> LeastFriction:
         if self.friction_law is not None:
-            raise bad("literal", "the literal shape knows no law of friction", "leave friction_law out")
+            raise bad("literal", "the literal shape does not depend on a friction_law", "remove `friction_law`")
         if self.pressure_angle is not None or self.margin is not None:
-            raise bad("literal", "the literal shape has neither pressure_angle nor margin", "give pressure_angles")
+            raise bad(
+                "literal", "the literal shape has neither pressure_angle nor margin", "give `pressure_angles` instead"
+            )
         first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
         if not pi / 4 <= last < first < pi / 2:
             raise bad(
                 "pressure_angle",
-                "the pressure angles of the literal shape do not fall between 90 and 45 deg",
-                "its flanks have a cusp at 45 deg: give two angles above, the greater first",
+                "the pressure angles of the literal shape are not in falling order between 90 and 45 deg",
+                "give two angles from 45 to 90 deg, the larger one first: the flanks have a cusp at 45 deg",
             )
         if self.arcs is not None and min(arc.value for arc in self.arcs) > 0:
-            raise bad("arcs", "the literal shape has one side only", "give `arcs: [0, 1]` or `arcs: [1, 0]`")
+            raise bad("arcs", "the literal shape has contact on one side only", "give `arcs: [0, 1]` or `arcs: [1, 0]`")
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:

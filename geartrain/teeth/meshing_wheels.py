@@ -57,7 +57,7 @@ class MeshDriver(Result):
     """False if the direction of power flow is not determined. `wheel` is then only an assumption."""
 
 
-_CONTRATE = "the contrate is taken for a spur wheel"
+_CONTRATE = "the contrate wheel is treated as a spur wheel"
 
 
 @dataclass(frozen=True)

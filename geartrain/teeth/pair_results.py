@@ -277,7 +277,7 @@ def friction_lock(friction: float, locking: float) -> Problem:
     """Return the fault of teeth that lock at a coefficient of friction of `locking` or more."""
     return Problem(
         f"a friction of {friction:g} locks these teeth",
-        f"from {locking:.6g} on the driver pushes somewhere against more sliding than it can overcome",
+        f"at {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
         f"give a friction below {locking:.4g}, or let the other wheel drive",
     )
 
@@ -285,10 +285,9 @@ def friction_lock(friction: float, locking: float) -> Problem:
 def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
     """Return the fault of teeth that lock at some angle at their speed under a friction law."""
     return Problem(
-        f"friction by the law '{transmission}' locks these teeth",
-        f"somewhere the driver pushes against more sliding than it can overcome: a constant friction of {locking:.6g} "
-        "would",
-        "give less friction, another speed, or let the other wheel drive",
+        f"the friction law '{transmission}' locks these teeth at this speed",
+        f"the driver cannot overcome the sliding friction at some angle, as with a constant friction of {locking:.6g}",
+        "give a law with less friction or another speed, or let the other wheel drive",
     )
 
 

@@ -31,8 +31,8 @@ def _not_negative(length: Quantity) -> Quantity:
     if length.value < 0:
         raise PydanticCustomError(
             "pin",
-            "a clearance of {text} is none",
-            {"text": length.text, "fix": "a slot is as wide as its pin or wider: give 0 or more"},
+            "a clearance of {text} is negative",
+            {"text": length.text, "fix": "give 0 or more: a slot is as wide as its pin or wider"},
         )
     return length
 
@@ -43,24 +43,25 @@ class _Coupling(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
     id: str = Field("", description="Name of the coupling; default pin~slot")
-    pin: str = Field(description="The link that carries the pin")
-    slot: str = Field(description="The link that has the slot")
-    pin_radius: Length | None = Field(None, description="Distance of the pin from its own link's axis")
-    offset: Length | None = Field(None, description="Distance of the two links' axes")
+    pin: str = Field(description="Link that carries the pin")
+    slot: str = Field(description="Link that has the slot")
+    pin_radius: Length | None = Field(None, description="Distance of the pin from the axis of its own link")
+    offset: Length | None = Field(None, description="Distance between the axes of the two links")
     clearance: Annotated[Length, AfterValidator(_not_negative)] | None = Field(
-        None, description="Width of the slot less the diameter of the pin: the pin's play; default 0"
+        None, description="Width of the slot less the diameter of the pin; default 0"
     )
     friction: DeclaredCoulombFriction | None = Field(
-        None, description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}"
+        None,
+        description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}; default 0",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Speed of parting over speed of meeting where the pin strikes its slot; default the train's"
+        None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default the train's"
     )
     source: str | None = Field(None, description="Key of the source of the dimensions")
     status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
-        None, description="Whether the device survives, is forced by surviving parts, or is a proposal"
+        None, description="Evidence: the device survives, is reconstructed from surviving parts, or is a hypothesis"
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for the reader")
 
     @property
     def name(self) -> str:
@@ -81,7 +82,7 @@ class _Coupling(BaseModel):
 class PinAndSlot(_Coupling):
     """Pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
 
-    kind: Literal["pin_and_slot"] = Field(description="The pin's circle encloses the slot's axis: mean ratio 1")
+    kind: Literal["pin_and_slot"] = Field(description="Pin whose circle encloses the slot's axis: mean ratio 1")
 
     @model_validator(mode="after")
     def _encloses(self) -> PinAndSlot:
@@ -92,7 +93,7 @@ class PinAndSlot(_Coupling):
 class PinFollower(_Coupling):
     """Pin in a slotted follower whose axis lies outside the pin's circle: the follower oscillates about its carrier."""
 
-    kind: Literal["pin_follower"] = Field(description="The pin's circle leaves the slot's axis out: mean ratio 0")
+    kind: Literal["pin_follower"] = Field(description="Pin whose circle does not enclose the slot's axis: mean ratio 0")
 
     @model_validator(mode="after")
     def _leaves_out(self) -> PinFollower:
@@ -114,8 +115,8 @@ class _Uniform(_Coupling):
         for name in ("pin_radius", "offset", "pin_diameter"):
             length = getattr(self, name, None)
             if length is not None and length.value <= 0:
-                said = {"name": name, "text": length.text, "fix": "give it above 0"}
-                raise PydanticCustomError("pin", "{name} {text} is not a distance", said)
+                said = {"name": name, "text": length.text, "fix": "give a length above 0"}
+                raise PydanticCustomError("pin", "{name} {text} is not above 0", said)
         return self
 
     @property
@@ -132,11 +133,13 @@ class PinsInHoles(_Uniform):
     through the centres of the pins.
     """
 
-    kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at all times")
+    kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at every instant")
     pins: Annotated[int, BeforeValidator(_whole)] = Field(
-        6, ge=3, le=1000, description="How many pins stand evenly on their circle"
+        6, ge=3, le=1000, description="Number of pins, evenly spaced on their circle"
     )
-    pin_diameter: Length | None = Field(None, description="Of the pins; that of the holes is greater by twice `offset`")
+    pin_diameter: Length | None = Field(
+        None, description="Diameter of the pins; the diameter of the holes is larger by twice `offset`"
+    )
 
 
 class Parallel(_Uniform):
@@ -145,13 +148,15 @@ class Parallel(_Uniform):
     The links `pin` and `slot` are interchangeable. The coupling is not drawn.
     """
 
-    kind: Literal["parallel"] = Field(description="Cranks side by side, or a cross: ratio 1 at all times")
+    kind: Literal["parallel"] = Field(
+        description="Parallel cranks, an Oldham cross or the like: ratio 1 at every instant"
+    )
 
     @model_validator(mode="after")
     def _has_no_pin(self) -> Parallel:
         if self.pin_radius is not None or self.clearance is not None:
-            said = {"fix": "leave pin_radius and clearance out, or take `kind: pins_in_holes`"}
-            raise PydanticCustomError("pin", "what keeps two links parallel has no pin of its own", said)
+            said = {"fix": "remove `pin_radius` and `clearance`, or give `kind: pins_in_holes`"}
+            raise PydanticCustomError("pin", "a coupling of kind parallel has no pin", said)
         return self
 
 
@@ -170,7 +175,7 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
     if radius.value <= 0 or offset.value < 0:
         raise PydanticCustomError(
             "pin",
-            "pin_radius {radius} or offset {offset} is not a distance",
+            "pin_radius {radius} or offset {offset} is out of range",
             {
                 "radius": radius.text,
                 "offset": offset.text,
@@ -188,7 +193,10 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
         raise PydanticCustomError(
             "pin",
             "pin_radius {radius} equals the offset: the pin would pass through the slot's axis",
-            {"radius": radius.text, "fix": "make them differ: the mean motion is 1 above and 0 below"},
+            {
+                "radius": radius.text,
+                "fix": "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one",
+            },
         )
     if (r > e) != bool(winding):
         other = "pin_follower" if winding else "pin_and_slot"
@@ -200,17 +208,17 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
                 "radius": radius.text,
                 "offset": offset.text,
                 "other": other,
-                "fix": f"write kind: {other}, or correct the dimensions",
+                "fix": f"give `kind: {other}`, or correct the dimensions",
             },
         )
     slack = coupling.clearance
     if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
         raise PydanticCustomError(
             "pin",
-            "with a clearance of {clearance} the pin passes beside the slot's axis without touching the slot",
+            "with a clearance of {clearance} the pin passes the slot's axis without touching the slot",
             {
                 "clearance": slack.text,
-                "fix": "give less than twice the difference of pin_radius and offset",
+                "fix": "give a clearance below twice the difference of pin_radius and offset",
             },
         )
 
@@ -228,6 +236,6 @@ def pin_transmission(
     transmission = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(pin_radius, offset, friction)
     if friction >= transmission.locking_friction:
         what = f"a friction of {friction:g} locks the pin in its slot"
-        why = f"the pin locks from {transmission.locking_friction:.6g} on when the slot drives"
-        raise RangeError(Problem(what, why, "give less friction, or let the pin drive", "friction"))
+        why = f"a pin driven by its slot locks at a friction of {transmission.locking_friction:.6g} or more"
+        raise RangeError(Problem(what, why, "give a smaller friction, or let the pin drive", "friction"))
     return transmission

@@ -53,24 +53,27 @@ class PinRing(ToothForm):
 
     ringed: ClassVar[bool] = True
 
-    form: Literal["pin_ring"] = Field(description="The name of this form")
+    form: Literal["pin_ring"] = Field(description="Name of the tooth form")
     pin_circle: Length | None = Field(
         None,
-        description="Radius of the circle on which pins stand, in modules or with a unit; default the ring's pitch "
-        "radius over 0.7",
+        description="Radius of the circle through the pins' centres, in modules or with a unit; default the ring's "
+        "pitch radius over 0.7",
     )
     pin_diameter: Length | None = Field(
-        None, description="Of the pins, in modules or with a unit; default the distance of two pins over 1.7"
+        None,
+        description="Diameter of the pins, in modules or with a unit; default the distance between two pins over 1.7, "
+        "or less if these would undercut the lobes",
     )
     clearance: Length = Field(
         "0",
         validate_default=True,
-        description="By how much the disc stands back from every pin, in modules or with a unit",
+        description="Distance by which the disc is set back from every pin, in modules or with a unit",
     )
     deflection: Length | None = Field(
         None,
-        description="By how much one pin would give way if it bore the whole force on the disc's pitch circle, in "
-        "modules or with a unit; it tells which pins a clearance leaves to bear. Default: half of all",
+        description="Deflection of one pin under the whole force on the disc's pitch circle, in modules or with a "
+        "unit; it determines the number of pins that bear load despite a clearance; default half of all pins bear "
+        "load",
     )
 
     @model_validator(mode="after")
@@ -78,9 +81,9 @@ class PinRing(ToothForm):
         for name in ("pin_circle", "pin_diameter", "deflection"):
             length = getattr(self, name)
             if length is not None and length.value <= 0:
-                raise bad("length", f"{name} {length.text} is no length", "write it above 0")
+                raise bad("length", f"{name} {length.text} is not above 0", "give a length above 0")
         if self.clearance.value < 0:
-            raise bad("length", f"a clearance of {self.clearance.text} would jam the disc", "write 0 or more")
+            raise bad("length", f"a clearance of {self.clearance.text} would jam the disc", "give 0 or more")
         return self
 
     @classmethod
@@ -114,13 +117,17 @@ class PinRing(ToothForm):
 
         pins = lobes + 1
         if lobes < 3:
-            raise refused(f"a disc of {lobes} lobes", "so few leave no pins that press", "give 3 lobes or more")
+            raise refused(
+                f"a disc of {lobes} lobes cannot run",
+                "with fewer lobes too few pins press on the disc",
+                "give 3 lobes or more",
+            )
         circle = pins / 2 / _SHORTENING if self.pin_circle is None else self._modules("pin_circle", module)
         if circle <= pins / 2:
             raise refused(
-                f"pins at {circle:.6g} modules from the axis stand on the pitch circle or within it",
-                f"its radius is {pins / 2:.6g} modules, and the path of a pin would have loops",
-                "give a greater pin_circle, or a smaller module (twice the eccentricity)",
+                f"pins at {circle:.6g} modules from the axis are on or inside the pitch circle",
+                f"its radius is {pins / 2:.6g} modules, and the path of a pin would have cusps or loops",
+                "give a larger pin_circle, or a smaller module (twice the eccentricity)",
             )
         apart = 2 * circle * sin(pi / pins)
         found = CycloidalDisc(lobes, circle, 0.0)
@@ -136,8 +143,8 @@ class PinRing(ToothForm):
         if pin + back >= found.sharpest:
             raise refused(
                 f"pins of {2 * pin:.6g} modules undercut the lobes",
-                f"the path of their centres is bent to a radius of {found.sharpest:.6g} modules",
-                f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a greater pin_circle",
+                f"the path of their centres has a minimum radius of curvature of {found.sharpest:.6g} modules",
+                f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a larger pin_circle",
             )
         yielding = None if self.deflection is None else self._modules("deflection", module)
         return CycloidalDisc(lobes, circle, pin, back, yielding)
@@ -148,9 +155,9 @@ class PinRing(ToothForm):
             return float(length.value)
         if module is None:
             raise refused(
-                f"the {name} {length.text} has nothing to be compared with",
+                f"the {name} {length.text} cannot be converted to modules",
                 "the wheels declare no module with a unit",
-                f"give the `module` of both wheels, or the {name} as a plain number of modules",
+                f"declare the `module` of both wheels with a unit, or give the {name} as a number of modules",
             )
         return length.si / module
 
@@ -185,7 +192,7 @@ class PinRing(ToothForm):
         if z2 != z1 + 1:
             raise refused(
                 f"a disc of {z1} lobes does not roll in {z2} pins",
-                "these lobes reach round one pin each, so that a turn of the eccentric moves the disc on by one",
+                "the ring has one pin more than the disc has lobes: a turn of the eccentric moves the disc by one pin",
                 f"give the ring {z1 + 1} pins",
             )
         return DiscTransmission(self.disc(z1, module), friction, driver)
@@ -202,8 +209,10 @@ class PinRing(ToothForm):
 
         del shaft_angle
         if set(wheels.kinds) != {"spur"} or sum(wheels.internal) != 1:
-            why = "the disc is an external wheel and its ring an internal one, on parallel axes"
-            raise refused("it cannot have a ring of pins", why, f"write `internal: true` for the ring, or {IDEAL}")
+            why = "the disc is an external spur wheel and its ring an internal one"
+            raise refused(
+                "these wheels are not a disc and a ring", why, f"declare `internal: true` for the ring, or {IDEAL}"
+            )
         first = 2 if wheels.internal[0] else 1
         z1, z2 = wheels.counts[:: 3 - 2 * first]
         transmission = self.transmission(z1, z2, wheels.friction or 0.0, first, wheels.module)
@@ -221,9 +230,11 @@ class PinRing(ToothForm):
         """
         if not self.clearance.value:
             return None
-        why = f"it declares a clearance of {self.clearance.text}, and what is declared wins"
+        why = f"the declared clearance of {self.clearance.text} takes precedence over the option"
         return Problem(
-            f"pair '{pair}' has a clearance of its own", why, "leave --backlash out, or take it out of the file"
+            f"pair '{pair}' has a clearance of its own",
+            why,
+            "leave --backlash out, or remove `clearance` from the file",
         )
 
     def thinned(self, backlash: Quantity) -> PinRing:

@@ -93,8 +93,8 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
     if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
         raise RangeError(
             Problem(
-                f"a pin radius of {pin_radius:g} and an offset of {offset:g}",
-                f"distances of a pin lie between {_MINIMUM:g} and {1 / _MINIMUM:g}",
+                f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range",
+                f"both are between {_MINIMUM:g} and {1 / _MINIMUM:g}, and the offset may be 0",
                 "give a pin radius above 0 and an offset of 0 or more",
             )
         )
@@ -102,8 +102,9 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
         raise RangeError(
             Problem(
                 f"a pin radius of {pin_radius:g} equals the offset: the pin would pass through the slot's axis",
-                "there the slot's direction is undetermined; the mean ratio is 1 above and 0 below",
-                "make them differ",
+                "the slot's direction is undetermined there; the mean ratio is 1 for a larger radius and 0 for a "
+                "smaller one",
+                "give a larger or a smaller pin radius",
             )
         )
     check_friction(friction)
@@ -263,7 +264,7 @@ class SlotToPinTransmission(PinTransmission):
             raise RangeError(
                 Problem(
                     f"a follower cannot drive a pin of radius {pin_radius:g} at an offset of {offset:g}",
-                    "it swings, and stands at its dead points while the pin goes on",
+                    "a follower oscillates, and is at rest at its dead points while the pin moves on",
                     "let the pin drive",
                     "driver",
                 )

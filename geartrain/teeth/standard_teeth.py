@@ -124,8 +124,11 @@ def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) 
 def check_size(z: int) -> None:
     """Raise `GearTrainError` for a wheel of more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
-        what, why = f"a wheel of {z} teeth is not cut tooth by tooth", f"a wheel has {MOST_TEETH} at most"
-        raise GearTrainError(Problem(what, why, "take a disc for a likeness"))
+        what, why = (
+            f"the teeth of a wheel of {z} are not modelled",
+            f"wheels of at most {MOST_TEETH} teeth are modelled",
+        )
+        raise GearTrainError(Problem(what, why, "use a plain disc to represent it"))
 
 
 @lru_cache(maxsize=4096)

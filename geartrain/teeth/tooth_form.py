@@ -74,11 +74,13 @@ class ToothForm(BaseModel, ABC):
 
     stiffness: PairStiffness | None = Field(
         None,
-        description="Of teeth in mesh, where their pair has none of its own: torque on the driven wheel for each "
-        "radian that it yields, or force along the line of action for each length",
+        description="Mesh stiffness of pairs that declare none: torque on the driven wheel per radian of deflection, "
+        "or force along the line of action per length",
     )
     damping: PairDamping | None = Field(
-        None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length"
+        None,
+        description="Mesh damping of pairs that declare none: torque on the driven wheel per angular speed, or force "
+        "along the line of action per speed",
     )
 
     def __repr__(self) -> str:
@@ -111,7 +113,7 @@ class ToothForm(BaseModel, ABC):
         """Return the problem of a validation error of pydantic, with the fix that the form gives, if any."""
         context = item.get("ctx") or {}
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
-        what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
+        what = item["msg"] if "fix" in context else f"'{item['input']}' is not a valid value"
         return Problem(what, "", str(context.get("fix", "")), str(place))
 
     @classmethod

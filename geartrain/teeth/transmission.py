@@ -28,7 +28,13 @@ def check_friction(friction: float) -> float:
     Raise `RangeError` if it is negative, infinite or NaN.
     """
     if not 0 <= friction < inf:
-        raise RangeError(Problem(f"a friction of {friction:g}", "it would push", "give 0 or more, such as 0.1"))
+        raise RangeError(
+            Problem(
+                f"a friction of {friction:g} is out of range",
+                "a coefficient of friction is finite and not negative",
+                "give 0 or more, such as 0.1",
+            )
+        )
     return friction
 
 
@@ -195,7 +201,8 @@ class TransmissionFunction(Shown, ABC):
             For transmission functions whose sliding is not known.
         """
         what = "the sliding of this pair is not known"
-        raise RangeError(Problem(what, "it is no pair of teeth", "give a coefficient of friction as a plain number"))
+        why = "sliding speeds are computed for pairs of teeth only"
+        raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing] | None:
         """Return driver angles of a period, quadrature weights, and `rubbing` at these angles.

@@ -32,11 +32,15 @@ class UniformStress(ConjugateToothForm):
     1.0
     """
 
-    form: Literal["uniform_stress"] = Field(description="The name of this form")
+    form: Literal["uniform_stress"] = Field(description="Name of the tooth form")
     pressure_angle: Angle = Field(
         "20 deg", validate_default=True, description="Pressure angle at the pitch point, below 45 deg"
     )
-    arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
+    arcs: TwoFigures = Field(
+        "1/2",
+        validate_default=True,
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess)",
+    )
 
     @model_validator(mode="after")
     def _parameters_make_sense(self) -> UniformStress:

@@ -42,31 +42,43 @@ class UniformTemperature(ConjugateToothForm):
     'the teeth run'
     """
 
-    matched: ClassVar[str] = "of uniform temperature also the working depth"
+    matched: ClassVar[str] = "for uniform temperature the working depth too"
 
-    form: Literal["uniform_temperature"] = Field(description="The name of this form")
-    reading: Literal["a", "b", "c"] = Field("b", description="Which surface is kept uniform: a, b or c")
+    form: Literal["uniform_temperature"] = Field(description="Name of the tooth form")
+    reading: Literal["a", "b", "c"] = Field(
+        "b",
+        description="Reading of the source: a (uniform heat on the first wheel), b (on the hotter dedendum) or c (as "
+        "b, with a minimum pressure angle)",
+    )
     heat: Figure | None = Field(
-        None, description="Heat per area over friction times tangential force; less makes taller teeth"
+        None, description="Heat per area over friction times tangential force; a smaller value makes taller teeth"
     )
     depth: Figure | None = Field(
-        None, description="In place of heat: working depth in modules; default that of the 20 deg involute"
+        None, description="Working depth in modules, instead of heat; default that of the 20 deg involute"
     )
     minimum_angle: Angle | None = Field(
-        None, description="Pressure angle at the pitch point in reading c; default 12 deg"
+        None, description="Minimum pressure angle, which is at the pitch point, in reading c; default 12 deg"
     )
-    arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
+    arcs: TwoFigures = Field(
+        "1/2",
+        validate_default=True,
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess)",
+    )
 
     @model_validator(mode="after")
     def _parameters_make_sense(self) -> UniformTemperature:
         if self.heat is not None and self.depth is not None:
-            raise bad("heat", "heat and depth are both given", "give one of them: each follows from the other")
+            raise bad("heat", "heat and depth are both given", "remove `heat` or `depth`: each determines the other")
         for name, figure in (("heat", self.heat), ("depth", self.depth)):
             if figure is not None and figure.value <= 0:
-                raise bad(name, f"a {name} of {figure.text} is none", "write a number above 0")
+                raise bad(name, f"{name} {figure.text} is not above 0", "give a number above 0")
         if self.minimum_angle is not None:
             if self.reading != "c":
-                raise bad("pressure_angle", "only reading c has a least_angle", "give `reading: c`")
+                raise bad(
+                    "pressure_angle",
+                    "minimum_angle is for reading c only",
+                    "give `reading: c`, or remove `minimum_angle`",
+                )
             check_angle("minimum_angle", self.minimum_angle)
         check_arcs(self.arcs)
         return self
@@ -128,7 +140,7 @@ class UniformTemperature(ConjugateToothForm):
 
 def _cold(pitch: PitchSurfaces, gamma: float) -> Exception:
     return refused(
-        f"a heat of {(pitch.A + pitch.B) / gamma:.6g} is more than these teeth can have",
-        "the contact would stand still beside the pitch point",
-        "give less heat or more depth",
+        f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
+        "the contact would stop near the pitch point",
+        "give a smaller heat or a larger depth",
     )

@@ -148,7 +148,7 @@ SLIPS = {
     "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "a static friction torque of 0.5 is below the sliding one of 1",
     "links: {a: {bearing: {sliding: 1, static: 2 N m}}}": "mix a plain number and a torque with a unit",
     "links: {a: {drag: 1 N m}}": "is a torque, and a torsional damping belongs here",
-    "restitution: 1.01": "a restitution of 1.01 is none",
+    "restitution: 1.01": "a restitution of 1.01 is out of range",
     "stiffness: 0 N/m": "0 N/m is not above 0",
     "density: 8.7": "'8.7' has no unit",
     "drive: {}": "a drive is one thing, and this gives nothing",
@@ -188,7 +188,7 @@ def test_a_slot_is_as_wide_as_its_pin_or_wider() -> None:
     found = load(train.format(text.format("0.1 mm"))).declaration
     assert found.couplings[0].clearance.si == 1e-4
     assert found.restitution_of(found.couplings[0]) == 0.2
-    assert "a clearance of -1 mm is none" in refusal(train.format(text.format("-1 mm")))
+    assert "a clearance of -1 mm is negative" in refusal(train.format(text.format("-1 mm")))
     assert "passes beside the slot's axis" in refusal(train.format(text.format("16 mm")))
     assert "lengths mix plain numbers and units" in refusal(train.format(text.format("1")))
 

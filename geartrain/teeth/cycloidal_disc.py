@@ -35,12 +35,13 @@ _FREE = 0.1  # modules between lobes and the ring behind the pins
 _WORDS = (
     "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring over the "
     "radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
-    "`deflection` of a pin is given. Maximum load: load on one pin over the force on the disc's pitch circle, for pins "
+    "`deflection` of a pin is given. Max load: maximum load on one pin over the force on the disc's pitch circle, for "
+    "pins "
     "of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the pair "
     "is driven, and driven back."
 )
 _HEADER = (
-    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "maximum load", "backlash (deg)"),
+    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "max load", "backlash (deg)"),
     *("efficiency", "driven back"),
 )
 

@@ -52,7 +52,7 @@ class _Coupling(BaseModel):
     )
     friction: DeclaredCoulombFriction | None = Field(
         None,
-        description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}; default 0",
+        description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}; default none",
     )
     restitution: DeclaredRestitution | None = Field(
         None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default the train's"
@@ -128,9 +128,9 @@ class _Uniform(_Coupling):
 class PinsInHoles(_Uniform):
     """Pins in round holes that keep two links parallel, as the output pins of a cycloidal reducer do.
 
-    Both links turn at the same speed at every instant about axes that are `offset` apart. The diameter of a hole is the
-    diameter of its pin and twice `offset`. `slot` is the link with the holes, `pin_radius` the radius of the circle
-    through the centres of the pins.
+    Both links turn at the same speed at every instant about axes that are `offset` apart. Holes are wider than their pins
+    by twice that distance. `slot` is the link with the holes, `pin_radius` the radius of the circle through the pins'
+    centres.
     """
 
     kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at every instant")

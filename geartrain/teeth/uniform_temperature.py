@@ -27,9 +27,8 @@ class UniformTemperature(ConjugateToothForm):
     """Teeth of uniform temperature: the frictional heat per area of profile is the same at every instant.
 
     There are three readings of the source. In reading a, the heat is uniform on the first wheel. In reading b, it is
-    uniform on the hotter profile of the two, which is always the dedendum. In reading c, as in b, but with a constant
-    pressure angle from the pitch point until that heat is reached, which keeps the stress finite there
-    (docs/shapes.md).
+    uniform on the hotter profile of the two, which is always the dedendum. Reading c is reading b with a constant pressure
+    angle from the pitch point until that heat is reached, which keeps the stress finite there (docs/shapes.md).
 
     See Also
     --------

@@ -41,11 +41,11 @@ if TYPE_CHECKING:
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_outline import Vertex
 
-_PRACTICAL, _ARC = 0.95, 1.40  # of f_a: the wheel's addendum, and the radius of its arc
-_BOTTOM = 0.4  # modules: what the spaces are deeper than the mate's tips are high
+_PRACTICAL, _ARC = 0.95, 1.40  # addendum of a wheel and radius of its arc, over f_a
+_BOTTOM = 0.4  # modules: bottom clearance, depth of a space less addendum of the mate
 _FEWEST, _MOST_TEETH = 5, 10_000
-_THIN = {False: 1.05, True: 1.25}  # modules: thickness of leaves, by whether there are more than ten
-_LEAVES = {  # addendum and radius of the arc (modules), by profile and by whether there are more than ten leaves
+_THIN = {False: 1.05, True: 1.25}  # modules: thickness of leaves, up to and above ten leaves
+_LEAVES = {  # addendum and radius of the arc (modules) by profile, up to and above ten leaves
     "A": {False: (0.525, 0.525), True: (0.625, 0.625)},
     "B": {False: (0.67, 0.70), True: (0.805, 0.84)},
     "C": {False: (0.855, 1.05), True: (1.05, 1.25)},
@@ -60,10 +60,11 @@ def addendum_factor(z: int, ratio: float) -> float:
     below one.
     """
     k, b, t = 1 + 2 * ratio, 0.0, 0.0
+    # the count is only an upper limit, since the loop ends when t no longer changes
     for _ in range(200):
         last, t = t, pi / z + 2 * ratio * b
         b = atan2(sin(t), k - cos(t))
-        # t is below pi: a step this small is its rounding
+        # t is below pi, so a step this small is rounding error
         if abs(t - last) <= 1e-16:
             break
     return z / 4 * (sqrt(1 + k * k - 2 * k * cos(t)) - 2 * ratio)
@@ -133,7 +134,7 @@ class CircularArc(ToothForm):
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> CircularArc:
+    def _check_parameters(self) -> CircularArc:
         for name in ("addendum", "radius", "thickness"):
             for figure in getattr(self, name) or ():
                 if figure.value <= 0:
@@ -183,7 +184,7 @@ class CircularArc(ToothForm):
             (_THIN[many], *_LEAVES[profile][many]),
         ]
         if self.backlash is not None:
-            # a thinner leaf has a tip of the same shape, as the standard's two have within a few percent
+            # a thinner leaf keeps the shape of its tip; the two thicknesses of the standard do so within a few percent
             thickness = min(_THIN[many], pi / 2 - _modules(self.backlash, module, "backlash"))
             sizes[1] = tuple(size * thickness / _THIN[many] for size in sizes[1])
         declared = (self.thickness, self.addendum, self.radius)
@@ -194,7 +195,7 @@ class CircularArc(ToothForm):
         made = []
         for at, z in enumerate((z1, z2)):
             thickness, addendum, radius = found[at]
-            # a wheel is cut half a pitch deep, or as deep as its mate's tips need
+            # a wheel is cut half a pitch deep, or deeper if the tips of its mate need it
             deep = found[1 - at][1] + _BOTTOM
             tooth = ArcTooth(z, thickness, addendum, radius, deep if at + 1 == pinion else max(deep, pi / 2))
             if not tooth.fits:
@@ -326,8 +327,8 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
     """Return the outlines of a pair, cached so that equal pairs of a long train are computed once."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
-    lead = (first.thickness + second.thickness) / 2
-    return OutlineGears(first.outline(), second.outline(), distance, lead, pi - 2 * lead)
+    mean = (first.thickness + second.thickness) / 2
+    return OutlineGears(first.outline(), second.outline(), distance, mean, pi - 2 * mean)
 
 
 # ---------------------------------------------------------------------------------------------------------------- tooth
@@ -382,7 +383,7 @@ class ArcTooth:
             return False
         x, y = self.centre
         start, lean = self.flank
-        # the centre of a round tip is on the middle of the tooth, to the three digits of printed sizes
+        # the centre of a round tip is on the centre line of the tooth, within the three digits of printed sizes
         return x <= 1e-3 * self.radius and hypot(x, y) > self.radius and self.root < start and 0 < lean < pi / self.z
 
     @property
@@ -402,7 +403,7 @@ class ArcTooth:
 
         (start, lean), (cx, cy), radius = self.flank, self.centre, self.radius
         way = np.array([sin(lean), cos(lean)])
-        # angles on the arc, counted from x towards y
+        # angles on the arc, measured from the x axis towards the y axis
         low, high = atan2(start * way[1] - cy, start * way[0] - cx), atan2(self.tip - cy, -cx)
 
         def arc(turn: Floats) -> Floats:
@@ -418,9 +419,9 @@ class ArcTooth:
         """
         (start, lean), (cx, cy) = self.flank, self.centre
         sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)
-        along, beside = cos(lean), sin(lean)
-        yield self.root * along, -self.root * beside, 0.0
-        yield start * along, -start * beside, tan(sweep / 4)
+        along, across = cos(lean), sin(lean)
+        yield self.root * along, -self.root * across, 0.0
+        yield start * along, -start * across, tan(sweep / 4)
         yield self.tip, 0.0, tan(sweep / 4)
-        yield start * along, start * beside, 0.0
-        yield self.root * along, self.root * beside, tan((pi / self.z - lean) / 2)
+        yield start * along, start * across, 0.0
+        yield self.root * along, self.root * across, tan((pi / self.z - lean) / 2)

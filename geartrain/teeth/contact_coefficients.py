@@ -45,7 +45,7 @@ class CoulombFriction(BaseModel):
     )
 
     @model_validator(mode="after")
-    def _rests_no_easier(self) -> CoulombFriction:
+    def _check_static(self) -> CoulombFriction:
         if self.static is not None and self.static.value < self.sliding.value:
             raise PydanticCustomError(
                 "friction",
@@ -59,7 +59,7 @@ class CoulombFriction(BaseModel):
         return self
 
     @model_serializer(mode="wrap")
-    def _told(self, handler: Any) -> Any:
+    def _declared(self, handler: Any) -> Any:
         """Return the coefficient as it was declared, as a bare number if only `sliding` is given."""
         return str(self.sliding) if self.static is None and self.deviation is None else handler(self)
 
@@ -76,7 +76,7 @@ DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
 """Field type: Coulomb friction, or a bare number for its coefficient `sliding`."""
 
 
-def _from_nothing_to_all(figure: Figure) -> Figure:
+def _check_restitution(figure: Figure) -> Figure:
     if not 0 <= figure.value <= 1:
         raise PydanticCustomError(
             "restitution",
@@ -89,5 +89,5 @@ def _from_nothing_to_all(figure: Figure) -> Figure:
     return figure
 
 
-DeclaredRestitution = Annotated[Figure, AfterValidator(_from_nothing_to_all)]
+DeclaredRestitution = Annotated[Figure, AfterValidator(_check_restitution)]
 """Coefficient of restitution, 0 to 1."""

@@ -64,7 +64,7 @@ class Cycloidal(ConjugateToothForm):
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> Cycloidal:
+    def _check_parameters(self) -> Cycloidal:
         if self.rolling is not None and self.rolling_fraction is not None:
             raise bad(
                 "rolling", "rolling and rolling_fraction are both given", "remove `rolling` or `rolling_fraction`"
@@ -159,16 +159,16 @@ class Cycloidal(ConjugateToothForm):
     def _arcs(self, pitch: PitchSurfaces, circles: tuple[float, float]) -> tuple[float, float]:
         if self.addendum is None:
             return arcs_of(self.arcs or (_HALF, _HALF), pitch)
-        # the addendum of the second wheel ends the approach, that of the first the recess
+        # contact begins at the tip of the driven wheel and ends at the tip of the driver
         heights = tuple(figure.value for figure in reversed(self.addendum))
         found = [
-            _arc(pitch, R, z, rho, height)
+            _arc_of_addendum(pitch, R, z, rho, height)
             for R, z, rho, height in zip((pitch.R2, pitch.R1), (pitch.z2, pitch.z1), circles, heights, strict=True)
         ]
         return found[0], found[1]
 
 
-def _arc(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
+def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
     """Return the arc of contact, as pitch-line displacement X, that ends at an addendum of `height` modules."""
     from math import asin, sin
 

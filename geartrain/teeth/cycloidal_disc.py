@@ -28,17 +28,16 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
 
-_SAMPLES = 4096  # of a lobe, where its sharpest round is sought
-_FEWEST, _MOST = 16, 4096  # points of a lobe
-_PHASES = 64  # of a pitch, for means
-_FREE = 0.1  # modules between lobes and the ring behind the pins
+_SAMPLES = 4096  # points of a lobe at which the maximum curvature is searched for
+_MIN_CHORDS, _MAX_CHORDS = 16, 4096  # minimum and maximum number of chords of a lobe
+_PHASES = 64  # positions in a pitch for means and extrema
+_RING_CLEARANCE = 0.1  # modules: clearance between the lobes and the ring behind the pins
 _WORDS = (
     "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring over the "
     "radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
     "`deflection` of a pin is given. Max load: maximum load on one pin over the force on the disc's pitch circle, for "
-    "pins "
-    "of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the pair "
-    "is driven, and driven back."
+    "pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the "
+    "pair is driven, and driven back."
 )
 _HEADER = (
     *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "max load", "backlash (deg)"),
@@ -94,10 +93,10 @@ class CycloidalDisc:
 
         turn   angle of the eccentric (rad)
         """
-        found: Floats = self.centres(turn) + (self.pin + self.clearance) * self._inwards(turn)
+        found: Floats = self.centres(turn) + (self.pin + self.clearance) * self._inward_normals(turn)
         return found
 
-    def _inwards(self, turn: Floats) -> Floats:
+    def _inward_normals(self, turn: Floats) -> Floats:
         """Return the unit normals of the outline, from the centres of the pins inwards, as complex numbers."""
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
@@ -109,10 +108,10 @@ class CycloidalDisc:
 
         A pin must have a smaller radius, or it undercuts the lobes. The value is infinite if no part is convex.
         """
-        bent = self._bend(np.linspace(0, 2 * pi, _SAMPLES))
+        bent = self._centre_curvature(np.linspace(0, 2 * pi, _SAMPLES))
         return 1 / float(bent.max()) if bent.max() > 0 else inf
 
-    def _bend(self, turn: Floats) -> Floats:
+    def _centre_curvature(self, turn: Floats) -> Floats:
         """Return the curvature of the pin-centre curve [1/module], positive where it is convex."""
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
@@ -126,7 +125,7 @@ class CycloidalDisc:
 
         angle   position of the pin from the pitch point, about the axis of the ring (rad)
         """
-        bent = self._bend(angle)
+        bent = self._centre_curvature(angle)
         found: Floats = bent / (1 - bent * (self.pin + self.clearance))
         return found
 
@@ -158,11 +157,11 @@ class CycloidalDisc:
         """
         arms = self.arms(self.angles(phase))
         if self.clearance and self.deflection is not None:
-            return np.maximum(self._twist(arms) * arms - self.clearance, 0.0) / self.deflection
+            return np.maximum(self._loaded_angle(arms) * arms - self.clearance, 0.0) / self.deflection
         found: Floats = arms * self.lobes / 2 / (arms**2).sum(axis=0)
         return found
 
-    def _twist(self, arms: Floats) -> Floats:
+    def _loaded_angle(self, arms: Floats) -> Floats:
         """Return the angle (rad) of the disc under load at which enough pins bear the torque: docs/reducers.md (7).
 
         Pins with longer lever arms come into contact first. Their number is the smallest for which the next pin stays
@@ -181,7 +180,7 @@ class CycloidalDisc:
     def bearing_pins(self) -> tuple[int, int]:
         """Minimum and maximum number of pins that bear load at once."""
         loads = self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))
-        # a pin on the line of centres has no arm, but for rounding
+        # the lever arm of a pin on the line of centres is 0 except for rounding error
         number = (loads > 1e-9 * loads.max()).sum(axis=0)
         return int(number.min()), int(number.max())
 
@@ -218,18 +217,19 @@ class CycloidalDisc:
         """Return one lobe about the x axis as a chain of chords, none of which extends outside the lobe, so that pins
         pass.
         """
-        number = _FEWEST
-        while np.abs(self._out(number)).max() > tolerance and number < _MOST:
+        number = _MIN_CHORDS
+        while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:
             number *= 2
-        out = np.maximum(self._out(number), 0.0)
+        # both ends of a chord move inwards by the larger excess of the chords that they join
+        out = np.maximum(self._chord_excess(number), 0.0)
         turn = np.linspace(0, 2 * pi, number, endpoint=False)
-        points = self.outline(turn) + np.maximum(out, np.roll(out, 1)) * self._inwards(turn)
+        points = self.outline(turn) + np.maximum(out, np.roll(out, 1)) * self._inward_normals(turn)
         points *= np.exp(-1j * pi / self.lobes)
         tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
         tip = self.circle + 0.5 - self.pin - self.clearance
         return FixedTooth(tip, float(np.abs(points[0])), tooth)
 
-    def _out(self, number: int) -> Floats:
+    def _chord_excess(self, number: int) -> Floats:
         """Return the distances [module] by which `number` chords of a lobe lie outside it at their middles.
 
         The value is negative where the chord is inside the lobe.
@@ -237,15 +237,15 @@ class CycloidalDisc:
         turn = np.linspace(0, 2 * pi, 2 * number + 1)
         points = self.outline(turn)
         off = points[1::2] - (points[:-1:2] + points[2::2]) / 2
-        found: Floats = (off * np.conj(self._inwards(turn[1::2]))).real
+        found: Floats = (off * np.conj(self._inward_normals(turn[1::2]))).real
         return found
 
     def pin_tooth(self) -> FixedTooth:
         """Return one pin about the x axis as a tooth of the ring (gear 2): a half circle and the ring behind it."""
-        # a lobe reaches farthest out on the line of centres, half a module beyond its own radius
-        root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _FREE)
+        # lobes reach farthest out on the line of centres, where the eccentricity of half a module is added
+        root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _RING_CLEARANCE)
         R, r = self.circle, self.pin
-        if root > R:  # straight sides from the pin's middle outwards
+        if root > R:  # the sides are straight from the centre of the pin outwards
             side = pi / 2
             start = (R, r)
         else:
@@ -298,22 +298,22 @@ class DiscTransmission(ExactRatio):
         return DiscTransmission(self.disc, self.friction, self.driver, -self.direction)
 
     @property
-    def _ahead(self) -> float:
+    def _constant_error(self) -> float:
         return self._backlash if self.direction < 0 else 0.0
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error [rad of the driven wheel]: 0 on the drive flanks, the backlash on the coast
         flanks.
         """
-        return self._constant(S, self._ahead)
+        return self._constant(S, self._constant_error)
 
     def error_range(self) -> tuple[float, float]:
         """Return the constant transmission error as both minimum and maximum."""
-        return self._ahead, self._ahead
+        return self._constant_error, self._constant_error
 
     def error_moments(self) -> tuple[float, float]:
         """Return the constant transmission error as the mean, and 0 as the rms."""
-        return self._ahead, 0.0
+        return self._constant_error, 0.0
 
     def _phase(self, S: ArrayLike) -> Floats:
         """Return the angle (rad) of a pin from the line of centres.
@@ -355,7 +355,7 @@ class DiscTransmission(ExactRatio):
 # ------------------------------------------------------------------------------------------------------ pair of a train
 
 
-def _counted(fewest: int, most: int) -> str:
+def _range_text(fewest: int, most: int) -> str:
     return str(most) if fewest == most else f"{fewest} to {most}"
 
 
@@ -427,7 +427,7 @@ class DiscMesh(GearMesh):
         )
         row = (
             *(self.name, f"{self.driver} -> {self.driven}", str(disc.lobes), str(disc.pins)),
-            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _counted(*disc.bearing_pins)),
+            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _range_text(*disc.bearing_pins)),
             f"{disc.maximum_load:.4g}",
             *(f"{degrees(self.verdict.backlash):.4g}", *self.efficiency_texts),
         )

@@ -29,8 +29,8 @@ REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
 """Forms that are compared by default, with one reading of each."""
-_MOST_PITCHES = 100.0  # of an arc
-_EIGHTH = 0.125  # turn: from 45 deg on teeth of uniform stress are no longer determined by their pressure angle
+_MOST_PITCHES = 100.0  # upper limit of an arc of contact
+_EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
 
 @dataclass(frozen=True)
@@ -157,13 +157,13 @@ def compare_forms(
     known = comparable_forms()
     _check(known, names, arcs, pressure_angle)
     angle = {} if pressure_angle is None else {"pressure_angle": pressure_angle.text}
-    base = _measured("involute", reference_involute(wheels, arcs))
+    base = _pair_result("involute", reference_involute(wheels, arcs))
     if base.measures is None:
-        raise _no_base(base)
-    found = [_form(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
-    found += _beside(found, wheels, arcs, angle, base.measures)
+        raise _reference_error(base)
+    found = [_form_result(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
+    found += _recess_only_involute(found, wheels, arcs, angle, base.measures)
     models = [model for name, (model, _) in known.items() if name in names]
-    return FormComparison((int(wheels.z1), int(wheels.z2)), _matched(models, arcs), base, tuple(found))
+    return FormComparison((int(wheels.z1), int(wheels.z2)), _matched_text(models, arcs), base, tuple(found))
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
@@ -198,7 +198,7 @@ def _check(
         raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "--pressure-angle"))
 
 
-def _no_base(base: MeasuredForm) -> QuestionError:
+def _reference_error(base: MeasuredForm) -> QuestionError:
     """Return the error for a reference involute that cannot run. Fixes by its pressure angle, which is given, are left
     out.
     """
@@ -210,7 +210,7 @@ def _no_base(base: MeasuredForm) -> QuestionError:
     )
 
 
-def _form(
+def _form_result(
     name: str,
     model: type[ConjugateToothForm],
     reading: Mapping[str, str],
@@ -222,13 +222,13 @@ def _form(
     """Return the result for one form with these arcs, with faults of kind "refused" if the form rejects them."""
     own = angle if "pressure_angle" in model.model_fields else {}
     try:
-        return _measured(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base)
+        return _pair_result(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base)
     except GearTrainError as error:
         refused = (ToothFault("refused", 0, nan, each.what, each.why, each.fix) for each in error.problems)
         return MeasuredForm(name, None, None, faults=tuple(refused))
 
 
-def _beside(
+def _recess_only_involute(
     found: Sequence[MeasuredForm],
     wheels: WheelPair,
     arcs: tuple[float, float],
@@ -241,11 +241,11 @@ def _beside(
     """
     for form in found:
         if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:
-            yield _measured("involute, recess only", Involute.pair_of_arcs(wheels, form.pitches, angle), base)
+            yield _pair_result("involute, recess only", Involute.pair_of_arcs(wheels, form.pitches, angle), base)
             return
 
 
-def _measured(name: str, pair: ConjugatePair, base: PathMeasures | None = None) -> MeasuredForm:
+def _pair_result(name: str, pair: ConjugatePair, base: PathMeasures | None = None) -> MeasuredForm:
     from geartrain.teeth.conjugate.path_losses import measure
 
     if pair.faults:
@@ -254,7 +254,7 @@ def _measured(name: str, pair: ConjugatePair, base: PathMeasures | None = None) 
     return MeasuredForm(name, pair.path, found, None if base is None else found.over(base))
 
 
-def _matched(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
+def _matched_text(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
     """Return the text that lists the properties that all compared pairs have in common."""
     notes = dict.fromkeys(model.matched for model in models if model.matched)
     common = "; ".join([f"arcs of contact, {arcs[0]:g} pitches in approach and {arcs[1]:g} in recess", *notes])

@@ -71,7 +71,7 @@ def buckingham_constants() -> tuple[float, float, float]:
     def off(a: float) -> float:
         return float(rest * a**q + q * (low - rest * a) - high)
 
-    most = low / rest
+    most = low / rest  # above it c3 would be negative
     a = root(off, 0.0, most, off(0.0), off(most))
     return -log(a) / sqrt(slow), rest, (low - rest * a) / sqrt(slow)
 
@@ -85,25 +85,26 @@ def dokos(v: Floats, slowest: float) -> Floats:
     import numpy as np
 
     first, last, factor = DOKOS
+    # the logarithm is -inf at rest, which the clip below maps to the first coefficient
     with np.errstate(divide="ignore"):
         decades = np.log(np.asarray(v) / slowest) / log(factor)
     found: Floats = first + (last - first) * np.clip(decades, 0.0, 1.0)
     return found
 
 
-def _bad(what: str, fix: str) -> PydanticCustomError:
+def _invalid(what: str, fix: str) -> PydanticCustomError:
     return PydanticCustomError("friction", "{what}", {"what": what, "fix": fix})
 
 
 def _positive(value: Any) -> Any:
     if value.value <= 0:
-        raise _bad(f"{value.text} is not above 0", "give a number above 0")
+        raise _invalid(f"{value.text} is not above 0", "give a number above 0")
     return value
 
 
 def _not_negative(value: Any) -> Any:
     if value.value < 0:
-        raise _bad(f"{value.text} is below 0", "give 0 or more")
+        raise _invalid(f"{value.text} is below 0", "give 0 or more")
     return value
 
 
@@ -240,14 +241,14 @@ class TabulatedFriction(FrictionLaw):
     of: Speeds = Field("sliding", description="Speed of the table: sliding (at each contact) or pitch_line")
 
     @model_validator(mode="after")
-    def _is_a_table(self) -> TabulatedFriction:
+    def _check_table(self) -> TabulatedFriction:
         speeds = [speed.base for speed in self.speeds]
         if len(speeds) != len(self.coefficients) or len(speeds) < 2:
-            raise _bad(
+            raise _invalid(
                 "speeds and coefficients do not form a table", "give as many coefficients as speeds, two or more"
             )
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
-            raise _bad("the speeds are not in rising order from 0 or more", "give them in rising order")
+            raise _invalid("the speeds are not in rising order from 0 or more", "give them in rising order")
         return self
 
     @property
@@ -326,5 +327,6 @@ class PairFriction(Shown):
 
         speed = np.asarray(sliding, dtype=float) * self.pitch_line
         if self.law.of_pitch_line:
+            # NaN marks positions without a contact
             speed = np.where(np.isnan(speed), np.nan, self.pitch_line)
         return self.law.coefficient(speed)

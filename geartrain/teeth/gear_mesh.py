@@ -89,9 +89,9 @@ class GearMesh(Shown, ABC):
 
         If friction depends on a speed that is not known, no loss is included.
         """
-        return self._rubbed(self.transmission)
+        return self._with_friction(self.transmission)
 
-    def _rubbed(self, transmission: TransmissionFunction) -> TransmissionFunction:
+    def _with_friction(self, transmission: TransmissionFunction) -> TransmissionFunction:
         if self.wheels.friction_law is None:
             return transmission
         from geartrain.teeth.rubbed_transmission import rubbed
@@ -256,6 +256,7 @@ class GearMesh(Shown, ABC):
             contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
         else:
             contours = [teeth, *bore(cut, tooth.root * cut.module)]
+        # the thickness at the pitch circle is interpolated on one flank of the flattened tooth
         points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
         side = points[points[:, 1] >= 0]
         side = side[np.argsort(np.hypot(*side.T))]
@@ -383,7 +384,7 @@ class GearMesh(Shown, ABC):
         """
         from geartrain.teeth.pair_results import SlidingEfficiency
 
-        return SlidingEfficiency(self.losses if driver == self.driver else self._rubbed(self.reversed))
+        return SlidingEfficiency(self.losses if driver == self.driver else self._with_friction(self.reversed))
 
     @property
     def tells_losses(self) -> bool:

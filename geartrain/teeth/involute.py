@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair, InvoluteWheel
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_MOST_MODULES = 1_000_000
+_MOST_MODULES = 1_000_000  # larger than any wheel; squares of much larger lengths overflow
 _PROPORTIONS = {"full": ("1", "1.25"), "deep": ("1", "1.4"), "stub": ("0.8", "1")}
 _PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
@@ -75,7 +75,7 @@ class Involute(ConjugateToothForm):
 
     @model_validator(mode="before")
     @classmethod
-    def _heights_by_name(cls, given: object) -> object:
+    def _named_proportions(cls, given: object) -> object:
         heights = _PROPORTIONS.get(given.get("proportions", "")) if isinstance(given, dict) else None
         if heights is None or not isinstance(given, dict):
             return given
@@ -87,7 +87,7 @@ class Involute(ConjugateToothForm):
         return {**rest, "addendum": heights[0], "dedendum": heights[1]}
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> Involute:
+    def _check_parameters(self) -> Involute:
         check_angle("pressure_angle", self.pressure_angle)
         for name in ("addendum", "dedendum"):
             for height in getattr(self, name):
@@ -199,7 +199,7 @@ class Involute(ConjugateToothForm):
         try:
             return moved.backlash * moved.pitch.z1 / 2 / moved.pitch.R1
         except ValueError:
-            return None  # nearer than the base circles touch
+            return None  # the axes are closer than the base circles allow
 
     def involutes(self, wheels: WheelPair) -> InvolutePair:
         """Return the sizes of a pair with parallel axes.
@@ -239,7 +239,7 @@ class Involute(ConjugateToothForm):
     def _wheel(self, wheels: WheelPair, at: int) -> InvoluteWheel:
         from geartrain.teeth.conjugate.involute_geometry import InvoluteWheel
 
-        # in the transverse section a rack that leans is as high, and wider
+        # in the transverse section a helical rack has the same height in m, and a larger module
         flat = cos(wheels.helix)
         figures = self.addendum[at], self.addendum[1 - at], self.dedendum[at], self.shift[at]
         add, mate, ded, shift = (float(figure.value) * flat for figure in figures)

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import ToothFault
 
-_BEYOND = 1 + 1e-8  # times what the pins cut off: without it rounding may leave a hair less than a pitch of contact
+_CUT_MARGIN = (
+    1 + 1e-8
+)  # safety factor of the arc cut off by the pins: rounding must not leave less than a pitch of contact
 
 
 def _first_or_second(raw: object) -> object:
@@ -69,7 +71,7 @@ class Lantern(ConjugateToothForm):
     addendum: Figure | None = Field(None, description="Addendum of the pins' mate in modules, instead of arcs")
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> Lantern:
+    def _check_parameters(self) -> Lantern:
         lengths = {"pin_diameter": self.pin_diameter, "pin_radius": self.pin_radius, "addendum": self.addendum}
         for name, length in lengths.items():
             if length is not None and length.value <= 0:
@@ -120,9 +122,9 @@ class Lantern(ConjugateToothForm):
 
         wheels.check()
         if wheels.bevel:
-            raise _beyond("a bevel lantern", "round pins on a cone have no mate in closed form")
+            raise _not_covered("a bevel lantern", "round pins on a cone have no mate in closed form")
         if wheels.internal and self.pins == 2:
-            raise _beyond("a ring of pins", "`tooth_form: pin_ring` models it, for a disc with one lobe less")
+            raise _not_covered("a ring of pins", "`tooth_form: pin_ring` models it, for a disc with one lobe less")
         pitch = wheels.pitch
         R, mate = (pitch.R2, pitch.R1) if self.pins == 2 else (pitch.R1, pitch.R2)
         A, B = self._sizes(R, wheels)
@@ -134,7 +136,10 @@ class Lantern(ConjugateToothForm):
         tooth = pitch.p / 2 - pin - self._backlash(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
-        path, cut = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)
+        path, cut = (
+            PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])),
+            self._undercut(pitch, start, outside, inside),
+        )
         return ConjugatePair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
 
     @classmethod
@@ -153,17 +158,17 @@ class Lantern(ConjugateToothForm):
             Other parameters of the form.
         """
         usual = conjugate_pair_of(cls.declared(given), wheels)
-        lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _BEYOND
+        lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _CUT_MARGIN
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
-    def _cut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
+    def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
         """Return an undercut fault if the approaching pins leave less of the mate's flank than the arcs need, else
         nothing.
         """
         from geartrain.teeth.pair_results import ToothFault
 
         left = (outside + min(inside, -start)) / pitch.p
-        # a pitch of contact but for rounding is enough where no arc on the dedendum is asked for
+        # without an arc on the dedendum, one pitch of contact (except for rounding error) is enough
         if inside <= -start or (left >= 1 - 1e-12 and not inside):
             return ()
         mate, where = 3 - self.pins, start / pitch.p
@@ -226,13 +231,13 @@ class Lantern(ConjugateToothForm):
             height = float(self.addendum.value)
             return pin_arc(R, A, B, pin_reach(R, A, B, mate, abs(mate) + (height if mate > 0 else -height))), 0.0
         if self.arcs is None:
-            # a little more, lest rounding leave less than a pitch of contact
+            # slightly longer, because rounding must not leave less than a pitch of contact
             return pitch.p + max(start, 0.0) * (1 + 1e-9), 0.0
         approach, recess = arcs_of(self.arcs, pitch)
         return (approach, recess) if self.pins == 1 else (recess, approach)
 
 
-def _beyond(what: str, why: str) -> RangeError:
+def _not_covered(what: str, why: str) -> RangeError:
     return RangeError(
         Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or give another tooth_form")
     )

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _HALF, _NONE, _WHOLE = Figure.parse("1/2"), Figure.parse("0"), Figure.parse("1")
-_STEEP, _FLAT = Quantity.parse("80 deg", "angle", False), Quantity.parse("50 deg", "angle", False)
-_CEILING, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15")
+_FIRST_ANGLE, _LAST_ANGLE = Quantity.parse("80 deg", "angle", False), Quantity.parse("50 deg", "angle", False)
+_MAXIMUM_ANGLE, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15")
 
 
 class LeastFriction(ConjugateToothForm):
@@ -72,15 +72,15 @@ class LeastFriction(ConjugateToothForm):
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> LeastFriction:
+    def _check_parameters(self) -> LeastFriction:
         if self.arcs is not None:
             check_arcs(self.arcs)
         if (self.friction_law is None) != (self.pitch_line_speed is None):
             fix = "give both, or neither"
             raise bad("friction_law", "friction_law and pitch_line_speed belong together", fix)
-        return self._literal_makes_sense() if self.literal else self._usual_makes_sense()
+        return self._check_literal() if self.literal else self._check_usual()
 
-    def _usual_makes_sense(self) -> LeastFriction:
+    def _check_usual(self) -> LeastFriction:
         if self.pressure_angles is not None:
             raise bad(
                 "literal", "pressure_angles are for the literal shape only", "give `pressure_angle`, or `literal: true`"
@@ -89,7 +89,7 @@ class LeastFriction(ConjugateToothForm):
             check_angle("pressure_angle", self.pressure_angle, 0.125)
         if self.margin is not None and self.margin.value <= 0:
             raise bad("margin", f"with a margin of {self.margin.text} the contact would stop", "give a margin above 0")
-        fastest = sin((self.pressure_angle or _CEILING).si)
+        fastest = sin((self.pressure_angle or _MAXIMUM_ANGLE).si)
         if (self.margin or _MARGIN).value >= fastest:
             raise bad(
                 "margin",
@@ -98,14 +98,14 @@ class LeastFriction(ConjugateToothForm):
             )
         return self
 
-    def _literal_makes_sense(self) -> LeastFriction:
+    def _check_literal(self) -> LeastFriction:
         if self.friction_law is not None:
             raise bad("literal", "the literal shape does not depend on a friction_law", "remove `friction_law`")
         if self.pressure_angle is not None or self.margin is not None:
             raise bad(
                 "literal", "the literal shape has neither pressure_angle nor margin", "give `pressure_angles` instead"
             )
-        first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
+        first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
         if not pi / 4 <= last < first < pi / 2:
             raise bad(
                 "pressure_angle",
@@ -131,7 +131,7 @@ class LeastFriction(ConjugateToothForm):
         from geartrain.teeth.conjugate.optimal_sides import least_friction
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
 
-        psi, u = (self.pressure_angle or _CEILING).si, float((self.margin or _MARGIN).value)
+        psi, u = (self.pressure_angle or _MAXIMUM_ANGLE).si, float((self.margin or _MARGIN).value)
         approach, recess = (
             least_friction(pitch, b, X, psi, u, self._weight(pitch)) if X else none(psi)
             for b, X in zip((pitch.A, pitch.B), arcs_of(self.arcs or (_HALF, _HALF), pitch), strict=True)
@@ -158,7 +158,7 @@ class LeastFriction(ConjugateToothForm):
         from geartrain.teeth.conjugate.closed_form_sides import extremal
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
 
-        first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
+        first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
         approach, recess = (
             extremal(pitch, X, first, last) if X else none(0.0) for X in arcs_of(self.arcs or (_NONE, _WHOLE), pitch)
         )

@@ -178,7 +178,7 @@ class SlidingEfficiency(Result):
         return "locks" if self.mean is None else f"{self.mean:.6f}"
 
 
-def _which(gear: int) -> int | None:
+def _gear_or_none(gear: int) -> int | None:
     """Return None instead of 0, the gear number of the pair as a whole."""
     return gear or None
 
@@ -190,7 +190,7 @@ def _which(gear: int) -> int | None:
 class ToothFault(Result):
     """One reason why teeth cannot run."""
 
-    KEYS = ("kind", Key("gear", to=_which), "what", "why", "fix")
+    KEYS = ("kind", Key("gear", to=_gear_or_none), "what", "why", "fix")
 
     kind: str
     """Kind of fault, such as `jam`, `clash` or `undercut`."""

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
 
 
-def _whole(raw: object) -> object:
+def _integer(raw: object) -> object:
     """Convert decimal text to an integer, since a declaration gives numbers as text."""
     return int(raw) if isinstance(raw, str) and raw.isdecimal() else raw
 
@@ -86,7 +86,7 @@ class PinAndSlot(_Coupling):
 
     @model_validator(mode="after")
     def _encloses(self) -> PinAndSlot:
-        _refuse_unless_winding(self, 1)
+        _check_winding(self, 1)
         return self
 
 
@@ -97,15 +97,15 @@ class PinFollower(_Coupling):
 
     @model_validator(mode="after")
     def _leaves_out(self) -> PinFollower:
-        _refuse_unless_winding(self, 0)
+        _check_winding(self, 0)
         return self
 
 
-class _Uniform(_Coupling):
+class _ParallelCoupling(_Coupling):
     """Coupling that keeps two links parallel, so that both turn at the same speed at every instant."""
 
     @model_validator(mode="after")
-    def _has_no_friction(self) -> _Uniform:
+    def _has_no_friction(self) -> _ParallelCoupling:
         if self.friction is not None:
             raise PydanticCustomError(
                 "pin",
@@ -125,16 +125,16 @@ class _Uniform(_Coupling):
         return None
 
 
-class PinsInHoles(_Uniform):
+class PinsInHoles(_ParallelCoupling):
     """Pins in round holes that keep two links parallel, as the output pins of a cycloidal reducer do.
 
-    Both links turn at the same speed at every instant about axes that are `offset` apart. Holes are wider than their pins
-    by twice that distance. `slot` is the link with the holes, `pin_radius` the radius of the circle through the pins'
-    centres.
+    Both links turn at the same speed at every instant about axes that are `offset` apart. Holes are wider than their
+    pins by twice that distance. `slot` is the link with the holes, `pin_radius` the radius of the circle through the
+    pins' centres.
     """
 
     kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at every instant")
-    pins: Annotated[int, BeforeValidator(_whole)] = Field(
+    pins: Annotated[int, BeforeValidator(_integer)] = Field(
         6, ge=3, le=1000, description="Number of pins, evenly spaced on their circle"
     )
     pin_diameter: Length | None = Field(
@@ -142,7 +142,7 @@ class PinsInHoles(_Uniform):
     )
 
 
-class Parallel(_Uniform):
+class Parallel(_ParallelCoupling):
     """Any other coupling that keeps two links parallel: parallel cranks, an Oldham cross, a flexible wall.
 
     The links `pin` and `slot` are interchangeable. The coupling is not drawn.
@@ -168,7 +168,7 @@ def winding_number(kind: str) -> int:
     return 0 if kind == "pin_follower" else 1
 
 
-def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
+def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
     radius, offset = coupling.pin_radius, coupling.offset
     if radius is None or offset is None:
         return

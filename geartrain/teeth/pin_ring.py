@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.pair_results import PairFigures
 
-_SHORTENING = 0.7  # pitch radius of the ring over that of the pins' circle, unless it is declared
-_CROWDED = 1.7  # distance of two pins over the diameter of one, unless that is declared
+_SHORTENING = 0.7  # default pitch radius of the ring over the radius of the pin circle
+_PIN_SPACING = 1.7  # default distance of two pins over the diameter of a pin
 
 
 class PinRing(ToothForm):
@@ -77,7 +77,7 @@ class PinRing(ToothForm):
     )
 
     @model_validator(mode="after")
-    def _lengths_are_lengths(self) -> PinRing:
+    def _check_lengths(self) -> PinRing:
         for name in ("pin_circle", "pin_diameter", "deflection"):
             length = getattr(self, name)
             if length is not None and length.value <= 0:
@@ -131,7 +131,8 @@ class PinRing(ToothForm):
             )
         apart = 2 * circle * sin(pi / pins)
         found = CycloidalDisc(lobes, circle, 0.0)
-        usual = min(apart / _CROWDED / 2, 0.9 * found.sharpest)
+        # a margin of 10 % keeps the default pins from undercutting the lobes
+        usual = min(apart / _PIN_SPACING / 2, 0.9 * found.sharpest)
         pin = usual if self.pin_diameter is None else self._modules("pin_diameter", module) / 2
         if 2 * pin >= apart:
             raise refused(

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_MINIMUM = 1e-40  # of any unit: the fourth power of a distance is a float
-_SAMPLES = 4096  # of a smooth periodic function: its mean by equal samples is exact to rounding unless r is close to e
+_MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflows nor overflows
+# the mean of a smooth periodic function over equidistant samples is exact to rounding unless r is close to e
+_SAMPLES = 4096
 
 
 def log_share(r: float, e: float) -> float:
@@ -42,7 +43,7 @@ def mean_over_the_pin(r: float, e: float, f: float) -> float:
     """
     width = sqrt((r - e) * (r + e))
     c = f * e / width
-    # as a product: near c = 1, where the quotient is 1, the difference 1 - c^2 has lost half its digits
+    # sqrt(1 - c^2) as a product: near c = 1, where the quotient is 1, the difference loses half its digits
     apart = sqrt(abs(1 - c) * (1 + c))
     inner = 2 * (acos(c) / apart if c < 1 else 1 if c == 1 else acosh(c) / apart)
     return (1 - f * log_share(r, e) + f * f * r * inner / (pi * width)) / (1 + f * f)
@@ -68,10 +69,11 @@ class PinTransmission(TransmissionFunction):
     def amplitude(self) -> float:
         """Maximum transmission error [rad], the same on both sides: asin of the smaller over the larger distance."""
         less, more = min(self.r, self.e), max(self.r, self.e)
-        return atan2(less, sqrt((more - less) * (more + less)))  # not asin, which loses half the digits near r = e
+        # asin would lose half its digits near r = e
+        return atan2(less, sqrt((more - less) * (more + less)))
 
     @property
-    def _steepest(self) -> float:
+    def _maximum_tangent(self) -> float:
         """Maximum of tan d for a pin whose circle encloses the slot's axis: e/sqrt(r^2 - e^2)."""
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
 
@@ -81,10 +83,10 @@ class PinTransmission(TransmissionFunction):
 
     def error_moments(self) -> tuple[float, float]:
         """Return 0 as the mean of the transmission error, and its rms (rad)."""
-        error = self.error(self._turn())
+        error = self.error(self._turn_samples())
         return 0.0, sqrt(float(np.mean(error**2)))
 
-    def _turn(self) -> Floats:
+    def _turn_samples(self) -> Floats:
         return np.arange(_SAMPLES, dtype=np.float64) * (self.period / _SAMPLES)
 
 
@@ -164,7 +166,7 @@ class PinToSlotTransmission(PinTransmission):
         """
         S = np.asarray(S, dtype=float)
         less, more = min(self.r, self.e), max(self.r, self.e)
-        # more - less cos S, as a sum: near r = e the difference would cancel
+        # more - less cos S as a sum, which does not cancel near r = e
         along = (more - less) + 2 * less * np.sin(S / 2) ** 2
         error = np.asarray(np.arctan2(less * np.sin(S), along))
         return error if self.r > self.e else -error
@@ -206,7 +208,7 @@ class PinToSlotTransmission(PinTransmission):
         """Return the mean efficiency over a turn of the pin, at constant torque on it."""
         if self.r > self.e:
             return mean_over_the_pin(self.r, self.e, self.friction)
-        return float(np.mean(self.efficiency(self._turn())))
+        return float(np.mean(self.efficiency(self._turn_samples())))
 
     def efficiency_at_constant_load(self) -> float:
         """Return 1/(1 + (f/pi) ln((r + e)/(r - e))) for a constant torque on the slot; NaN for a follower.
@@ -222,7 +224,7 @@ class PinToSlotTransmission(PinTransmission):
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
-        return 1 / (1 + self.friction * self._steepest)
+        return 1 / (1 + self.friction * self._maximum_tangent)
 
 
 class SlotToPinTransmission(PinTransmission):
@@ -289,7 +291,7 @@ class SlotToPinTransmission(PinTransmission):
     def _sides(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Return r sin d and r cos d, with d the angle between pin radius and slot, sin d = (e/r) sin S."""
         S = np.asarray(S, dtype=float)
-        # sqrt(r^2 - e^2 sin^2 S), as a sum: near r = e the difference would cancel
+        # sqrt(r^2 - e^2 sin^2 S) as a sum, which does not cancel near r = e
         along = np.sqrt((self.r - self.e) * (self.r + self.e) + (self.e * np.cos(S)) ** 2)
         return self.e * np.sin(S), along
 
@@ -321,7 +323,7 @@ class SlotToPinTransmission(PinTransmission):
 
     def efficiency_minimum(self) -> float:
         """Return the efficiency at the maximum of d, sin d = e/r; NaN if friction locks."""
-        return nan if self._locks else 1 - self.friction * self._steepest
+        return nan if self._locks else 1 - self.friction * self._maximum_tangent
 
     @property
     def _locks(self) -> bool:
@@ -330,4 +332,4 @@ class SlotToPinTransmission(PinTransmission):
     @property
     def locking_friction(self) -> float:
         """Coefficient of friction at which the pin locks at some angle: sqrt(r^2 - e^2)/e."""
-        return 1 / self._steepest if self.e else inf
+        return 1 / self._maximum_tangent if self.e else inf

@@ -14,10 +14,10 @@ from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.involute import Involute
 
-ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: those of the tallest, and the depth of all
-BACKLASH = 0.05  # modules, of a pair of such wheels as they are cut where nothing else is said
-_ANGLES = (20, 25, 30, 32)  # deg: the flattest at which all wheels that are connected run is taken
-_ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the tallest that run are taken
+ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: maximum addendum, and dedendum of all wheels
+BACKLASH = 0.05  # modules: default backlash of a pair of such wheels when they are cut
+_ANGLES = (20, 25, 30, 32)  # deg: the smallest at which all connected wheels run is used
+_ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the largest with which a pair runs is used
 MOST_TEETH = 10_000
 
 
@@ -56,14 +56,14 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
     found: dict[str, StandardTeeth] = {}
     for name in gears:
         if name not in found:
-            group = _hanging_together(name, mates)
+            group = _connected(name, mates)
             designs = (_design(group, gears, mates, angle) for angle in _ANGLES)
             runs = next((design for design in designs if design is not None), None)
             found |= runs or {each: StandardTeeth(_ANGLES[0], ADDENDUM) for each in group}
     return found
 
 
-def _hanging_together(first: str, mates: Mapping[str, list[str]]) -> list[str]:
+def _connected(first: str, mates: Mapping[str, list[str]]) -> list[str]:
     known, waiting = {first: None}, [first]
     while waiting:
         for mate in mates[waiting.pop()]:
@@ -80,7 +80,7 @@ def _design(
     addenda: dict[str, float] = {}
     edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
     for name in group:
-        heights = [_tallest(*_turned(gears[name], gears[mate]), angle) for mate in mates[name]]
+        heights = [_tallest(*_ring_last(gears[name], gears[mate]), angle) for mate in mates[name]]
         if None in heights:
             return None
         addenda[name] = min((height for height in heights if height is not None), default=ADDENDUM)
@@ -91,7 +91,7 @@ def _design(
     return {name: StandardTeeth(angle, addendum) for name, addendum in addenda.items()}
 
 
-def _turned(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
+def _ring_last(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
     """Return the two wheels of a pair, a ring last."""
     return (second, first) if first.internal else (first, second)
 

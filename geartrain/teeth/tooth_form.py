@@ -105,7 +105,7 @@ class ToothForm(BaseModel, ABC):
         try:
             return cls.model_validate({"form": form, **parameters})
         except ValidationError as error:
-            # one value given for both wheels would be complained of twice
+            # one invalid value given for both wheels is reported once
             raise GearTrainError(dict.fromkeys(map(cls._problem, error.errors(include_url=False)))) from None
 
     @classmethod

@@ -29,19 +29,20 @@ if TYPE_CHECKING:
 
     Flags = NDArray[np.bool_]
 
-DEGREE = 4  # each degree costs a tenth more time an angle; below 4 tables of few teeth outgrow the caches
-_BLOCK = 8192  # angles worked on at once: their arrays and the table stay in a cache
-_FEWEST, _MOST = 32, 1 << 16  # cells
-_PATIENCE = 8  # times as many cells without half the error: it is rounding
-_THIN = 1e-12  # of a period: a narrower cell is a constant
-_SAFETY = 2.0  # stated error over the greatest found
-# for the kernel: follows a law to rounding in 32 to 512 cells; above, the fit itself rounds more; below, tables leave
-# the cache
+# each degree costs 10 % more time per angle; below 4, tables of wheels with few teeth do not fit into the caches
+DEGREE = 4
+_BLOCK = 8192  # angles evaluated at once: their arrays and the table fit into a cache
+_FEWEST, _MOST = 32, 1 << 16  # minimum and maximum number of cells
+_PATIENCE = 8  # an error not halved by this factor of cells is rounding error
+_THIN = 1e-12  # periods: in narrower cells the table is constant
+_SAFETY = 2.0  # stated uncertainty over the maximum error found
+# degree 6 follows a function to rounding error in 32 to 512 cells: with a higher degree the fit itself has larger
+# rounding errors, with a lower degree the tables do not fit into the cache
 KERNEL_DEGREE = 6
-# numbers of a cell, side by side: two lines of a cache, where columns would take one a number
+# numbers of a cell are adjacent and fill two cache lines; in columns each number would load a cache line
 CELL = 2 * (KERNEL_DEGREE + 2)
-_WANTED = 1e-15  # of a driven pitch, or of the speed: as finely as the law itself is known
-_GOOD = 1e-12  # of the same: a law that no table follows so well is asked itself
+_WANTED = 1e-15  # driven pitches, or of the mean speed: rounding error of the function itself
+_GOOD = 1e-12  # in the same units: if no table is as accurate, the function itself is evaluated
 
 
 class HasKinks(Protocol):
@@ -73,11 +74,11 @@ class CellTable:
         nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
         values = function(self.middles[:, None] + halves[:, None] * nodes)
         wide = halves > _THIN * period
-        # over an infinite half width only the constant term is left: thin cells are constants
+        # an infinite half width leaves the constant term only, which avoids overflow in thin cells
         powers = np.where(wide, halves, np.inf)[:, None] ** np.arange(degree + 1)
         monomials = np.linalg.inv(np.vander(nodes, increasing=True))
         self.coefficients = np.ascontiguousarray((values @ monomials.T / powers).T)
-        # the error is greatest between the nodes and at the ends of a cell; an end itself may be beyond a corner
+        # the maximum error is between the nodes or at the ends of a cell; an end itself may be beyond a kink
         checks = np.cos(np.pi * np.arange(degree + 2) / (degree + 1)) * (1 - 1e-9)
         S = self.middles[wide, None] + halves[wide, None] * checks
         off = np.abs(self(S) - function(S))
@@ -125,7 +126,7 @@ class CellTable:
         for kink in self.kinks:
             np.greater_equal(u, kink, out=passed)
             np.add(cell, passed, out=cell)
-        # clipped: rounding may lead past the last cell, NaN anywhere; in mode `raise` numpy fills `out` through a copy
+        # clipped, since rounding may lead past the last cell and NaN anywhere; mode `raise` would fill `out` via a copy
         np.take(self.middles, cell, out=other, mode="clip")
         np.subtract(u, other, out=u)
         np.take(self.coefficients[-1], cell, out=found, mode="clip")
@@ -293,7 +294,7 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
         cuts = folded_kinks(transmission)
         error = fit(transmission.error, transmission.period, cuts, _WANTED * ratio * transmission.period, KERNEL_DEGREE)
         speed = fit(transmission.speed, transmission.period, cuts, _WANTED * ratio, KERNEL_DEGREE)
-        # of both in the same cells an angle is looked up once
+        # with both tables on the same cells, the kernel looks up an angle once
         if error.cells < speed.cells:
             error = CellTable(transmission.error, transmission.period, cuts, speed.cells, KERNEL_DEGREE)
         elif speed.cells < error.cells:
@@ -302,7 +303,7 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
         good = (
             found.error.uncertainty <= _GOOD * ratio * transmission.period and found.speed.uncertainty <= _GOOD * ratio
         )
-    # where a gap begins depends on which side of it rounding falls
+    # the boundary of a gap depends on rounding, so that functions with gaps are not tabulated
     whole = all(np.isfinite(table.coefficients).all() for table in (found.error, found.speed))
     return found if good and whole else None
 
@@ -345,7 +346,7 @@ def _cells(transmission: TransmissionTable) -> Floats:
         if table.cells < finer.cells:
             at = np.clip(np.searchsorted(table.breaks, finer.middles, side="right") - 1, 0, len(table.middles) - 1)
         found[:, part] = table.middles[at]
-        # a lower degree begins with coefficients 0, which changes no bit
+        # leading zero coefficients of a lower degree do not change a bit of the result
         found[:, part + 2 * (KERNEL_DEGREE + 1 - table.degree) :: 2] = table.coefficients[::-1, at].T
     return found
 
@@ -377,7 +378,7 @@ def transmission_along(
         for at in range(len(angle)):
             cell[at] += np.int32(u[at] >= kink)
     for at in range(len(angle)):
-        # clipped: rounding may lead past either end
+        # clipped, since rounding may lead past either end
         cell[at] = min(max(cell[at], 0), last - first)
     for at in range(len(angle)):
         error[at], speed[at] = _polynomials(tables.cells, np.uint64(CELL) * np.uint64(first + cell[at]), u[at])

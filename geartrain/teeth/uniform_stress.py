@@ -43,7 +43,7 @@ class UniformStress(ConjugateToothForm):
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> UniformStress:
+    def _check_parameters(self) -> UniformStress:
         check_angle("pressure_angle", self.pressure_angle, 0.125)
         check_arcs(self.arcs)
         return self

@@ -20,15 +20,16 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _USUAL = Quantity.parse("12 deg", "angle", False)
-_INVOLUTE = pi / 9  # 20 deg, whose working depth is the default
+_INVOLUTE = pi / 9  # 20 deg: the working depth of this involute is the default
 
 
 class UniformTemperature(ConjugateToothForm):
     """Teeth of uniform temperature: the frictional heat per area of profile is the same at every instant.
 
     There are three readings of the source. In reading a, the heat is uniform on the first wheel. In reading b, it is
-    uniform on the hotter profile of the two, which is always the dedendum. Reading c is reading b with a constant pressure
-    angle from the pitch point until that heat is reached, which keeps the stress finite there (docs/shapes.md).
+    uniform on the hotter profile of the two, which is always the dedendum. Reading c is reading b with a constant
+    pressure angle from the pitch point until that heat is reached, which keeps the stress finite there
+    (docs/shapes.md).
 
     See Also
     --------
@@ -65,7 +66,7 @@ class UniformTemperature(ConjugateToothForm):
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> UniformTemperature:
+    def _check_parameters(self) -> UniformTemperature:
         if self.heat is not None and self.depth is not None:
             raise bad("heat", "heat and depth are both given", "remove `heat` or `depth`: each determines the other")
         for name, figure in (("heat", self.heat), ("depth", self.depth)):
@@ -96,7 +97,7 @@ class UniformTemperature(ConjugateToothForm):
         if self.heat is not None:
             approach, recess = self._sides(pitch, (pitch.A + pitch.B) / float(self.heat.value))
         else:
-            approach, recess = self._deep(pitch)
+            approach, recess = self._sides_of_depth(pitch)
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
@@ -113,12 +114,12 @@ class UniformTemperature(ConjugateToothForm):
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
             elif b + gamma <= 0:
-                raise _cold(pitch, gamma)
+                raise _heat_error(pitch, gamma)
             else:
                 found.append(uniform_heat(pitch, b, gamma, X))
         return found[0], found[1]
 
-    def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
+    def _sides_of_depth(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
         """Return approach and recess with the requested working depth, which increases with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
         from geartrain.teeth.conjugate.path_losses import depth, to_depth
@@ -137,7 +138,7 @@ class UniformTemperature(ConjugateToothForm):
         return self._sides(pitch, gamma)
 
 
-def _cold(pitch: PitchSurfaces, gamma: float) -> Exception:
+def _heat_error(pitch: PitchSurfaces, gamma: float) -> Exception:
     return refused(
         f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
         "the contact would stop near the pitch point",

@@ -173,9 +173,9 @@ def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> Conjugat
 
 def arcs_error(text: str) -> QuestionError:
     """Return the error for arcs of contact that are out of range."""
-    why = f"arcs of approach and recess are from 0 to {_MOST_PITCHES:g} pitches, and not both 0"
-    fix = "give two arcs with a sum of 1 or more, such as `--arcs 0.5,0.5`"
-    return QuestionError(Problem(f"arcs of {text} are out of range", why, fix, "--arcs"))
+    why = f"arcs of approach and recess are numbers from 0 to {_MOST_PITCHES:g}, and not both 0"
+    fix = "give two arcs in pitches with a sum of 1 or more, such as `--arcs 0.5,0.5`"
+    return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "--arcs"))
 
 
 def _check(

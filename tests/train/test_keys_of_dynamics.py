@@ -189,7 +189,7 @@ def test_a_slot_is_as_wide_as_its_pin_or_wider() -> None:
     assert found.couplings[0].clearance.si == 1e-4
     assert found.restitution_of(found.couplings[0]) == 0.2
     assert "a clearance of -1 mm is negative" in refusal(train.format(text.format("-1 mm")))
-    assert "passes beside the slot's axis" in refusal(train.format(text.format("16 mm")))
+    assert "passes the slot's axis" in refusal(train.format(text.format("16 mm")))
     assert "lengths mix plain numbers and units" in refusal(train.format(text.format("1")))
 
 

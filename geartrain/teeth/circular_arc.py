@@ -290,8 +290,8 @@ class CircularArc(ToothForm):
         """
         if self.backlash is None and self.thickness is None:
             return None
-        why = "a declared backlash or thickness takes precedence over the option"
-        fix = "leave --backlash out, or remove `backlash` and `thickness` from the file"
+        why = "a declared backlash or thickness takes precedence over --backlash"
+        fix = "omit --backlash, or remove `backlash` and `thickness` from the file"
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:

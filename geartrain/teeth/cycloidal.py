@@ -116,8 +116,8 @@ class Cycloidal(ConjugateToothForm):
         if self.thickness is None:
             return super().own_backlash(pair)
         declared = " and ".join(each.text for each in self.thickness)
-        why = f"the declared thickness of {declared} modules takes precedence over the option"
-        fix = "leave --backlash out, or remove `thickness` from the file"
+        why = f"the declared thickness of {declared} modules takes precedence over --backlash"
+        fix = "omit --backlash, or remove `thickness` from the file"
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:

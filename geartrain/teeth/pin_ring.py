@@ -231,11 +231,11 @@ class PinRing(ToothForm):
         """
         if not self.clearance.value:
             return None
-        why = f"the declared clearance of {self.clearance.text} takes precedence over the option"
+        why = f"the declared clearance of {self.clearance.text} takes precedence over --backlash"
         return Problem(
             f"pair '{pair}' has a clearance of its own",
             why,
-            "leave --backlash out, or remove `clearance` from the file",
+            "omit --backlash, or remove `clearance` from the file",
         )
 
     def thinned(self, backlash: Quantity) -> PinRing:

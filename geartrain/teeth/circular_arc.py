@@ -368,6 +368,7 @@ class ArcTooth:
         half = self.thickness / self.z
         x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
         chord = hypot(x, self.tip - y)
+        # on the perpendicular bisector of the chord; `far` is its distance from the chord over the chord's length
         far = sqrt(self.radius**2 - chord**2 / 4) / chord
         return x / 2 - far * (self.tip - y), (self.tip + y) / 2 - far * x
 
@@ -393,6 +394,7 @@ class ArcTooth:
         """
         x, y = self.centre
         far = hypot(x, y)
+        # length and direction of the tangent from the axis of the wheel to the arc
         return sqrt(far**2 - self.radius**2), atan2(x, y) + asin(self.radius / far)
 
     def outline(self) -> GearOutline:

@@ -113,6 +113,7 @@ class CycloidalDisc:
 
     def _centre_curvature(self, turn: Floats) -> Floats:
         """Return the curvature of the pin-centre curve [1/module], positive where it is convex."""
+        # first and second derivative of `centres` by the angle of the eccentric
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
         first = 1j * (R / z * slow - e * (z + 1) / z * fast)
@@ -125,6 +126,7 @@ class CycloidalDisc:
 
         angle   position of the pin from the pitch point, about the axis of the ring (rad)
         """
+        # curvature of the parallel curve at the distance of a pin radius and the clearance
         bent = self._centre_curvature(angle)
         found: Floats = bent / (1 - bent * (self.pin + self.clearance))
         return found
@@ -158,6 +160,7 @@ class CycloidalDisc:
         arms = self.arms(self.angles(phase))
         if self.clearance and self.deflection is not None:
             return np.maximum(self._loaded_angle(arms) * arms - self.clearance, 0.0) / self.deflection
+        # pins of equal stiffness: the deflection at a pin is proportional to its lever arm
         found: Floats = arms * self.lobes / 2 / (arms**2).sum(axis=0)
         return found
 
@@ -224,6 +227,7 @@ class CycloidalDisc:
         out = np.maximum(self._chord_excess(number), 0.0)
         turn = np.linspace(0, 2 * pi, number, endpoint=False)
         points = self.outline(turn) + np.maximum(out, np.roll(out, 1)) * self._inward_normals(turn)
+        # the outline begins at the bottom between two lobes
         points *= np.exp(-1j * pi / self.lobes)
         tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
         tip = self.circle + 0.5 - self.pin - self.clearance
@@ -281,6 +285,7 @@ class DiscTransmission(ExactRatio):
         self.friction = check_friction(friction)
         z1, z2 = (disc.lobes, disc.pins) if driver == 1 else (disc.pins, disc.lobes)
         super().__init__(Fraction(z1, z2), 2 * pi / z1)
+        # rad of the driven wheel: the clearance on both flanks at the pitch radius z2 / 2
         self._backlash = 4 * disc.clearance / z2
 
     @property

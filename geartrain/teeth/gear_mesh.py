@@ -247,6 +247,7 @@ class GearMesh(Shown, ABC):
 
         size = self.own_size
         scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
+        # a step of -1 swaps the two wheels for gear 2
         tooth, mate = (self.requirement(name, scale, tolerance).cut() for name in self.gear.pair[:: 3 - 2 * gear])
         z, other = self.wheels.counts[:: 3 - 2 * gear]
         distance = self.wheels.touching if size is None else size.distance
@@ -310,7 +311,8 @@ class GearMesh(Shown, ABC):
         Parameters
         ----------
         gap : float
-            Increase of the centre distance [module], negative if the axes are too close.
+            Distance by which the wheels are too far apart [module], negative if they are too close. In a ring, wheels are
+            apart if the centre distance is too short.
 
         Returns
         -------

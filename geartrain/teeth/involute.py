@@ -195,6 +195,7 @@ class Involute(ConjugateToothForm):
             Backlash on the pitch circle [module]; None if the axes are closer than the base circles allow.
         """
         found = self.involutes(wheels)
+        # in a ring the teeth separate as the centre distance decreases
         moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))
         try:
             return moved.backlash * moved.pitch.z1 / 2 / moved.pitch.R1

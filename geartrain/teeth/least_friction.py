@@ -90,6 +90,7 @@ class LeastFriction(ConjugateToothForm):
         if self.margin is not None and self.margin.value <= 0:
             raise bad("margin", f"with a margin of {self.margin.text} the contact would stop", "give a margin above 0")
         fastest = sin((self.pressure_angle or _MAXIMUM_ANGLE).si)
+        # at the pitch point the contact moves with the sine of the pressure angle times the pitch-line speed
         if (self.margin or _MARGIN).value >= fastest:
             raise bad(
                 "margin",

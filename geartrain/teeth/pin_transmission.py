@@ -178,6 +178,7 @@ class PinToSlotTransmission(PinTransmission):
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Return r - e cos S, and the square of the pin's distance from the slot's axis as a sum of squares."""
+        # half angles avoid the cancellation of both differences near r = e and S = 0
         half = np.sin(np.asarray(S, dtype=float) / 2)
         along = (self.r - self.e) + 2 * self.e * half**2
         return along, (self.r - self.e) ** 2 + 4 * self.r * self.e * half**2
@@ -201,7 +202,7 @@ class PinToSlotTransmission(PinTransmission):
         along, _ = self._reach(S)
         across = self.friction * np.abs(self.e * np.sin(np.asarray(S, dtype=float)))
         along = np.abs(along)
-        whole = along + across
+        whole = along + across  # 0 only at a dead point without friction, where the efficiency is 1
         return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
 
     def efficiency_mean(self) -> float:

@@ -108,6 +108,7 @@ class RubbedTransmission(DerivedTransmission):
         touching = ~np.isnan(out)
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + mu * into, 1 + mu * out
+            # a factor of 0 or less means that friction absorbs all power of the contact
             each = np.where(touching, np.where((out > 0) & (into > 0), out / into, nan), 0.0)
             count = touching.sum(axis=0)
             return each.sum(axis=0) / count, np.where(touching, mu, 0.0).sum(axis=0) / count

@@ -78,12 +78,14 @@ def _design(
 ) -> dict[str, StandardTeeth] | None:
     """Return the teeth of connected wheels; None if at this pressure angle some pair of them does not run."""
     addenda: dict[str, float] = {}
+    # each pair once, whichever of its wheels is visited first
     edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
     for name in group:
         heights = [_tallest(*_ring_last(gears[name], gears[mate]), angle) for mate in mates[name]]
         if None in heights:
             return None
         addenda[name] = min((height for height in heights if height is not None), default=ADDENDUM)
+    # each addendum is the minimum over all mates of a wheel, so that pairs must be checked with both addenda
     for first, second in edges:
         own, mate = (first, second) if not gears[first].internal else (second, first)
         if not _runs(gears[own], gears[mate], angle, addenda[own], addenda[mate]):
@@ -101,6 +103,7 @@ def _tallest(first: UndeclaredWheel, second: UndeclaredWheel, angle: int) -> flo
     return next((height for height in _ADDENDA if _runs(first, second, angle, height, height)), None)
 
 
+# pairs with equal tooth numbers recur in a train and in a search
 @lru_cache(maxsize=65536)
 def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda: float) -> bool:
     try:

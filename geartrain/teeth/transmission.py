@@ -292,6 +292,7 @@ def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
     """
     import numpy as np
 
+    # 24 bits: the product with a number of periods below 2^29 is exact in a float of 53 bits
     coarse = float(np.float32(period))
     np.multiply(S, 1 / period, out=scratch)
     np.floor(scratch, out=scratch)

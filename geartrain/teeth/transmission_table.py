@@ -71,6 +71,7 @@ class CellTable:
         self.period, self.kinks, self.cells, self.degree = period, kinks, cells, degree
         breaks = self.breaks
         self.middles, halves = (breaks[1:] + breaks[:-1]) / 2, (breaks[1:] - breaks[:-1]) / 2
+        # Chebyshev nodes of the first kind lie strictly inside the cell, on one side of every kink
         nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
         values = function(self.middles[:, None] + halves[:, None] * nodes)
         wide = halves > _THIN * period
@@ -123,12 +124,14 @@ class CellTable:
         behind(S, self.period, u, other)
         np.multiply(u, self.cells / self.period, out=other)
         np.copyto(cell, other, casting="unsafe")
+        # every kink below the angle adds a cell to the count of uniform cells
         for kink in self.kinks:
             np.greater_equal(u, kink, out=passed)
             np.add(cell, passed, out=cell)
         # clipped, since rounding may lead past the last cell and NaN anywhere; mode `raise` would fill `out` via a copy
         np.take(self.middles, cell, out=other, mode="clip")
         np.subtract(u, other, out=u)
+        # Horner's method
         np.take(self.coefficients[-1], cell, out=found, mode="clip")
         for coefficients in self.coefficients[-2::-1]:
             np.multiply(found, u, out=found)

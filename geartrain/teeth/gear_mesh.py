@@ -311,8 +311,8 @@ class GearMesh(Shown, ABC):
         Parameters
         ----------
         gap : float
-            Distance by which the wheels are too far apart [module], negative if they are too close. In a ring, wheels are
-            apart if the centre distance is too short.
+            Distance by which the wheels are too far apart [module], negative if they are too close. In a ring, wheels
+            are apart if the centre distance is too short.
 
         Returns
         -------

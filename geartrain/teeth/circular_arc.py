@@ -155,19 +155,19 @@ class CircularArc(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Teeth of the first and of the second wheel, 5 to 10000.
+            Numbers of teeth of the first and of the second wheel, 5 to 10000.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         tuple of ArcTooth
-            Of the first and of the second wheel; lengths in modules.
+            Teeth of the first and of the second wheel; lengths in modules.
 
         Raises
         ------
         GearTrainError
-            Where these sizes give no tooth.
+            If these sizes do not give a tooth.
         """
         for z in (z1, z2):
             if not _FEWEST <= z <= _MOST_TEETH:
@@ -214,14 +214,14 @@ class CircularArc(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Teeth of both wheels.
+            Numbers of teeth of both wheels.
         module : float, optional
             Module [m], for a distance with a unit.
 
         Returns
         -------
         float
-            Modules; half the sum of the teeth unless declared.
+            Centre distance [module]; half the sum of the tooth numbers unless declared.
         """
         if self.centre_distance is None:
             return (z1 + z2) / 2
@@ -235,25 +235,25 @@ class CircularArc(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Teeth of the first and of the second wheel.
+            Numbers of teeth of the first and of the second wheel.
         friction : float
             Coefficient of friction, 0 or more.
         driver : {1, 2}
-            Which wheel drives.
+            Number of the driving wheel.
         direction : {1, -1}
-            -1 turns back, on the other flanks.
+            -1 for motion backwards, on the coast flanks.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         OutlineTransmission
-            Its `verdict` says whether the pair can turn.
+            Transmission function. Its `verdict` says whether the pair can turn.
 
         Raises
         ------
         GearTrainError
-            Where these sizes give no tooth.
+            If these sizes do not give a tooth.
         """
         from geartrain.teeth.contact.outline_transmission import OutlineTransmission
 

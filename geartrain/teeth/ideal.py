@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 class Ideal(ToothForm):
     """Ideal teeth: the ratio of tooth counts at every instant, without transmission error, backlash or loss.
 
-    A pair that declares them computes no tooth.
+    No teeth are computed for a pair that declares them.
 
     See Also
     --------
-    geartrain.teeth.Involute : real teeth that keep the ratio too.
+    geartrain.teeth.Involute : real teeth with a constant ratio.
 
     Examples
     --------

@@ -1,6 +1,7 @@
-"""From a path, a shipped name, text or plain data to a declaration, with what it inherits.
+"""Loading of declarations from a path, a shipped name, text or plain data, with everything that they inherit.
 
-JSON files are read by `json`: the data are as YAML would give them, and places are found only when somebody reads one.
+JSON files are read with `json`, which is faster and gives the same data as YAML would. Their line numbers are computed
+only if they are needed.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ _PLAIN = re.compile(r"[\n\r -\[\]-~]*")
 
 @dataclass(frozen=True)
 class JsonMarks:
-    """The places in a JSON file, found by the YAML parser when the first one is read."""
+    """Line numbers of a JSON file, computed by the YAML parser on first use."""
 
     text: str
     name: str
@@ -48,9 +49,10 @@ class JsonMarks:
 
 
 def parse_json(text: str) -> dict[str, Any] | None:
-    """The mapping that `text` is as JSON, scalars as the text they were; None where YAML might read it otherwise.
+    """Parse `text` as a JSON mapping with scalars kept as text; None if YAML might read it differently.
 
-    Keys given twice, nan, infinity, deep nesting and too many values are left to the YAML parser, which places them.
+    Duplicate keys, nan, infinity, deep nesting and too many values also return None, so that the YAML parser
+    reports them with line numbers.
     """
     values = sum(map(text.count, ",:{}[]{["))  # at least as many as the parser's events
     if values >= MOST_VALUES or not _PLAIN.fullmatch(text):
@@ -65,7 +67,7 @@ def parse_json(text: str) -> dict[str, Any] | None:
 
 
 def _mapping(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """The entries of an object; `ValueError` for a key that is given twice."""
+    """Return the entries of a JSON object. Raises `ValueError` for a duplicate key."""
     found = {key: _BOOLEANS[value] if value is True or value is False else value for key, value in pairs}
     if len(found) < len(pairs):
         raise ValueError
@@ -80,7 +82,7 @@ def _refuse_constant(name: str) -> Any:
 
 
 def _is_shallow(data: Any) -> bool:
-    """True if the data are nested no deeper than a declaration may be, and no list holds true or false."""
+    """Return True if the nesting depth is within the limit and no list contains true or false."""
     level = [data]
     for _ in range(MOST_DEPTH):
         level = [part for each in level for part in (each.values() if type(each) is dict else each)
@@ -105,13 +107,13 @@ EVIDENCE = "evidence"
 
 @cache
 def shipped() -> Mapping[str, Path]:
-    """The trains that come with geartrain, by name."""
+    """Return the paths of the trains that are shipped with geartrain, by name."""
     return _shipped_files(lambda path: path.parent.name != EVIDENCE)
 
 
 @cache
 def shipped_evidence() -> Mapping[str, Path]:
-    """The evidence of trains to be found that comes with geartrain, by name."""
+    """Return the paths of the evidence for reconstructions that is shipped with geartrain, by name."""
     return _shipped_files(lambda path: path.parent.name == EVIDENCE)
 
 
@@ -123,9 +125,9 @@ def _shipped_files(chosen: Callable[[Path], bool]) -> Mapping[str, Path]:
 
 
 def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
-    """A train from a YAML file, the name of a shipped train, YAML text (of several lines), or plain data.
+    """Read a train from a YAML file, the name of a shipped train, YAML text of several lines, or plain data.
 
-    Wheels may be without a tooth count that is still to be found. Raises `DeclarationError`, also for evidence.
+    Tooth counts may still be undetermined (`search`). Raises `DeclarationError`, also for evidence.
     """
     train = _read_source(source, shipped())
     check_is_train(train)
@@ -147,7 +149,7 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     Raises
     ------
     DeclarationError
-        If it cannot be read; also for a train.
+        If it cannot be read, or if it is a train without `reconstruct`.
 
     Examples
     --------
@@ -164,7 +166,7 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
 
 
 def check_is_train(train: Train) -> None:
-    """Raise `DeclarationError` for evidence of a train that is still to be found."""
+    """Raise `DeclarationError` if the declaration is evidence for a reconstruction."""
     if train.reconstruct is not None:
         what = f"'{train.name}' is evidence, not yet a train"
         why = "it says by `reconstruct` that who meshes with whom is to be found"
@@ -186,7 +188,7 @@ def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Pat
 
 
 def _read_json(path: Path) -> Train | None:
-    """The train that a JSON file declares by itself; None where it inherits, has short forms, or has a problem."""
+    """Read a train from a JSON file; None if it inherits, has short forms, or has a problem."""
     text = _read(path)
     data = parse_json(text)
     if data is None or "extends" in data or "remove" in data or has_short_forms(data):
@@ -197,15 +199,15 @@ def _read_json(path: Path) -> Train | None:
 
 
 def write_declaration(train: Train) -> str:
-    """YAML text that is read back as the same declaration wherever it stands: with all that it inherits."""
+    """Return YAML text of the declaration, including all inherited parts, so that it does not depend on other files."""
     data = train.model_dump(mode="json", exclude_unset=True, by_alias=True, exclude={"extends", "remove"})
     return as_yaml({"name": train.name, **data})
 
 
 def formatted(path: Path, long: bool = False) -> tuple[str, str]:
-    """The text of a file, and the same declaration with turning pairs and gear pairs in short forms, or in long ones.
+    """Return the text of a file, and the same declaration with turning pairs and gear pairs in short or in long forms.
 
-    Raises `DeclarationError` for a file that cannot be read, or whose new text would declare something else.
+    Raises `DeclarationError` if the file cannot be read, or if the new text would change the declaration.
     """
     from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
@@ -230,7 +232,7 @@ def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> 
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """A file, and the files that it changes by `extends`, as far as they can be read.
+    """Return a file and all files that it extends, directly or indirectly.
 
     Parameters
     ----------
@@ -240,14 +242,14 @@ def files_of(path: Path) -> tuple[Path, ...]:
     Raises
     ------
     DeclarationError
-        If one of them cannot be read, or is not there.
+        If one of the files is missing or cannot be read.
     """
     child = parse_yaml(_read(path), str(path))
     return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))
 
 
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
-    """The child laid over its parent, which is laid over its own before."""
+    """Merge a declaration with the chain of its parents, the oldest parent first."""
     line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
     result = line.pop()
     if line:
@@ -258,7 +260,9 @@ def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Yam
 
 
 def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[tuple[Path, YamlNode]]:
-    """What it extends, what that extends, and so on; refused where they are too many, or go round in a circle."""
+    """Yield path and node of each ancestor by `extends`. Raises `DeclarationError` for a cycle or a chain that is too
+    long.
+    """
     met = dict.fromkeys(chain)
     for at in count():
         if "extends" not in node.mapping:
@@ -306,7 +310,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
 
 
 def _exists(path: Path) -> bool:
-    """True if something is there; a name that no file can have is none."""
+    """Return True if the path exists; False also for names that are not valid for a file."""
     try:
         return path.exists()
     except (OSError, ValueError):
@@ -335,7 +339,7 @@ def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
 
 
 def _instead(name: str, evidence: bool) -> str:
-    """What to give instead of a name that is not shipped, as evidence or as a train."""
+    """Suggest a correction for a name that is not shipped as evidence or as a train."""
     if evidence and name in shipped():
         return f"it is a shipped train: say by `--without ARBOR` what to take for lost, or give evidence: {_evidence()}"
     if not evidence and name in shipped_evidence():

@@ -1,7 +1,7 @@
-"""The text of a declaration with its turning pairs and gear pairs in short forms, or in long ones.
+"""Rewriting of a declaration's turning pairs and gear pairs in short or in long forms.
 
-Only the two sections are written anew, entry by entry; all other lines stay as they are, and comments stay with their
-entries. What has more to say than its short form can hold stays long.
+Only these two sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their
+entries. An entry with keys that its short form cannot express stays long.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import yaml
 
 _WIDTH = 120
 _NAME = re.compile(r"[^\s~'\"\[\]{},:#&*!|>%@`][^\s~'\"\[\]{},:#]*")
-"""A name that needs no quotes, and none in a list."""
+"""Pattern of a name that needs no quotes, not even in a flow list."""
 _Loader: Any = yaml.SafeLoader
 
 
 @dataclass(frozen=True)
 class _Entry:
-    """An entry of a section as it is written, with comments on lines before it and behind it."""
+    """One entry of a section: its text, the comment lines before it, and the comment after it on its line."""
 
     text: str
     before: tuple[str, ...] = ()
@@ -29,7 +29,7 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    """Rewrite a declaration with turning pairs by axis and gear pairs as `a ~ b`, where they declare no more than that.
+    r"""Rewrite a declaration with turning pairs grouped by axis and gear pairs as `a ~ b`, if they have no other keys.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def with_short_forms(text: str) -> str:
 
 
 def with_long_forms(text: str) -> str:
-    """Rewrite a declaration with every turning pair and every gear pair as a mapping of its own.
+    r"""Rewrite a declaration with every turning pair and every gear pair as a separate mapping.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def with_long_forms(text: str) -> str:
 
     Examples
     --------
-    >>> print(*with_long_forms("gears:\\n  - p ~ w").splitlines(), sep=" /")
+    >>> print(*with_long_forms("gears:\n  - p ~ w").splitlines(), sep=" /")
     gears: /  - {pair: [p, w]}
     """
     return _rewritten(text, {"revolutes": _long_joints, "gears": _long_pairs})
@@ -85,7 +85,7 @@ def _rewritten(text: str, writers: Mapping[str, Callable[[_Written], list[str] |
 
 
 def _last_line(node: yaml.Node) -> int:
-    """Of what is written, without blank lines and comments after it."""
+    """Return the last line of a node, without blank lines and comments after it."""
     if not isinstance(node, yaml.CollectionNode) or node.flow_style or not node.value:
         return int(node.end_mark.line)
     last = node.value[-1]
@@ -93,7 +93,7 @@ def _last_line(node: yaml.Node) -> int:
 
 
 class _Written:
-    """A section as it is written: its value, and comments behind what is written or on lines of their own."""
+    """Source text of a section: its value, comments at the end of lines, and comments on separate lines."""
 
     def __init__(self, text: str, key: yaml.Node, value: yaml.Node) -> None:
         self.text, self.value = text, value
@@ -112,24 +112,24 @@ class _Written:
 
     @property
     def head(self) -> str:
-        """The comment behind the section's key."""
+        """Comment on the line of the section's key."""
         return self._behind.get(self.first, "")
 
     @property
     def items(self) -> list[yaml.Node]:
-        """The entries of a list."""
+        """Entries of a list; empty for other values."""
         return list(self.value.value) if isinstance(self.value, yaml.SequenceNode) else []
 
     def source(self, node: yaml.Node) -> str:
-        """What is written there."""
+        """Return the source text of a node."""
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
     def says(self, entries: Sequence[_Entry]) -> bool:
-        """Whether all entries of a list are written so already."""
+        """Return whether all entries of a list are already written like this."""
         return [each.text for each in entries] == [self.source(node) for node in self.items]
 
     def entry(self, text: str, node: yaml.Node) -> _Entry:
-        """With the comments that stand before and behind a node, which are given out once."""
+        """Return an entry with the comments before and after a node. Each comment is used once."""
         start, end = node.start_mark.line, _last_line(node)
         before = tuple(each for at, each in self._alone.items() if self._after <= at < start)
         behind = [self._behind.pop(at) for at in range(max(start, self.first + 1), end + 1) if at in self._behind]
@@ -142,7 +142,7 @@ def _parts(node: yaml.Node) -> dict[str, yaml.Node]:
 
 
 def _pair_of(written: _Written, node: yaml.Node, keys: set[str]) -> list[str]:
-    """Both names of a pair as they are written, where it has just these keys."""
+    """Return both names of a pair as written; empty if the node has other keys than `keys`."""
     parts = _parts(node)
     if set(parts) != keys or not isinstance(parts["pair"], yaml.SequenceNode) or len(parts["pair"].value) != 2:
         return []
@@ -183,7 +183,7 @@ def _short_pairs(written: _Written) -> list[str] | None:
 
 
 def _short_pair(written: _Written, node: yaml.Node) -> str:
-    """A pair in short, where it says no more than its wheels; else as it is written."""
+    """Return the short form of a gear pair, or its source text if it has further keys."""
     wheels = _pair_of(written, node, {"pair"})
     if not all(_NAME.fullmatch(wheel) for wheel in wheels) or not wheels:
         return written.source(node)
@@ -224,7 +224,7 @@ def _long_pair(written: _Written, node: yaml.Node) -> str:
 
 
 def _section(key: str, entries: Sequence[_Entry], head: str, brackets: str, bullet: str) -> Iterator[str]:
-    """On one line, where that is short and there are no comments; else one line an entry."""
+    """Yield the lines of a section: one line if it is short and has no comments, else one line per entry."""
     if brackets and not head and not any(each.before or each.behind for each in entries):
         line = f"{key}: {brackets[0]}{', '.join(each.text for each in entries)}{brackets[1]}"
         if len(line) <= _WIDTH:

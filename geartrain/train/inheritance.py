@@ -1,4 +1,4 @@
-"""`extends`: a child train laid over its parent. First `remove`, then merge; marks follow every value."""
+"""Inheritance by `extends`: a child declaration is merged into its parent, after `remove`. Line numbers are kept."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ _SHORT = {"wheels": "teeth", "sources": "cite"}
 
 
 def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
-    """The child laid over its parent, as a new node.
+    """Merge a child declaration into its parent and return the result as a new node.
 
-    Raises `DeclarationError` for removals that remove nothing, and for wheels of the parent on another link.
+    Raises `DeclarationError` if `remove` names a part that does not exist, or if a wheel of the parent is declared on
+    another link.
     """
     base = {key: node for key, node in parent.mapping.items() if key not in _NOT_INHERITED}
     keys = {key: parent.keys[key] for key in base}
@@ -48,7 +49,8 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
 
 
 def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
-    """The declaration with other values, by the rules of `extends`. What is not changed keeps its place in a file."""
+    """Return the declaration with changed values, by the rules of `extends`. Unchanged values keep their line numbers.
+    """
 
     def place(loc: Loc) -> str:
         return declared.place(*loc)
@@ -60,7 +62,7 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
 
 
 def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
-    """Wheels that a child declares on another link than its parent, where they still are."""
+    """Yield a problem for each wheel that a child declares on another link although it is still on the parent's."""
     owner = {wheel: link for link, part in _child(parent, "links").items() for wheel in _child(part, "wheels")}
     for link, part in _child(child, "links").items():
         for wheel in _child(part, "wheels"):
@@ -76,7 +78,7 @@ def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Ite
 
 
 def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """A mapping laid over a mapping, entry by entry; `null` unsets."""
+    """Merge two mappings entry by entry; null removes an entry."""
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):
         return new
     result, keys = dict(old.value), dict(old.keys)
@@ -93,7 +95,7 @@ def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
 
 
 def _entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """One named entry laid over another of its kind; a short form is written out first."""
+    """Merge two entries of the same kind; short forms are expanded first."""
     if kind == "clutches":  # one of `fixes` and `locks`: laid over each other they would be both
         return new
     old, new = _long(old, kind), _long(new, kind)
@@ -119,7 +121,7 @@ def _long(node: YamlNode, kind: str) -> YamlNode:
 
 
 def _identity(kind: str) -> Callable[[YamlNode], object]:
-    """What makes two entries of a list the same one."""
+    """Return the function whose value identifies an entry of a list."""
     if kind == "revolutes":
         return lambda node: frozenset(texts(node.mapping.get("pair")))
     return _pair_name if kind == "gears" else _coupling_name
@@ -150,7 +152,9 @@ def _overlay_list(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], o
 
 
 def _without(root: YamlNode, remove: YamlNode) -> YamlNode:
-    """The parent less what `remove` names; a link takes its wheels, joints, pairs and couplings along."""
+    """Remove the parts named by `remove` from the parent; a link is removed with its wheels, joints, pairs and
+    couplings.
+    """
     gone = {key: list(texts(node)) for key, node in remove.mapping.items() if key != "revolutes"}
     joints = (
         [frozenset(texts(node)) for node in remove.mapping["revolutes"].items] if "revolutes" in remove.mapping else []
@@ -205,7 +209,7 @@ def _drop(node: YamlNode, names: Iterable[str]) -> YamlNode:
 
 
 def _bare(link: YamlNode, wheels: set[str]) -> YamlNode:
-    """A link without some of its wheels."""
+    """Return a link without the given wheels."""
     if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
         return link
     return YamlNode({**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}, link.place, link.keys)

@@ -1,8 +1,8 @@
-"""How wheels are made: their materials, and the errors of cutting by hand.
+"""Manufacture of wheels: their materials, and the errors of cutting and mounting by hand.
 
-Materials are a small shipped table and those that a train declares. Errors are fixed, distributed, or measured tooth by
-tooth. A plain number or a percentage is a fraction of the nominal: a placement of the wheel's own pitch, an aperture of
-the tooth's aperture, a length of the depth of the tooth.
+Materials are a shipped table and the materials that a train declares. Errors are fixed, drawn from a distribution, or
+measured tooth by tooth. A plain number or a percentage is a fraction of the nominal value: a pitch deviation refers to
+the pitch, an aperture deviation to the aperture of the tooth, and a length to the tooth depth.
 """
 
 from __future__ import annotations
@@ -58,11 +58,11 @@ _STRENGTH = "give for example 200 MPa"
 
 
 class Material(Declared):
-    """What a wheel is made of, as far as its strength asks.
+    """Properties of a material that strength calculations need.
 
     See Also
     --------
-    Train : holds those of its own as `materials`, by name
+    Train : has its own as `materials`, by name
 
     Examples
     --------
@@ -94,7 +94,7 @@ class Material(Declared):
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Hardness as a pressure [Pa]: force over the area of the print."""
+        """Vickers hardness as a pressure [Pa]: force over the surface area of the indentation."""
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
 
@@ -102,11 +102,11 @@ FaceWidth = Annotated[MeasuredLength, above_zero("give a length such as 3 mm")]
 
 
 class ArborSizes(Declared):
-    """The arbor of a link between its two bearings.
+    """Dimensions and material of the arbor of a link between its two bearings.
 
     See Also
     --------
-    Link : holds it as `arbor`
+    Link : has it as `arbor`
     """
 
     diameter: FaceWidth = Field(description="Diameter between its shoulders")
@@ -118,12 +118,12 @@ class ArborSizes(Declared):
 
 @cache
 def material_table() -> Mapping[str, Material]:
-    """The materials that need no declaration, by name; a train's own of the same name go before them.
+    """Return the shipped table of materials by name. A material of the same name in a train takes precedence.
 
     Returns
     -------
     mapping of str to Material
-        With sources and spread, handbook means: no guarantee for any one sheet or bar.
+        Handbook means with source and spread. They do not guarantee the strength of an individual sheet or bar.
     """
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
@@ -135,7 +135,7 @@ LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
 class _Off(Declared):
-    """A fixed error, or one drawn anew for each tooth, wheel or pair; a bare value is fixed."""
+    """A fixed error, or one that is drawn for each tooth, wheel or pair. A plain value is fixed."""
 
     @model_validator(mode="after")
     def _is_one_thing(self) -> _Off:
@@ -162,7 +162,7 @@ class _Off(Declared):
 
 
 class AngleError(_Off):
-    """How far an angle is off."""
+    """Error of an angle, fixed or random."""
 
     value: AngleOff | None = Field(None, description="A fixed error")
     normal: AngleOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
@@ -170,7 +170,7 @@ class AngleError(_Off):
 
 
 class LengthError(_Off):
-    """How far a length is off."""
+    """Error of a length, fixed or random."""
 
     value: LengthOff | None = Field(None, description="A fixed error")
     normal: LengthOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
@@ -178,7 +178,7 @@ class LengthError(_Off):
 
 
 class MeasuredTeeth(Declared):
-    """Errors measured on a real wheel, one for each tooth in the order of its turning."""
+    """Errors measured on a real wheel, one value for each tooth in the order of rotation."""
 
     pitch_deviation: tuple[AngleOff, ...] | None = Field(
         None, fail_fast=True, description="How far each tooth is ahead of its place"
@@ -192,18 +192,18 @@ class MeasuredTeeth(Declared):
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:
-        """What is given, by name."""
+        """Measured values by name, without the quantities that were not measured."""
         names = ("pitch_deviation", "tip", "aperture_deviation")
         return {name: column for name in names if (column := getattr(self, name)) is not None}
 
 
 class WheelManufacture(Declared):
-    """How far the teeth of a wheel are off; what is not given is cut true.
+    """Manufacturing errors of the teeth of a wheel. Errors that are not declared are 0.
 
     See Also
     --------
-    Wheel : holds it as `cutting`
-    Train : holds that of all other wheels
+    Wheel : has it as `cutting`
+    Train : default of all other wheels
     """
 
     pitch_deviation: Annotated[AngleError, short_for("value")] | None = Field(
@@ -227,11 +227,11 @@ class WheelManufacture(Declared):
 
 
 class Filing(Declared):
-    """A pair is filed to fit: the flank that stands out farthest where it jams is filed until the couple passes.
+    """Fitting of a pair by filing: where it jams, the most protruding flank is filed until the tooth pair passes.
 
     See Also
     --------
-    PairMounting : holds it as `filing`
+    PairMounting : has it as `filing`
     """
 
     stroke: LengthOff = Field(
@@ -253,12 +253,12 @@ class Filing(Declared):
 
 
 class PairMounting(Declared):
-    """How far the axes of a gear pair are off; what is not given is fitted true.
+    """Mounting errors of the axes of a gear pair. Errors that are not declared are 0.
 
     See Also
     --------
-    GearPair : holds it as `fitting`
-    Train : holds that of all other pairs
+    GearPair : has it as `fitting`
+    Train : default of all other pairs
     """
 
     centre: Annotated[LengthError, short_for("value")] | None = Field(

@@ -1,7 +1,7 @@
-"""Parts of the mechanism as declared: sources, wheels, links, axes, pairs.
+"""Parts of the mechanism as declared: sources, wheels, links, axes, gear pairs.
 
-With tooth counts that are in doubt (a best value and what the evidence allows), the basic efficiency of a pair by the
-wheel that drives, and the friction torque of a link's bearing, sliding and at rest.
+A tooth count may be uncertain (a best value and the counts that the evidence allows). A pair has a basic efficiency for
+each driving wheel, and the bearing of a link has a sliding and a static friction torque.
 """
 
 from __future__ import annotations
@@ -82,11 +82,11 @@ FrictionTorque = Annotated[Torque, AfterValidator(_not_negative)]
 
 
 class BearingFriction(Declared):
-    """Friction of a bearing, which does not depend on load or speed. A bare torque is `sliding`.
+    """Friction torque of a bearing, independent of load and speed. A plain torque is read as `sliding`.
 
     See Also
     --------
-    Link : holds it as `bearing`
+    Link : has it as `bearing`
 
     Examples
     --------
@@ -117,7 +117,7 @@ class BearingFriction(Declared):
 
     @property
     def at_rest(self) -> Quantity:
-        """`static`, or `sliding` where that is not given."""
+        """Static friction torque: `static`, or `sliding` if `static` is not declared."""
         return self.sliding if self.static is None else self.static
 
     @classmethod
@@ -132,7 +132,7 @@ def _sliding(raw: object) -> object:
 
 
 DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_sliding)]
-"""The same, or a bare torque."""
+"""Friction of a bearing, or its sliding torque as a plain value."""
 
 
 # --------------------------------------------------------------------------------------------------------- efficiencies
@@ -153,9 +153,9 @@ Efficiency = Annotated[Share, AfterValidator(_no_more_than_all)]
 
 
 class Efficiencies(Declared):
-    """Basic efficiency of a pair, carrier held, by the wheel that drives: above 0 and at most 1, or a percentage.
+    """Basic efficiency of a pair (carrier fixed) for each driving wheel: a number up to 1, or a percentage.
 
-    A pair may lock in one direction, which 0 or less says, but not in both.
+    A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
     """
 
     forward: Efficiency = Field(description="With the first wheel driving, at most 1; 0 or less locks")
@@ -181,14 +181,14 @@ def _efficiency(raw: object) -> object:
 
 
 DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
-"""The same, or one number for both directions."""
+"""Basic efficiencies, or one number for both directions."""
 
 
 # --------------------------------------------------------------------------------------------------------- tooth counts
 
 
 class Teeth(Declared):
-    """A tooth count with its doubt: a best value, and a range or choices.
+    """An uncertain tooth count: a best value, and a range or a list of possible counts.
 
     See Also
     --------
@@ -212,7 +212,7 @@ class Teeth(Declared):
     )
 
     def _brief(self) -> str:
-        """The count, in the line of a wheel."""
+        """Return the count as it is printed in the line of a wheel."""
         return str(self.value)
 
     note: str | None = Field(None, description="A remark for the reader")
@@ -245,7 +245,7 @@ class Teeth(Declared):
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All counts the evidence allows; empty where no doubt is declared."""
+        """All counts that the evidence allows; empty if the count is not declared as uncertain."""
         if self.choices is not None:
             return self.choices
         if self.range is None or self.range[1] - self.range[0] > 10**6:
@@ -254,17 +254,17 @@ class Teeth(Declared):
 
     @property
     def searched(self) -> Sequence[int]:
-        """The counts of `search`, ascending; empty without it."""
+        """Counts of `search` in ascending order; empty if `search` is not declared."""
         if self.search is None:
             return ()
         return range(self.search[0], self.search[1] + 1) if len(self.search) == 2 else sorted(set(self.search))
 
     @property
     def chances(self) -> dict[int, Fraction]:
-        """The chance of each count before anything else is known, as its `weights` say, ascending; the sum is 1.
+        """Prior probability of each count by `weights`, in ascending order of counts; the sum is 1.
 
-        All counts are alike where no weights are declared, and those of `search`; counts of weight 0 are left out.
-        Empty where no doubt is declared. Not to be asked where there is a `fault_of_weights`.
+        Without weights all counts of `range`, `choices` or `search` are equally probable. Counts of weight 0 are left
+        out. Empty if the count is not declared as uncertain. Undefined if there is a `fault_of_weights`.
 
         Examples
         --------
@@ -282,7 +282,7 @@ class Teeth(Declared):
 
     @property
     def fault_of_weights(self) -> str | None:
-        """Why its weights are no chances; None where they are."""
+        """Reason for which the weights do not define probabilities; None if they do."""
         weights = [figure.value for figure in self.weights or ()]
         if any(weight < 0 for weight in weights):
             return "one is negative"
@@ -296,11 +296,11 @@ MOST_COPIES = 360  # more planets have room on no carrier
 
 
 class Source(Declared):
-    """Where facts come from.
+    """Bibliographic source of facts in a declaration.
 
     See Also
     --------
-    Train : holds them as `sources`, by key
+    Train : has them as `sources`, by key
     """
 
     cite: str = Field(description="The citation")
@@ -324,7 +324,7 @@ MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3, tha
 
 
 class Wheel(Declared):
-    """A wheel on a link. A bare number is its tooth count.
+    """A gear wheel of a link. A plain number is its tooth count.
 
     Examples
     --------
@@ -371,12 +371,12 @@ class Wheel(Declared):
 
     @property
     def count(self) -> int | None:
-        """The tooth count used; None while it is still to be found."""
+        """Tooth count that is used; None if it is still to be searched."""
         return self.teeth if isinstance(self.teeth, int) else self.teeth.value
 
     @property
     def doubt(self) -> Teeth | None:
-        """The declared range or choices, where the count is uncertain."""
+        """Declared range or choices of an uncertain tooth count; None for a certain one."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
     @model_validator(mode="after")
@@ -404,23 +404,23 @@ class Wheel(Declared):
 
     @property
     def is_helical(self) -> bool:
-        """Whether its teeth lean; a worm's thread does too, and is no such tooth."""
+        """True for a spur wheel or ring with helical teeth. A worm does not count as helical."""
         return self.kind == "spur" and self.helix_angle is not None and self.helix_angle.value > 0
 
     @property
     def helix(self) -> float:
-        """Helix angle (rad), of a right hand above 0; 0 of straight teeth, and where it is not declared."""
+        """Helix angle [rad], positive for a right hand; 0 for straight teeth and if no angle is declared."""
         angle = 0.0 if self.helix_angle is None else self.helix_angle.si
         return -angle if self.hand == "left" else angle
 
     @property
     def slant(self) -> float:
-        """Transverse module over normal module: 1 over the cosine of the helix angle."""
+        """Transverse module over normal module, 1 / cos(helix angle); 1 for wheels that are not helical."""
         return 1 / cos(self.helix) if self.is_helical else 1.0
 
     @property
     def transverse_module(self) -> float | None:
-        """Pitch diameter over tooth count (m); None where no module is declared with a unit."""
+        """Pitch diameter over tooth count [m]; None if no module with a unit is declared."""
         declared = self.module is not None and self.module.unit is not None
         return self.module.si * self.slant if self.module is not None and declared else None
 
@@ -434,7 +434,7 @@ class Link(Declared):
 
     See Also
     --------
-    Train : holds them as `links`, by name
+    Train : has them as `links`, by name
     """
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
@@ -467,11 +467,11 @@ class Link(Declared):
 
 
 class Axis(Declared):
-    """Where an axis lies; moving axes in the pose where all angles are zero.
+    """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0.
 
     See Also
     --------
-    Train : holds them as `axes`, by label
+    Train : has them as `axes`, by label
     """
 
     direction: tuple[Figure, Figure, Figure] = Field(
@@ -483,14 +483,14 @@ class Axis(Declared):
 
     @property
     def way(self) -> Vector:
-        """Its direction, of length 1."""
+        """Unit vector of the direction."""
         top = max(abs(part.value) for part in self.direction)  # the float of a huge number would overflow
         x, y, z = (float(part.value / top) for part in self.direction)
         return unit((x, y, z))
 
     @property
     def point(self) -> Vector | None:
-        """Where it lies [mm]; None where that is not declared."""
+        """A point of the axis [mm]; None if no position is declared."""
         if self.position is None:
             return None
         x, y, z = (float(millimetres(part)) for part in self.position)
@@ -506,11 +506,11 @@ class Axis(Declared):
 
 
 class Revolute(Declared):
-    """A turning pair of two links; joints with one axis label are coaxial.
+    """A turning pair of two links. Turning pairs with the same axis label are coaxial.
 
     See Also
     --------
-    Train : holds them as `revolutes`
+    Train : has them as `revolutes`
     """
 
     pair: tuple[Id, Id] = Field(description="The two links")
@@ -532,7 +532,7 @@ def _positive(figure: Figure) -> Figure:
 
 
 class GearPair(Declared):
-    """Two wheels in mesh. The carrier is found, not declared.
+    """Two wheels in mesh. The carrier is derived from the turning pairs, not declared.
 
     Examples
     --------
@@ -580,5 +580,5 @@ class GearPair(Declared):
 
     @property
     def name(self) -> str:
-        """The declared id, or first~second."""
+        """Declared id, or `first~second`."""
         return self.id or f"{self.pair[0]}~{self.pair[1]}"

@@ -1,4 +1,4 @@
-"""Outputs of a train and how they are read: targets, expectations, units, dials with their scales."""
+"""Outputs of a train: targets, expected speeds, published values, units, and dials with their scales."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ NAMED_SCALES: Mapping[str, tuple[str, tuple[tuple[str, int], ...]]] = {
     "zodiac": ("degree", tuple((name, 30) for name in _SIGNS.split())),
     "egyptian_months": ("day", (*((name, 30) for name in _MONTHS.split()), ("Epagomenal", 5))),
 }
-"""Scales that need no list: what one division is, and the names with the divisions that each spans."""
+"""Predefined scales: the name of one division, and the labels with the number of divisions that each spans."""
 
 _MOST = 10**6
 
 
 def _whole(raw: object) -> int:
-    """A positive whole number."""
+    """Read a whole number from 1 to 10^6."""
     text = str(raw)
     number = int(text) if not isinstance(raw, bool) and text.isascii() and text.isdigit() and len(text) < 10 else 0
     if 0 < number <= _MOST:
@@ -40,11 +40,11 @@ Whole = Annotated[int, BeforeValidator(_whole)]
 
 
 class DialName(Declared):
-    """The name of some divisions in a row. A bare text is the name.
+    """Label of consecutive divisions. A plain text is the label.
 
     See Also
     --------
-    Dial : holds them as `names`
+    Dial : has them as `names`
     """
 
     name: str = Field("", description="As it is engraved; empty for divisions without a name")
@@ -56,11 +56,11 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numbers at the lines between divisions, the last one at the zero mark. A bare text is their style.
+    """Numbers at the lines between divisions, the last one at the zero mark. A plain text is their style.
 
     See Also
     --------
-    Dial : holds them as `numerals`
+    Dial : has them as `numerals`
     """
 
     style: Literal["roman", "arabic"] = Field("arabic", description="How they are written")
@@ -75,7 +75,7 @@ class DialNumerals(Declared):
 
 
 class Graduation(Declared):
-    """Divisions along a scale, and what is written at them.
+    """Divisions of a scale, and their labels and numerals.
 
     See Also
     --------
@@ -99,7 +99,7 @@ class Graduation(Declared):
     @model_validator(mode="before")
     @classmethod
     def _with_its_scale(cls, raw: Any) -> Any:
-        """Writes out a named scale, and counts divisions by names where nothing else does."""
+        """Expand a named scale, and derive `divisions` from the names if it is not given."""
         if not isinstance(raw, dict) or not raw.get("names"):
             return raw
         names, own = raw["names"], dict(raw)
@@ -147,7 +147,7 @@ class Graduation(Declared):
 
     @property
     def parts(self) -> tuple[tuple[str, Fraction, Fraction], ...]:
-        """Of every name, the divisions before it and those that it spans, exact."""
+        """Label, first division and number of divisions of every name, as exact fractions."""
         found, first = [], Fraction(0)
         for each in self.names:
             span = Fraction(self.divisions, len(self.names)) if each.span is None else Fraction(each.span)
@@ -157,7 +157,7 @@ class Graduation(Declared):
 
 
 def _shared(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
-    """The names of a scale over some other number of divisions."""
+    """Distribute the names of a scale over another number of divisions."""
     total, count = sum(span for _, span in parts), _whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
@@ -167,16 +167,16 @@ def _shared(name: str, parts: tuple[tuple[str, int], ...], divisions: object) ->
 
 
 class DialRing(Graduation):
-    """A scale around that of a dial, read by the same pointers.
+    """A second scale around the scale of a dial, read by the same pointers.
 
     See Also
     --------
-    Dial : holds it as `around`
+    Dial : has it as `around`
     """
 
 
 class Dial(Graduation):
-    """A scale a pointer is read on. It stands on the link its output is relative to.
+    """A scale on which a pointer is read. It is fixed to the link to which its output is relative.
 
     Examples
     --------
@@ -185,7 +185,7 @@ class Dial(Graduation):
 
     See Also
     --------
-    Train : holds them as `dials`, by name
+    Train : has them as `dials`, by name
     """
 
     face: str | None = Field(None, description="The side it is read from, such as front or back")
@@ -209,12 +209,12 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; a dial that look
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """True where a dial of some face looks away from one who looks at the train from some side.
+    """Return True if a dial faces away from an observer at one side of the train.
 
     Parameters
     ----------
     face, seen_from : str or None
-        As `Dial.face` and `View.from_` declare them; None looks to the reader.
+        Sides as declared by `Dial.face` and `View.from_`. A dial with face None faces the observer.
     """
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
@@ -251,14 +251,15 @@ def _not_negative(figure: Figure) -> Figure:
 
 
 class Target(Declared):
-    """What an output should show: a name of the shipped table, a period or a speed. A bare text is a name.
+    """Target of an output: a name of the shipped table, a period or a speed. A plain text is a name.
 
-    A `speed` carries its sign. A name or a period is a magnitude, which either sense meets, unless `sense` signs it.
+    A `speed` has a sign. A name or a period is a magnitude, which an output of either sense of rotation can meet, unless
+    `sense` is given.
 
     See Also
     --------
-    Output : holds them as `targets`
-    geartrain.kinematics.TargetResult : an output held against one
+    Output : has them as `targets`
+    geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
     name: str | None = Field(None, description="A row of the shipped table; `geartrain periods` lists them")
@@ -324,7 +325,7 @@ class Target(Declared):
 
 
 class Expect(Declared):
-    """The mean speed an output must have: exact, or within its tolerance. A bare number is the value.
+    """Required mean speed of an output, exact or within a tolerance. A plain number is the value.
 
     Examples
     --------
@@ -341,12 +342,12 @@ class Expect(Declared):
     )
 
     def holds(self, speed: Any) -> bool:
-        """True if a speed agrees.
+        """Return True if a speed agrees with the expected value.
 
         Parameters
         ----------
         speed : Fraction
-            Exact [the train's unit].
+            Exact speed [unit of the train].
         """
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
@@ -356,11 +357,11 @@ class Expect(Declared):
 
 
 class Published(Declared):
-    """What a source prints for an output.
+    """Value that a source prints for an output.
 
     See Also
     --------
-    Output : holds it as `published`
+    Output : has it as `published`
     """
 
     value: Figure = Field(description="The number as printed; it must hold at its digits")
@@ -386,7 +387,7 @@ class Published(Declared):
 
 
 class Output(Declared):
-    """A motion the train is asked for: a link, or a link relative to a link.
+    """A required motion of the train: the speed of a link, or of a link relative to another.
 
     Examples
     --------
@@ -409,14 +410,14 @@ class Output(Declared):
     note: str | None = Field(None, description="A remark for the reader")
 
     def links(self, name: str, frame: str) -> tuple[str, str]:
-        """The link that turns, and the link it is seen from.
+        """Return the link that turns, and the link to which its motion is relative.
 
         Parameters
         ----------
         name : str
-            The output's own name, which is that of its link by default.
+            Name of the output, by default also the name of its link.
         frame : str
-            The train's frame.
+            Frame of the train.
         """
         return self.of or name, self.relative_to or frame
 
@@ -426,22 +427,22 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """What a speed of 1 means: one turn per this.
+    """Unit of speeds: one turn per period, time or length.
 
     See Also
     --------
-    Train : holds it as `unit`
+    Train : has it as `unit`
     """
 
     per: str = Field(description="A period of the shipped table, or a quantity such as 7 d or 18 ft")
 
 
 class View(Declared):
-    """From where the train is looked at, and which sense is called positive.
+    """Side from which the train is viewed, and the positive sense of rotation.
 
     See Also
     --------
-    Train : holds it as `view`
+    Train : has it as `view`
     """
 
     from_: str | None = Field(None, alias="from", description="The side the reader looks from, such as front")

@@ -1,4 +1,6 @@
-"""What `geartrain reconstruct` may do to explain the evidence: what may be added, what must be used, what it costs."""
+"""Constraints of `geartrain reconstruct`: the parts that may be added, the parts that must be used, and their prior
+cost.
+"""
 
 from __future__ import annotations
 
@@ -13,11 +15,11 @@ from geartrain.train.fields import Boolean, Count, Declared, Id
 
 MOST_ADDED = 1000
 NEW_ARBOR = "new"
-"""Said of an output instead of a link: the arbor of its pointer does not survive."""
+"""Value of `of` in an output if the arbor of its pointer does not survive."""
 
 
 def _number(raw: object) -> object:
-    """A whole number from 0 on."""
+    """Read a whole number from 0 to 1000."""
     try:
         # True is an int of Python's; a text of thousands of digits would take minutes to read
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
@@ -43,11 +45,11 @@ Distance = Annotated[MeasuredLength, above_zero("give a length above 0, such as 
 
 
 class AddedParts(Declared):
-    """What may be added to what survives.
+    """Parts that may be added to the surviving ones.
 
     See Also
     --------
-    Reconstruction : holds it as `add`
+    Reconstruction : has it as `add`
     """
 
     wheels: PartNumber = Field(0, description="The most wheels that may be added")
@@ -69,11 +71,11 @@ class AddedParts(Declared):
 
 
 class GivenCoupling(Declared):
-    """A coupling of two surviving links that is taken as it is: on average they turn alike, in the same sense.
+    """A known coupling of two surviving links: their mean speeds are equal, with the same sense of rotation.
 
     See Also
     --------
-    Reconstruction : holds them as `given`
+    Reconstruction : has them as `given`
     """
 
     pair: tuple[Id, Id] = Field(description="The two links, that of the pin first")
@@ -81,11 +83,11 @@ class GivenCoupling(Declared):
 
 
 class PriorCost(Declared):
-    """By what factor a candidate is less probable for each thing that it assumes.
+    """Factors by which each assumption reduces the prior probability of a candidate.
 
     See Also
     --------
-    Reconstruction : holds it as `cost`
+    Reconstruction : has it as `cost`
     """
 
     wheel: Factor = Field(Figure.parse(10), description="Each added wheel")
@@ -94,15 +96,15 @@ class PriorCost(Declared):
 
 
 class MeasuredGeometry(Declared):
-    """How measured modules, pitch radii and positions of axes are weighed. Without this block they play no part.
+    """Weights of measured modules, pitch radii and positions of axes. Without this block they are ignored.
 
-    A misfit weighs exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the twelve
-    pairs of the Antikythera mechanism of 2006 whose wheels are both measured; that of distances is what the same
-    errors make where one wheel alone is measured.
+    A misfit has the weight exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the twelve
+    pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The default spread of distances
+    corresponds to the same errors if only one wheel is measured.
 
     See Also
     --------
-    Reconstruction : holds it as `geometry`
+    Reconstruction : has it as `geometry`
     """
 
     module: Spread = Field(
@@ -130,10 +132,10 @@ class MeasuredGeometry(Declared):
 
 
 class Reconstruction(Declared):
-    """How the evidence is to be explained. A declaration that has it is evidence, not a train.
+    """Rules for the explanation of evidence. A declaration that has them is evidence, not a train.
 
-    Its links are what survives, its gears are pairs that were seen in mesh, and an output without `of` is a pointer
-    whose arbor is to be found (`of: new` where that arbor is known not to survive).
+    Its links are the surviving arbors, its gears are pairs that were observed in mesh, and an output without `of` is a
+    pointer whose arbor is unknown (`of: new` if that arbor is known not to survive).
 
     Examples
     --------

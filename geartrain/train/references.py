@@ -1,4 +1,4 @@
-"""Names that point nowhere, and mixtures of wheels, pairs, prescriptions and units that have no meaning."""
+"""Checks of references between parts, and of combinations of wheels, pairs, prescriptions and units."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from geartrain.train.states import Drive
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Plain and named inputs side by side, in one state or in several; zeros go with either."""
+    """Yield problems of inputs with and without units in one train; inputs of 0 are compatible with both."""
     named: tuple[Loc, Quantity] | None = None
     plain: tuple[Loc, Quantity] | None = None
     groups: list[tuple[Loc, Mapping[str, Quantity]]] = [((), train.inputs)]
@@ -40,7 +40,7 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
 
 
 def mixed_torques(train: Train) -> Iterator[Problem]:
-    """Plain and named torques side by side; zeros go with either."""
+    """Yield a problem if torques with and without units are mixed; torques of 0 are compatible with both."""
     groups: list[tuple[Loc, Mapping[str, Quantity]]] = [(("loads",), train.loads)]
     groups += [(("states", name, "loads"), state.loads or {}) for name, state in train.states.items()]
     found = [((*loc, link), torque) for loc, loads in groups for link, torque in loads.items()]
@@ -56,7 +56,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
 
 
 def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
-    """The drives of the train and of its states, with where they stand."""
+    """Yield the drives of the train and of its states with their paths."""
     if train.drive is not None:
         yield ("drive",), train.drive
     for name, state in train.states.items():
@@ -65,14 +65,14 @@ def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
 
 
 def rates(train: Train) -> Iterator[Problem]:
-    """A rate that is said twice."""
+    """Yield a problem if the rate is declared twice."""
     if train.rate is not None and train.drive is not None and train.drive.rate is not None:
         why = f"`rate` says {train.rate} and `drive` says {train.drive.rate}"
         yield Problem("the rate is declared twice", why, "leave one of them out", train.place("drive", "rate"))
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """A period that no row names, or that is of another kind than the train's unit."""
+    """Yield problems of a target that is not in the table, or whose dimension differs from the train's unit."""
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)
@@ -119,7 +119,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
 
 
 def _epoch_units(train: Train) -> Iterator[Problem]:
-    """A date that nothing leads away from: the train's unit is no time."""
+    """Yield a problem if an epoch is declared and the train's unit is not a time."""
     if train.epoch is not None and train.unit_days is None:
         yield Problem(
             "an epoch without a unit of time",
@@ -130,7 +130,7 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
 
 
 def declared_units(train: Train) -> Iterator[Problem]:
-    """A unit of the train that is none, a date without one, and lengths with and without units side by side."""
+    """Yield problems of an invalid unit, an epoch without a unit of time, and lengths with and without units."""
     yield from _epoch_units(train)
     if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
         yield Problem(
@@ -178,7 +178,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
 
 
 def find_problems(train: Train) -> Iterator[Problem]:
-    """Every reference that dangles and every mixture that has no meaning."""
+    """Yield every unresolved reference and every invalid combination of a train."""
     if train.remove is not None and train.extends is None:
         why = "it takes away what a parent declares, and there is no parent"
         yield Problem("`remove` without `extends`", why, "say what the train extends", train.place("remove"))
@@ -199,7 +199,7 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
 
 
 def _no_wheel(train: Train, name: str, at: int) -> Problem:
-    """A pair names what is no wheel; perhaps a link, whose wheels are meant."""
+    """Return the problem of a gear pair that names an unknown wheel, or a link instead of its wheel."""
     unknown = _unknown(train, "wheel", name, train.wheels, "gears", at, "pair")
     if name not in train.links:
         return unknown
@@ -243,7 +243,7 @@ def _links(train: Train) -> Iterator[Problem]:
 
 
 def _materials(train: Train) -> Iterator[Problem]:
-    """Names of materials that stand neither in the table nor in the declaration."""
+    """Yield a problem for each material that is neither in the table nor in the declaration."""
     named: list[tuple[str, Loc]] = [(train.material, ("material",))] if train.material is not None else []
     for link, part in train.links.items():
         if part.arbor is not None:
@@ -260,7 +260,7 @@ def _materials(train: Train) -> Iterator[Problem]:
 
 
 def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
-    """Tables of a real wheel have a row for each of its teeth."""
+    """Yield a problem for each table of measured values whose length differs from the tooth count."""
     count, cutting = train.links[link].wheels[wheel].count, train.links[link].wheels[wheel].cutting
     if cutting is None or cutting.measured is None or count is None:
         return
@@ -472,7 +472,7 @@ def _source(train: Train, key: str | None, *loc: str | int) -> Iterator[Problem]
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:
-    """Wheels and links that a question of reconstruction names."""
+    """Yield problems of the wheels and links that `reconstruct` names."""
     requested = train.reconstruct
     if requested is None:
         return

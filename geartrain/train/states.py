@@ -1,4 +1,4 @@
-"""How the train is run and changed: clutches, states, drives; and everything prescribed in one state.
+"""Operation of a train: clutches, states, drives, and all prescriptions of one state.
 
 Drives run a train in time: a hand, a spring, a falling weight, an escapement.
 """
@@ -34,7 +34,7 @@ from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id,
 from geartrain.train.outputs import Output
 
 GRAVITY = 9.80665
-"""Standard gravity, m/s^2."""
+"""Standard gravity [m/s^2]."""
 
 _NEAR = 0.05  # of the length of a pendulum with all of its mass in its bob
 
@@ -42,11 +42,11 @@ DriveTorque = Annotated[Torque, not_below_zero("it acts the way the input turns:
 
 
 class SpringDrive(Declared):
-    """A spring on the driven link: its torque is `stiffness` times the angle by which it is wound, and runs down.
+    """A spring on the driving link with a torque of `stiffness` times its remaining angle of winding.
 
     See Also
     --------
-    Drive : holds it as `spring`
+    Drive : has it as `spring`
     """
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
@@ -57,22 +57,22 @@ class SpringDrive(Declared):
     )
 
     def torque(self, unwound: float) -> float:
-        """Torque [N m] after the link has turned some way as it is driven.
+        """Return the torque [N m] after the link has turned by some angle in the driving direction.
 
         Parameters
         ----------
         unwound : float
-            How far it has turned [rad].
+            Angle by which the link has turned [rad].
         """
         return self.stiffness.si * (tau * float(self.turns.value) - unwound)
 
 
 class HandDrive(Declared):
-    """A hand at the crank: a torque, or a speed that it keeps with some stiffness, and the inertia that moves along.
+    """A hand at the crank: a torque, or a speed kept through a torsional stiffness, and the inertia of arm and crank.
 
     See Also
     --------
-    Drive : holds it as `hand`
+    Drive : has it as `hand`
     """
 
     torque: DriveTorque | None = Field(None, description="Torque that it gives")
@@ -100,16 +100,16 @@ class HandDrive(Declared):
 
 
 class Drive(Declared):
-    """What drives the train in time: exactly one of rate, torque, weight, spring, hand.
+    """Drive of the train in time: exactly one of rate, torque, weight, spring, hand.
 
-    All act where power enters, at `crank`, else at the input, the way it turns. A rate is that of the input in the
-    mean, as the train's own `rate`: a crank is kept at its own share of it.
+    Every drive acts where power enters, at `crank` or else at the input, in the direction in which it turns. A rate is the
+    mean speed of the input, as for the train's `rate`; if `crank` is another link, its speed follows from the mean ratio.
 
     See Also
     --------
-    Train : holds it as `drive`
-    State : holds one of its own
-    StateCase : what is in force in one state
+    Train : has it as `drive`
+    State : may have its own drive
+    StateCase : drive in force in one state
 
     Examples
     --------
@@ -151,36 +151,36 @@ class Drive(Declared):
 
     @property
     def torques(self) -> tuple[Quantity, ...]:
-        """The torques it declares as such."""
+        """Torques that are declared directly."""
         hand = None if self.hand is None else self.hand.torque
         return tuple(torque for torque in (self.torque, hand) if torque is not None)
 
     @property
     def pull(self) -> float | None:
-        """Torque of a weight at its drum, mass times gravity times radius [N m]; None of another drive."""
+        """Torque of a weight at its drum [N m], mass times gravity times radius; None for other drives."""
         if self.weight is None or self.drum is None:
             return None
         return self.weight.si * GRAVITY * self.drum.si
 
     @property
     def steady_torque(self) -> float | None:
-        """The torque of what drives with the same torque all the time, a weight or a torque [N m]; None of others."""
+        """Torque of a drive with a constant torque (a torque or a weight) [N m]; None for other drives."""
         return next((torque.si for torque in self.torques), self.pull)
 
     @property
     def kind(self) -> str:
-        """rate, torque, weight, spring or hand."""
+        """Kind of the drive: rate, torque, weight, spring or hand."""
         return next(key for key in ("rate", "torque", "weight", "spring", "hand") if getattr(self, key) is not None)
 
 
 class Escapement(Declared):
-    """It lets one link pass by half a tooth a beat, and no more: a limit from one side.
+    """An escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
-    The angle is relative to the link that bears the escape wheel, on which its pallets ride.
+    The angle is relative to the link that carries the escape wheel, on which the pallets are mounted.
 
     See Also
     --------
-    Train : holds it as `escapement`
+    Train : has it as `escapement`
 
     Examples
     --------
@@ -201,7 +201,7 @@ class Escapement(Declared):
 
     @model_validator(mode="after")
     def _beats(self) -> Escapement:
-        """A pendulum swings from side to side in pi sqrt(l/g); a rod with some mass makes it a little quicker."""
+        """Check the length of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes it slightly faster."""
         if self.pendulum is not None:
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.si / length - 1) > _NEAR:
@@ -214,28 +214,28 @@ class Escapement(Declared):
 
     @property
     def speed(self) -> Fraction:
-        """Mean speed of its link relative to the one that bears it [turn/s]: half a tooth a beat."""
+        """Mean speed of the link relative to the link that carries it [turn/s]: half a tooth per beat."""
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Whether a wheel of a link is the escape wheel, which meshes nothing.
+        """Return whether a wheel of a link is the escape wheel, which is not in a gear mesh.
 
         Parameters
         ----------
         link : str
-            Its link.
+            Link of the wheel.
         count : int or None
-            Its teeth, where known.
+            Tooth count of the wheel, if known.
         """
         return (link, count) == (self.link, self.teeth)
 
 
 class Clutch(Declared):
-    """A brake or a clutch: one of `fixes` and `locks`.
+    """A brake or a clutch: exactly one of `fixes` and `locks`.
 
     See Also
     --------
-    Train : holds them as `clutches`, by name
+    Train : has them as `clutches`, by name
     State : engages them
     """
 
@@ -252,11 +252,11 @@ class Clutch(Declared):
 
 
 class State(Declared):
-    """One way the train is run. What is given here replaces the train's; outputs merge by name.
+    """A mode of operation. Its values replace those of the train; its outputs are merged by name.
 
     See Also
     --------
-    Train : holds them as `states`, by name
+    Train : has them as `states`, by name
     StateCase : what comes of one
     """
 
@@ -277,7 +277,7 @@ class State(Declared):
 
 
 class Erratum(Declared):
-    """Something a source prints that is not so."""
+    """An error in a published source."""
 
     place: Id = Field(description="Where it is printed")
     printed: Id = Field(description="What is printed")
@@ -286,7 +286,7 @@ class Erratum(Declared):
 
 
 class Remove(Declared):
-    """What a child takes away from its parent before it adds its own."""
+    """Parts of the parent that a child removes before it adds its own parts."""
 
     links: tuple[Id, ...] = Field((), description="Links, with their wheels, joints, pairs and couplings")
     wheels: tuple[Id, ...] = Field((), description="Wheels, with their pairs")
@@ -304,7 +304,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True, slots=True)
 class StateCase(Shown):
-    """What is prescribed when the train is run in one state.
+    """All prescriptions that are in force in one state.
 
     Examples
     --------
@@ -315,40 +315,40 @@ class StateCase(Shown):
     """
 
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     inputs: Mapping[str, Fraction]
     """Prescribed speed by link [`Train.unit_name`]."""
     fixed: tuple[str, ...]
-    """Links held to the frame."""
+    """Links fixed to the frame."""
     locks: tuple[tuple[str, str], ...]
     """Pairs of links that turn together."""
     outputs: Mapping[str, Output]
-    """What is asked for in this state, by name."""
+    """Required outputs of this state by name."""
     loc: Loc
-    """Where the inputs were declared: the keys that lead to them."""
+    """Path of the keys under which the inputs were declared."""
     engaged: tuple[str, ...]
-    """Clutches and brakes that are closed."""
+    """Names of closed clutches and brakes."""
     clutches: Mapping[tuple[str, ...], str]
-    """The clutch or brake behind a fixed link or a lock."""
+    """Clutch or brake that causes a fixed link or a lock, by the links concerned."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
     """Torques on links; power into the train is positive."""
     solve_for: str | None = None
-    """The link whose torque is named as unknown."""
+    """Link whose torque is the unknown."""
     exact: bool = True
-    """False where radians had to be counted in turns, or turns in radians: to 50 digits then."""
+    """False if radians were converted to turns or turns to radians, which is done to 50 digits."""
     drive: Drive | None = None
-    """What drives the train in time: the state's, the train's, or its `rate`."""
+    """Drive in time: the state's, else the train's, else its `rate`."""
     rate: Quantity | None = None
-    """Speed of the input in real time, where `drive` or the train's `rate` says it."""
+    """Speed of the input in real time, if `drive` or the train's `rate` gives it."""
     expect: ExpectedVerdict = "determined"
-    """The verdict that is no failure."""
+    """Expected verdict, which does not count as a failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
-    """A link that is fixed, or two that are locked, only because something else is -> the links of that."""
+    """Links of the declared brake or lock by the links that it fixes or locks indirectly."""
     problems: tuple[Problem, ...] = ()
-    """Why no speed can be calculated in this state; mostly none."""
+    """Problems that prevent the calculation of speeds in this state; usually empty."""
 
     def given(self, link: str) -> str:
-        """A prescribed speed in words: `sun = 1400`.
+        """Return a prescribed speed as text, such as `sun = 1400`.
 
         Parameters
         ----------
@@ -358,7 +358,7 @@ class StateCase(Shown):
         return f"{link} = {self.shown(self.inputs[link])}"
 
     def shown(self, speed: Fraction) -> str:
-        """A speed for a reader: as a fraction, or in decimal where it is not exact.
+        """Return a speed as text: a fraction, or a decimal if it is not exact.
 
         Parameters
         ----------
@@ -368,12 +368,12 @@ class StateCase(Shown):
         return abridged_text(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
-        """A brake on one link or a lock of two, in words, and what it follows from where it is not declared itself.
+        """Describe a brake on one link or a lock of two links, with its declared cause if it is indirect.
 
         Parameters
         ----------
         *links : str
-            One link that is held, or two that are locked together.
+            One link that is fixed, or two that are locked together.
         """
         declared = self.declares(*links)
         if self.causes.get(links, links) == links:
@@ -382,12 +382,12 @@ class StateCase(Shown):
         return f"{declared}, which holds {held}"
 
     def declares(self, *links: str) -> str:
-        """What is declared behind a brake or a lock, in words, with the clutch that does it.
+        """Describe the declared brake or lock that fixes one link or locks two, with its clutch.
 
         Parameters
         ----------
         *links : str
-            One link that is held, or two that are locked together.
+            One link that is fixed, or two that are locked together.
         """
         links = self.causes.get(links, links)
         by = f" by {self.clutches[links]}" if links in self.clutches else ""

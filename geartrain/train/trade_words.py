@@ -1,4 +1,4 @@
-"""What makers and historians call the things that messages and pages name as engineers do."""
+"""Words of clockmakers and historians for the engineering terms in messages and pages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _MOST_TOLD = 4
 
 
 class TradeWord(NamedTuple):
-    """One thing in three trades: the words of the field, of who makes clocks, of who writes on old mechanisms."""
+    """One term in the words of engineers, of clockmakers, and of historians of old mechanisms."""
 
     engineer: str
     maker: str
@@ -35,7 +35,7 @@ TRADE_WORDS = (
     TradeWord("output", "what a hand is put on", "a pointer"),
     TradeWord("clutch", "two arbors coupled when wanted", "two axles coupled when wanted"),
 )
-"""Told where a message or page names them."""
+"""Terms that are explained where a message or page uses them."""
 
 _PLURALS = {"mobility": "mobilities", "clutch": "clutches"}
 _SPOKEN = {
@@ -45,12 +45,12 @@ _SPOKEN = {
 
 
 def trade_words(text: str) -> Iterator[TradeWord]:
-    """Those that a text names; names in quotes and code are the reader's own."""
+    """Return the terms that occur in a text. Names in quotes and code are skipped because they are the user's own."""
     text = re.sub(r"`[^`]*`|'[^']*'", " ", text)
     return (word for word in TRADE_WORDS if _SPOKEN[word].search(text))
 
 
 def told_words(text: str) -> str:
-    """One line that says what the words of a message mean; empty where it has none of them."""
+    """Return one line that explains the terms of a message; empty if it contains none of them."""
     found = [str(word) for word in trade_words(text)][:_MOST_TOLD]
     return f"words: {'; '.join(found)}" if found else ""

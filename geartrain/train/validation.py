@@ -1,4 +1,4 @@
-"""From plain data to a `Train`: short forms written out, then validation, every problem with place, cause and remedy.
+"""Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and fix.
 
 `revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the others.
 `gears: [s ~ p]`: a pair of two wheels.
@@ -36,24 +36,24 @@ from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
 @collector_paused()
 def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
-    """A checked `Train` from plain data, the same keys as in YAML (docs/reference.md).
+    """Return a validated `Train` from plain data with the same keys as in YAML (docs/reference.md).
 
     Parameters
     ----------
     data : mapping of str
-        The declaration. `extends` is kept as it stands; `geartrain.load` follows it.
+        The declaration. `extends` is kept but not resolved; `geartrain.load` resolves it.
     marks : callable, optional
-        Turns the path of a value into the place it was written at; default the path itself, `gears[3].pair`.
+        Function from the path of a value to the place where it was written. Default: the path, such as `gears[3].pair`.
 
     Returns
     -------
     Train
-        Frozen; equal data give equal trains.
+        The frozen declaration; equal data give equal trains.
 
     Raises
     ------
     DeclarationError
-        With the first problems that could be collected, each with its place.
+        If the data are not valid; reports the first problems, each with its place.
 
     Examples
     --------
@@ -83,14 +83,14 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
 
 
 _HEAD = 200
-"""Entries of each collection that are looked at first in a large declaration."""
+"""Number of entries of each collection that are validated first in a large declaration."""
 _LARGE = 20_000
 
 
 def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The first entries of each collection of a large declaration and of the collections in them; None of a small one.
+    """Return the first entries of each collection of a large declaration, to two levels; None for a small one.
 
-    What belongs to a tooth count is kept whole: its lists are held against each other.
+    The values of a tooth count are kept complete, because the lengths of its lists are compared.
     """
     if sum(_size(part) for part in data.values()) < _LARGE:
         return None
@@ -99,7 +99,7 @@ def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 def _size(part: Any) -> int:
-    """About how many values a part holds, its longest lists counted to the second level."""
+    """Estimate the number of values of a part, counting two levels of collections."""
     if not isinstance(part, Mapping | list | tuple):
         return 1
     inner = part.values() if isinstance(part, Mapping) else part
@@ -117,7 +117,7 @@ def _first(part: Any, key: str = "") -> Any:
 
 
 def _refuse_many(head: Mapping[str, Any], place: Marks) -> None:
-    """Raise `DeclarationError` where the head of a declaration alone has more problems than are told."""
+    """Raise `DeclarationError` if the head of a declaration has more problems than are reported."""
     try:
         Train.model_validate(head)
     except ValidationError as error:
@@ -126,7 +126,7 @@ def _refuse_many(head: Mapping[str, Any], place: Marks) -> None:
 
 
 def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
-    """Every error in words; a misspelt key is one slip, though the key it should be is missing too."""
+    """Yield a problem for each error. A misspelt key is reported once, not also as a missing key."""
     errors = error.errors(include_url=False)
     incomplete = {item["loc"][:-1] for item in errors if item["type"] == "missing"}
     unknown = (item["loc"] for item in errors if item["type"] == "extra_forbidden" and item["loc"][:-1] in incomplete)
@@ -139,14 +139,14 @@ def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
 
 
 def _name(kind: Any) -> tuple[Any, ...]:
-    """The names by which a union chooses a tooth form, a law or a coupling; nothing for other models."""
+    """Return the tags by which a union selects a tooth form, friction law or coupling; empty for other models."""
     field = next((kind.model_fields[key] for key in ("form", "law", "kind") if key in kind.model_fields), None)
     return get_args(field.annotation) if field else ()
 
 
 @cache
 def _laws() -> dict[str, type[BaseModel]]:
-    """Every law of friction by the name that chooses it."""
+    """Return every friction law by its tag."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _name(law)}
@@ -199,7 +199,7 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
 
 
 def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
-    """The key by which a union chooses, and all that it may be, of an error that knows no such kind."""
+    """Return the discriminator key and the allowed tags from the error of an unknown tag."""
     context = error["ctx"]
     return context["discriminator"].strip("'"), tuple(context["expected_tags"].replace("'", "").split(", "))
 
@@ -209,7 +209,7 @@ def _where(loc: Loc) -> str:
 
 
 def _real_steps(loc: Loc) -> Loc:
-    """`loc` without the tags pydantic adds for unions, which are not in the file."""
+    """Return `loc` without the tags that pydantic adds for unions, which are not in the file."""
     tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *TOOTH_FORMS, *_laws()}
     return tuple(
         step
@@ -222,7 +222,7 @@ def _real_steps(loc: Loc) -> Loc:
 
 
 def _keys_at(loc: Loc) -> Iterator[str]:
-    """The keys a declaration may have at `loc`, found by walking the models."""
+    """Yield the keys that a declaration may have at `loc`, found by traversing the models."""
     kinds: list[Any] = [Train]
     for step in loc:
         named = [kind for kind in kinds if step in _name(kind)]
@@ -233,7 +233,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
 
 
 def _step(kind: Any, step: str | int) -> Iterator[Any]:
-    """The models below `kind` after one step; a union's tag stays where it is."""
+    """Yield the models below `kind` after one step; the tag of a union is not a step."""
     if isinstance(step, str) and step in kind.model_fields:
         yield from _models_in(kind.model_fields[step].annotation)
     else:
@@ -258,19 +258,19 @@ def _models_in(annotation: Any) -> Iterator[Any]:
 # ------------------------------------------------------------------------------------------------------- short forms
 
 _MARK = "~"
-"""Between the two wheels of a gear pair in its short form."""
+"""Separator of the two wheels in the short form of a gear pair."""
 
 
 def has_short_forms(data: Mapping[str, Any]) -> bool:
-    """True of plain data with any, and of data with lists where a pair belongs."""
+    """Return True if plain data contain short forms, or bare lists instead of pairs."""
     pairs = (each for key in ("gears", "revolutes") if isinstance(data.get(key), list | tuple) for each in data[key])
     return isinstance(data.get("revolutes"), Mapping) or any(isinstance(each, str | list | tuple) for each in pairs)
 
 
 def written_out(root: YamlNode) -> YamlNode:
-    """A declaration in long forms only, whose parts have the places of the short ones.
+    """Return the declaration with all short forms expanded; the new parts keep the places of the short forms.
 
-    Raises `DeclarationError` for short forms that declare nothing.
+    Raises `DeclarationError` for short forms that are not valid.
     """
     joints, gears = root.mapping.get("revolutes"), root.mapping.get("gears")
     short_joints = joints if joints is not None and isinstance(joints.value, dict) else None
@@ -288,7 +288,7 @@ def written_out(root: YamlNode) -> YamlNode:
 def _check_short_forms(
     joints: YamlNode | None, gears: YamlNode | None, short_joints: YamlNode | None, short_gears: list[YamlNode]
 ) -> None:
-    """Raise `DeclarationError` where a pair is a bare list, or a short form has too few or too many parts."""
+    """Raise `DeclarationError` if a pair is a bare list, or a short form has too few or too many parts."""
     lists = [*_lists("gears", gears, "{} ~ {}"), *_lists("revolutes", joints, "{{pair: [{}, {}], axis: A}}")]
     axes = short_joints.mapping if short_joints is not None else {}
     single = [axis for axis, links in axes.items() if len(links.items) < 2]
@@ -300,7 +300,7 @@ def _check_short_forms(
 
 
 def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
-    """One problem for all pairs that are written as bare lists."""
+    """Yield one problem for all pairs that are written as bare lists."""
     listed = [part for part in parts.items if isinstance(part.value, list)] if parts is not None else []
     if listed:
         names = [*texts(listed[0]), "a", "b"][:2]

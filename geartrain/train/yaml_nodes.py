@@ -1,9 +1,8 @@
-"""YAML by the 1.2 core rules, as nodes that know where they were written.
+"""YAML 1.2 (core schema) as nodes with line numbers.
 
-Every scalar stays the text it was: `1:30`, `010`, `no` and `1.0000` reach the models unharmed. Only a plain
-null is nothing. Nesting, values and the expansion of aliases are bounded, keys are unique, tags are refused. Plain
-data of Python become nodes too, so that what is done with a file can be done with them; and plain data of a declaration
-are written as the text of a YAML file.
+Every scalar is kept as text, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
+becomes None. Nesting depth, number of values and expansion of aliases are limited, keys must be unique, and tags are
+rejected. Plain Python data can be converted to nodes as well, and a declaration can be written as YAML text.
 """
 
 from __future__ import annotations
@@ -28,33 +27,33 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(slots=True)
 class YamlNode:
-    """A mapping, a list, a scalar or nothing, with the place it was written at."""
+    """A mapping, a list, a scalar or null, with the place where it was written."""
 
     value: Any
-    """Of a file, every scalar is the text it was; of plain data, it is the object given."""
+    """Value. Scalars of a file are kept as text; scalars of plain data are the given objects."""
     place: str
     keys: dict[str, str] = field(default_factory=dict)
-    """For a mapping, the place of each key."""
+    """Place of each key of a mapping."""
     size: int = 1
-    """Number of nodes when all aliases are written out."""
+    """Number of nodes after expansion of all aliases."""
 
     @property
     def mapping(self) -> dict[str, YamlNode]:
-        """The entries, or none if this is no mapping."""
+        """Entries of a mapping; empty for other nodes."""
         return self.value if isinstance(self.value, dict) else {}
 
     @property
     def items(self) -> list[YamlNode]:
-        """The elements, or none if this is no list."""
+        """Elements of a list; empty for other nodes."""
         return self.value if isinstance(self.value, list) else []
 
     @property
     def text(self) -> str:
-        """The scalar as text, or "" if this is none."""
+        """Scalar as text; "" for other nodes."""
         return "" if self.value is None or isinstance(self.value, dict | list) else str(self.value)
 
     def plain(self) -> Any:
-        """The data without its places."""
+        """Return the data without their places."""
         if isinstance(self.value, dict):
             return {key: node.plain() for key, node in self.value.items()}
         if isinstance(self.value, list):
@@ -62,7 +61,7 @@ class YamlNode:
         return self.value
 
     def place_of(self, loc: Loc) -> str:
-        """The place of the value at `loc`; steps that are not in the file are passed over."""
+        """Return the place of the value at `loc`. Steps that are not in the file are skipped."""
         node, place = self, self.place
         for step in loc:
             if isinstance(node.value, dict) and str(step) in node.value:
@@ -75,7 +74,7 @@ class YamlNode:
 
 
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """The one document of `text`. `name` is what places call it. Raises `DeclarationError`."""
+    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError`."""
     builder = _Builder(name)
     try:
         for event in yaml.parse(text, Loader=_Loader):
@@ -112,7 +111,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
 
 
 class _Builder:
-    """Builds nodes from parser events without recursion: nesting is refused before any stack runs out."""
+    """Iterative construction of nodes from parser events. Deep nesting is refused before the call stack overflows."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -124,7 +123,7 @@ class _Builder:
         self.values = self.expanded = 0
 
     def take(self, event: yaml.Event) -> None:
-        """One event of the parser."""
+        """Process one event of the parser."""
         self.values += 1
         if self.values > MOST_VALUES:
             why = f"a file has at most {MOST_VALUES} values"
@@ -223,7 +222,7 @@ class _Builder:
             parent.size += node.size
 
     def finish(self) -> YamlNode:
-        """The root, after all problems have been told."""
+        """Return the root node. Raises `DeclarationError` with all problems that were collected."""
         if self.problems:
             raise DeclarationError(self.problems)
         if self.root is None or self.root.value is None:
@@ -243,7 +242,7 @@ class _Builder:
 
 
 def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
-    """Plain data and parts of a declaration as nodes with places, by default their paths.
+    """Convert plain data or parts of a declaration to nodes; their places are by default their paths.
 
     Raises `DeclarationError` for data nested too deeply.
     """
@@ -261,17 +260,17 @@ def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
 
 
 def texts(node: YamlNode | None) -> Iterator[str]:
-    """The texts of a list node."""
+    """Return an iterator over the texts of a list node."""
     return (item.text for item in node.items) if node else iter(())
 
 
 def as_yaml(data: Mapping[str, Any]) -> str:
-    """YAML text that `load` reads back as the same declaration: parts of a train one a line, keys in their order."""
+    """Return YAML text that `load` reads as the same declaration, with one part per line and keys in their order."""
     return "".join(_section(key, value) for key, value in data.items())
 
 
 def _section(key: str, value: Any) -> str:
-    """One top-level key; what stands below it in one line an entry."""
+    """Return the text of one top-level key, with one entry per line."""
     if isinstance(value, Mapping) and value:
         lines = [f"  {_line(name)}: {_line(part)}\n" for name, part in value.items()]
     elif isinstance(value, list | tuple) and value:
@@ -282,7 +281,8 @@ def _section(key: str, value: Any) -> str:
 
 
 def _line(value: Any) -> str:
-    """A value on one line. Numbers as Python writes them: a declaration remembers the text of its figures."""
+    """Return a value on one line. Numbers are written by `repr`, because a declaration keeps the text of its numbers.
+    """
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_line(key)}: {_line(part)}" for key, part in value.items()) + "}"
     if isinstance(value, list | tuple):

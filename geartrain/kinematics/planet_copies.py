@@ -1,6 +1,7 @@
-"""Equal planets: one declared link that stands for several, and the train in which each of them is declared.
+"""Equal planets declared by `copies`, and the expanded train in which each of them is declared separately.
 
-Speeds need one of them, for all turn alike. Assembly, loads, pictures and parts need all: docs/theory.md, 6.
+Speeds need only one of them, because equal planets have equal speeds. Assembly, loads, drawings and part lists need all
+of them: docs/theory.md, 6.
 """
 
 from __future__ import annotations
@@ -21,33 +22,34 @@ from geartrain.train.mechanism import Axis, Revolute
 
 
 def has_copies(train: Train) -> bool:
-    """True where a link stands for several."""
+    """Return True if at least one link is declared with `copies` above 1."""
     return any(part.copies > 1 for part in train.links.values())
 
 
 def check_copies(train: Train, tree: Tree) -> None:
-    """Raise `DeclarationError` where links that stand for several have no places to stand."""
+    """Raise `DeclarationError` if links with `copies` cannot be spaced about a carrier or joined to their mates."""
     if problems := tuple(_problems(train, tree)):
         raise DeclarationError(problems)
 
 
 def with_copies(train: Train, tree: Tree) -> Train:
-    """The train in which every equal planet is declared: `p`, `p.2`, `p.3`, with pairs and axes of their own.
+    """Return the train in which every equal planet is declared: `p`, `p.2`, `p.3`, with their own pairs and axes.
 
-    Loads and bearings are those of each. Positions are turned about the carrier's axis; where none are declared they
-    follow from the layout. What is prescribed of a planet stays with the first.
+    Loads and bearings apply to each planet. Positions are rotated about the axis of the carrier; undeclared ones follow
+    from the layout. Prescriptions of a planet apply to the first.
     """
     return _Unfolding(train, tree).train() if has_copies(train) else train
 
 
 def originals(train: Train) -> dict[str, str]:
-    """Of each link that `with_copies` has, the one that is declared."""
+    """Return the declared link of each link of the expanded train."""
     own = {link: link for link in train.links}
     return own | {_named(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
 
 
 def as_one(train: Train) -> Train:
-    """The train in which equal planets are one that is as heavy and as stiff as all, for they move alike."""
+    """Return the train in which one planet has the mass, inertia and stiffness of all equal ones, as they move alike.
+    """
     if not has_copies(train):
         return train
     links = {name: _heavier(train, part) for name, part in train.links.items()}
@@ -84,7 +86,7 @@ def _heavier(train: Train, part: Link) -> Link:
 
 
 def _number(train: Train, gear: GearPair) -> int:
-    """How many pairs one stands for."""
+    """Return the number of equal gear pairs that a declared pair represents."""
     return max(train.links[train.wheels[wheel][0]].copies for wheel in gear.pair)
 
 
@@ -136,7 +138,7 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
 
 
 def _taken_names(train: Train) -> Iterator[Problem]:
-    """What is declared under the name that a copy will bear."""
+    """Yield a problem for each declared name that a copy would also get."""
     axes = {*train.axes, *(joint.axis for joint in train.revolutes)}
     ids = {gear.id for gear in train.gears}
     for link, part in train.links.items():
@@ -172,7 +174,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
 
 
 def _takes_copies(train: Train, coupling: Coupling) -> bool:
-    """True of what keeps each of equal links parallel with one other."""
+    """Return True for a coupling that keeps each of several equal links parallel to one other link."""
     counts = {train.links[link].copies for link in (coupling.pin, coupling.slot)}
     return isinstance(coupling, Parallel | PinsInHoles) and 1 in counts
 
@@ -187,7 +189,7 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 @dataclass(frozen=True)
 class _Unfolding:
-    """A train and its turning pairs; copies are numbered from 1, the declared one."""
+    """Expansion of a train with its turning pairs; copy 1 is the declared link."""
 
     declared: Train
     tree: Tree
@@ -236,11 +238,11 @@ class _Unfolding:
     # ------------------------------------------------------------------------------------------------------- one part
 
     def _others(self, *links: str) -> range:
-        """Numbers of the further copies of what joins some links."""
+        """Return the numbers of the further copies of a joint or pair between some links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
 
     def _own(self, link: str, at: int) -> str:
-        """A link as its copy meets it: those that are one stay the same."""
+        """Return the link that belongs to a copy; a link without copies is shared by all."""
         return _named(link, at) if self.declared.links[link].copies > 1 else link
 
     def _link(self, part: Link, at: int) -> Link:
@@ -270,7 +272,7 @@ class _Unfolding:
         return _named(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel
 
     def _loads(self, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
-        """A torque that acts on a planet acts on each."""
+        """Return loads in which a torque on a planet acts on each copy."""
         if not loads:
             return loads
         found = dict(loads)
@@ -281,7 +283,7 @@ class _Unfolding:
     # ---------------------------------------------------------------------------------------------------------- places
 
     def _axis(self, label: str, at: int) -> Axis:
-        """An axis turned about that of the carrier."""
+        """Return the axis of a copy, rotated about the axis of the carrier."""
         carrier, number = self._carriers[label]
         about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
         axis, angle = self.declared.axes[label], tau * (at - 1) / number
@@ -300,7 +302,7 @@ class _Unfolding:
 
     @cached_property
     def _carriers(self) -> Mapping[str, tuple[str, int]]:
-        """Axis of copied links -> the one link about whose axis they stand, and how many there are."""
+        """Carrier and number of copies by axis of copied links."""
         found = {}
         for link, (_, axis) in self.tree.parent.items():
             number, carrier = self.declared.links[link].copies, self.tree.top[link]
@@ -313,7 +315,7 @@ class _Unfolding:
 
 @dataclass(frozen=True)
 class _Places:
-    """Where the parts of an unfolded train were written."""
+    """Function from a path in the expanded train to the place where the original part was written."""
 
     declared: Train
     indices: Mapping[str, list[int]]
@@ -338,12 +340,12 @@ def _named(name: str, at: int) -> str:
 
 
 def _shared(gear: GearPair, number: int) -> GearPair:
-    """A declared share is that of all copies together."""
+    """Return the pair with its part of the declared share, which is the share of all copies together."""
     if gear.share is None or number == 1:
         return gear
     return gear.changed(share=Figure.parse(str(gear.share.value / number)))
 
 
 def _decimal(part: float) -> str:
-    """To 15 digits; what is left of cosines of right angles is 0."""
+    """Format a number to 15 digits; rounding errors of right angles become 0."""
     return f"{round(part, 13):.15g}"

@@ -1,7 +1,7 @@
-"""The kinematics of a train: its tree, circuits, mobility and speeds, each found once, when it is first requested.
+"""Kinematics of a train: joint tree, circuits, mobility and speeds, each computed once on first access.
 
-An answer goes from what is prescribed in a state to the train or the part of it that matters, the method, and judged
-outputs. Remarks are conventions and means that the answers of a sound declaration depend on: notes, never errors.
+An answer proceeds from the prescriptions of a state to the relevant part of the train, the method of solution, and the
+evaluated outputs. Remarks describe conventions and mean values on which answers depend; they are notes, not errors.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 
 def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
-    """Pairs whose sense is a convention, for nothing declared fixes it, and pairs whose drive is intermittent."""
+    """Yield a note for each pair whose sense of rotation is only a convention, and for each intermittent drive."""
     at = {gear.name: position for position, gear in enumerate(train.gears)}
     for circuit in circuits:
         if circuit.note:
@@ -62,7 +62,7 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
 
 
 def _is_finger(train: Train, gear: GearPair, name: str) -> bool:
-    """True of a spur wheel of one tooth, but for helical teeth, which overlap, and for a form that shapes the tooth."""
+    """Return True for a spur wheel of one tooth without helix angle (helical teeth overlap) and without tooth form."""
     wheel = train.wheels[name][1]
     return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
 
@@ -77,7 +77,7 @@ def _intermittent(train: Train, wheel: str, position: int) -> Problem:
 
 
 Method = Literal["auto", "exact", "sparse", "floats"]
-"""How to solve; "floats" is an older name of "sparse"."""
+"""Method of solution; "floats" is an older name of "sparse"."""
 
 _CONDITIONED = 400  # links up to which each has its condition number; beyond, those of the outputs
 
@@ -85,15 +85,15 @@ _CONDITIONED = 400  # links up to which each has its condition number; beyond, t
 @final
 @dataclass(frozen=True, eq=False)
 class TrainKinematics(Shown):
-    """Everything about a declared train that follows without teeth.
+    """Kinematic analysis of a declared train, independent of tooth forms.
 
     See Also
     --------
-    geartrain.GearTrain.kinematics : gives it.
+    geartrain.GearTrain.kinematics : property that returns it
     """
 
     declaration: Train
-    """What is declared."""
+    """The declared train."""
 
     # ------------------------------------------------------------------------------------------ joints and circuits
 
@@ -102,7 +102,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def tree(self) -> Tree:
-        """The turning pairs as a spanning tree rooted at the frame."""
+        """Turning pairs as a spanning tree rooted at the frame."""
         tree = find_tree(self.declaration)
         if has_copies(self.declaration):
             check_copies(self.declaration, tree)
@@ -110,21 +110,21 @@ class TrainKinematics(Shown):
 
     @cached_property
     def circuits(self) -> tuple[Circuit, ...]:
-        """One fundamental circuit for each gear pair and coupling."""
+        """Fundamental circuits, one for each gear pair and coupling."""
         return find_circuits(self.declaration, self.tree)
 
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        """The circuits but those of some pairs.
+        """Return all circuits except those of some pairs.
 
         Parameters
         ----------
         names : sequence of str
-            Pairs left out.
+            Pairs to leave out.
 
         Raises
         ------
         QuestionError
-            For a pair that is not declared.
+            If a pair is not declared.
         """
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
@@ -138,7 +138,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """-1 for links whose axis points against the reference direction of its parallels."""
+        """Sign of each link's axis: -1 if it points against the reference direction of its parallel axes."""
         return self._axes.link_signs
 
     @cached_property
@@ -147,7 +147,7 @@ class TrainKinematics(Shown):
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation.
+        """Return True if the axes between two links are parallel, so that their relative speed is a rotation.
 
         Parameters
         ----------
@@ -160,27 +160,27 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """What is prescribed in each state, or once for None, with rigid connections joint by joint."""
+        """Prescriptions of each state (key None for a train without states), with rigid connections joint by joint."""
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
 
     @property
     def usable_states(self) -> tuple[str | None, ...]:
-        """States in which speeds can be calculated; None for a train without states."""
+        """States in which speeds can be calculated; (None,) for a train without states."""
         return tuple(state for state, case in self.cases.items() if not case.problems)
 
     def case(self, state: str | None = None) -> StateCase:
-        """What is prescribed in one state.
+        """Return the prescriptions of one state.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
 
         Raises
         ------
         DeclarationError
-            Where speeds cannot be calculated in it.
+            If speeds cannot be calculated in the state.
         """
         case = self.cases[self.declaration.single_state(state)]
         if case.problems:
@@ -191,36 +191,36 @@ class TrainKinematics(Shown):
 
     @cached_property
     def whole(self) -> SolvedPart:
-        """All links and circuits, ready to be solved."""
+        """All links and circuits, ready for solution."""
         return self._part(self.circuits, tuple(self.declaration.links))
 
     @cached_property
     def mobility(self) -> Mobility:
-        """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         from geartrain.kinematics.speeds import find_mobility
 
         return find_mobility(self.whole.reduced, len(self.declaration.revolutes))
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
+        """True if phase closure can be checked: axes have positions or directions, and gear pairs form loops."""
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
+        """Locked subgraphs, and the smallest set of meshes to disengage; fast if the train is not locked."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
 
     @cached_property
     def remarks(self) -> tuple[Problem, ...]:
-        """Conventions that the answers of a sound declaration depend on: notes, never errors."""
+        """Conventions on which the answers of a valid declaration depend; they are notes, not errors."""
 
         return tuple(lint_train(self.declaration, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
-        """Exact speeds and the verdict, however long they take.
+        """Return exact speeds and the verdict without a limit on the computing time.
 
         Parameters
         ----------
@@ -230,26 +230,26 @@ class TrainKinematics(Shown):
         return solve(self.whole, case, self.signs, None)
 
     def equations(self, state: str | None = None) -> WillisSystem:
-        """The labelled Willis system of one state (docs/theory.md, 6).
+        """Return the labelled Willis system of one state (docs/theory.md, 6).
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         """
         return self._system(self.whole, self.case(state))
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Speeds and judged outputs in one state: see `GearTrain.solve`.
+        """Return speeds and evaluated outputs in one state; see `GearTrain.solve`.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         output : str, optional
-            An output or a link: only the circuits that drive it are solved.
+            An output or a link; only the circuits that can affect it are solved.
         method : {"auto", "exact", "sparse"}
-            How to solve.
+            Method of solution.
         """
         wanted, part, case = None, self.whole, self.cases[self.declaration.single_state(state)]
         if output is not None:
@@ -275,12 +275,12 @@ class TrainKinematics(Shown):
         return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
-        """What one tooth fewer or more on each uncertain wheel does to each output of an answer.
+        """Yield the effect of one tooth less or more of each uncertain wheel on each output of an answer.
 
         Parameters
         ----------
         answer : Answer
-            As `solve` gives it.
+            Result of `solve`.
         """
         case = self.case(answer.state)
 
@@ -295,16 +295,16 @@ class TrainKinematics(Shown):
         inputs: Mapping[str, Sequence[float]] | None = None,
         condition_of: Sequence[str] = (),
     ) -> FloatSpeeds:
-        """Float64 speeds through a sparse LU, with error estimates; many input speeds share one factorisation.
+        """Return float64 speeds by sparse LU with error estimates; several input speeds share one factorisation.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         inputs : mapping of str to sequence of float, optional
-            Link -> speeds, one a case, in place of the declared ones [unit of the train].
+            Speeds by input link, one for each case, instead of the declared ones [unit of the train].
         condition_of : sequence of str
-            Links whose component-wise condition number is wanted (docs/theory.md, equation 25).
+            Links whose component-wise condition number is computed (docs/theory.md, equation 25).
 
         Returns
         -------
@@ -321,7 +321,7 @@ class TrainKinematics(Shown):
         return solve_floats(system, inputs, condition_of)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """The case with one output, and the links that output is made of: what turns, and from where it is seen.
+        """Return the case with only one output, the link that turns, and the link to which it is relative.
 
         Parameters
         ----------
@@ -333,7 +333,7 @@ class TrainKinematics(Shown):
         Raises
         ------
         QuestionError
-            For an output that is not declared.
+            If the output is not declared.
         """
         train = self.declaration
         declared = case.outputs.get(output)
@@ -349,14 +349,14 @@ class TrainKinematics(Shown):
         return replace(case, outputs=outputs), links
 
     def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
-        """By output or link: what turns, and the link from which it is seen.
+        """Return the link that turns and the link to which it is relative, by output or link.
 
         Parameters
         ----------
         state : str or None
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         names : sequence of str
-            Outputs or links; by default all outputs, and all links of a train without any.
+            Outputs or links; by default all outputs, or all links of a train without outputs.
         """
         case = self.case(state)
         chosen = names or tuple(case.outputs) or tuple(self.declaration.links)
@@ -371,7 +371,7 @@ class TrainKinematics(Shown):
         return SolvedPart(links, declared.frame, circuits, first)
 
     def _pruned(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
-        """The part of the train that can matter to some links."""
+        """Return the part of the train that can affect some links."""
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = relevant_circuits(self.circuits, kept)
@@ -388,7 +388,7 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Floats with their estimate, and with their true error where the exact solution is known."""
+        """Solve in floats with error estimates, and with true errors if the exact solution is known."""
         from geartrain.kinematics.speeds import solve_floats
 
         truth = solution.speeds if solution is not None else {}
@@ -423,7 +423,8 @@ class TrainKinematics(Shown):
         return replace(answer, residual=LazyMapping(residual))
 
     def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
-        """The verdict on a dense system: by its float factors where they leave no doubt, else modulo a prime."""
+        """Return the verdict on a dense system, by its LU factors if these are certainly regular, else modulo a prime.
+        """
         from geartrain.kinematics.speeds import is_regular
 
         moved = any(case.inputs.values())
@@ -434,7 +435,8 @@ class TrainKinematics(Shown):
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
     def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
-        """Links whose condition number is told: each costs a solve, so of long trains those of the outputs."""
+        """Return links whose condition number is reported; only outputs of long trains, because each costs one solve.
+        """
         if wanted is None and len(part.links) <= _CONDITIONED:
             return part.links
         frame = self.declaration.frame
@@ -442,7 +444,7 @@ class TrainKinematics(Shown):
         return tuple(dict.fromkeys(link for pair in outputs for link in pair))
 
     def _rounded(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution) -> Answer:
-        """Exact speeds as floats."""
+        """Return the answer with exact speeds rounded to floats."""
 
         def relative(of: str, base: str) -> float | None:
             speed = solution.relative(of, base)
@@ -463,7 +465,8 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """The answer with its outputs judged, cut down to the links in `wanted`; no `ratios` means floats."""
+        """Return the answer with evaluated outputs, restricted to the links in `wanted`; `ratios` is None for floats.
+        """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
             verdict = replace(verdict, text=verdict.text + "".join(map(_side, self._bevels_on_one_side)))
@@ -500,9 +503,9 @@ class TrainKinematics(Shown):
     # -------------------------------------------------------------------------------------------- the verdict on a part
 
     def _narrowed(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
-        """The verdict on one output: it may be determined, or held still, in a train that is free.
+        """Return the verdict on one output, which may be determined or at rest although the train is free.
 
-        known   whether the output's speed is determined
+        known   True if the output's speed is determined
         """
         if not known:
             return verdict
@@ -513,7 +516,7 @@ class TrainKinematics(Shown):
         return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)
 
     def _verdict(self, case: StateCase) -> Verdict:
-        """The verdict on the whole train."""
+        """Return the verdict on the complete train."""
         try:
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
@@ -521,22 +524,22 @@ class TrainKinematics(Shown):
 
 
 def _side(bevels: Sequence[str]) -> str:
-    """What is to be changed about two bevels that meet a third from the same side."""
+    """Return the advice for two bevel wheels that meet a third from the same side."""
     one, other, shared = bevels
     return f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
 
 
 def _unknown(of: str, base: str) -> None:
-    """No speed is known, whichever link is seen from another."""
+    """Return None as the relative speed of any two links."""
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:
-    """The accuracy of some links, made when read."""
+    """Return the accuracy of some links, computed on access."""
     return LazyMapping(lambda: {link: accuracy[link] for link in links if link in accuracy})
 
 
 def _nearest(speed: Fraction) -> float:
-    """The nearest float; `RangeError` where there is none."""
+    """Return the nearest float. Raises `RangeError` beyond the range of float64."""
     value = as_float(speed)
     if value is None:
         why = "its ratio would come out as 0 or infinity"
@@ -545,7 +548,7 @@ def _nearest(speed: Fraction) -> float:
 
 
 def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
-    """Raise `QuestionError` unless each input, and no other link, has one finite speed a case."""
+    """Raise `QuestionError` unless each input, and no other link, has one finite speed for each case."""
     for link in inputs:
         check_choice("input", link, declared)
     for link in declared:

@@ -1,8 +1,8 @@
-"""The one pass over a declaration that finds what of it cannot be built.
+"""Buildability checks of a declaration.
 
-Here are the short rules: wheels that mesh nothing; kinds of wheels that do not go together; three axes whose distances
-break the triangle inequality; brakes and clutches between links on different axes; wheels with two coaxial mates at
-different centre distances; skew axes at another distance than their wheels need. The folder holds the longer rules.
+This module has the short rules: wheels without a gear pair, incompatible kinds of wheels, three axes whose distances
+violate the triangle inequality, brakes and clutches between links on different axes, wheels with two coaxial mates at
+different centre distances, and skew axes at a wrong distance. The other modules of the folder have the longer rules.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ _NEEDS = {
 def check_kinds(
     train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
 ) -> Iterator[BuildFinding]:
-    """Rules K1, K2 and K5: kinds and axes, kinds and mates, sides of bevels."""
+    """Yield findings of rules K1, K2 and K5: kinds against axes, kinds against mates, sides of bevel wheels."""
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
         yield BuildFinding("K5", "error", _on_one_side(train, one, other, shared))
@@ -100,7 +100,7 @@ def _side_by_side(pair: PitchPair, shape: str, declared: bool) -> Problem:
 
 
 def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """What is wrong with a pair on axes of two directions that pass each other at `offset` (m); None if nothing is."""
+    """Return the problem of a pair on non-parallel axes at distance `offset` (m); None if the pair is valid."""
     first, second = pair.axes
     if shape == "spur":
         return Problem(
@@ -125,7 +125,7 @@ _EQUAL = Fraction(1, 10**6)  # of the longest side: three axes may stand in one 
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Rule P3, for three axes whose distances are multiples of one length, known or not."""
+    """Yield findings of rule P3, for three axes whose distances are multiples of one length, known or unknown."""
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
     for (first, second), pair in sides.items():
@@ -176,7 +176,7 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Rules G1 (locks) and G2 (brakes), each once for all states."""
+    """Yield findings of rules G1 (locks) and G2 (brakes), each once for all states."""
     said = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
@@ -204,7 +204,10 @@ def _across(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
 
 
 def check_mates(train: Train) -> Iterator[BuildFinding]:
-    """Rule W1: a wheel is in a pair, or on a link with a pin or slot, or an escape wheel, or has a note that tells."""
+    """Yield findings of rule W1 for idle wheels.
+
+    A wheel must be in a gear pair, be on a link with a pin or slot, be an escape wheel, or have a note.
+    """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
     coupled = {link for coupling in train.couplings for link in (coupling.pin, coupling.slot)}
     escapement = train.escapement
@@ -231,7 +234,9 @@ _SAME = 1e-6  # of a distance: declared lengths and radii have some six digits
 def check_shared_wheels(
     pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
 ) -> Iterator[BuildFinding]:
-    """Rule P2 for teeth that run at any distance, as triangular ones: the shared wheel fixes the size of both pairs."""
+    """Yield findings of rule P2 for non-conjugate teeth, such as triangular ones: a shared wheel has one size in both
+    pairs.
+    """
     free = [
         pair for pair in pairs if pair.parallel and pair.form and pair.form.any_distance and not pair.form.conjugate
     ]
@@ -265,7 +270,7 @@ _EQUAL_SKEW = 1e-6  # of the distance: positions are rounded as they are written
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Rule K4: the common perpendicular of two axes is both pitch radii long, m z/(2 cos(helix)) each."""
+    """Yield findings of rule K4: the distance of skew axes is the sum of the pitch radii m z/(2 cos(helix))."""
     axes = Axes(train, tree)
     for pair in pairs:
         if pair.parallel or any(wheel.helix_angle is None for wheel in pair.declared):
@@ -295,13 +300,13 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
 
 
 Outlines = Callable[[], Mapping[str, PairOutline]]
-"""The pairs with declared teeth as they are cut, by name; called only where planets are compared."""
+"""Function that returns the pairs with declared teeth as they are cut, by name; called only if planets are compared."""
 
 
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """All that the declaration alone tells, rule by rule (docs/buildability.md)."""
+    """Yield all findings that follow from the declaration, rule by rule (docs/buildability.md)."""
     yield from check_mates(train)  # first: a wheel that a child adds without a pair changes no speed of its parent
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)
@@ -318,7 +323,7 @@ def check_build(
 def _planets(
     train: Train, tree: Tree, circuits: Sequence[Circuit], sizes: PitchDistances, outlines: Outlines
 ) -> Iterator[BuildFinding]:
-    """Of all planets, also where one is declared for several."""
+    """Yield findings on planets, with declared copies expanded."""
     if has_copies(train):
         train = with_copies(train, tree)
         tree = find_tree(train)

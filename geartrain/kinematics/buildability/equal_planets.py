@@ -402,7 +402,7 @@ def _number(one: tuple[Any, Any], other: tuple[Any, Any], common: Any) -> Any:
 
 
 def bezout(a: int, b: int) -> tuple[int, int, int]:
-    """Return the greatest common divisor g of two non-negative integers, and u, v with u a + v b = g.
+    """Return the common divisor g = gcd(a, b) of two non-negative integers, and u, v with u a + v b = g.
 
     Extended Euclidean algorithm.
 

@@ -1,4 +1,4 @@
-"""From a train's components to its gridlock: one network for each component with a loop that does not close."""
+"""Gridlock of a train: one gain graph for each component with an inconsistent loop."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000
-"""Meshes up to which those about several carriers are tried; each trial solves the train."""
+"""Maximum number of meshes for the search over several carriers; each trial solves the train."""
 _ONE_BY_ONE = 200  # meshes up to which each is tried alone
 _TRIALS = 3000  # sets that are tried at most
 
 
 class LockedNetwork(NamedTuple):
-    """A component as a network: its carrier, links by node, and circuits by mesh."""
+    """A component as a gain graph: its carrier, links by node, and circuits by mesh."""
 
     carrier: str
     links: list[str]
@@ -35,9 +35,9 @@ class LockedNetwork(NamedTuple):
 
 @collector_paused()
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
-    """Whether the meshes of a train let it move; brakes, locks and inputs are left aside, and so are followers.
+    """Find the locked parts of a train, without regard to brakes, locks, inputs and followers.
 
-    A follower only swings: that its mean speed is 0 is no fault of a mesh.
+    A follower only oscillates; its mean speed of 0 is not caused by a mesh.
     """
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
@@ -52,7 +52,7 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """The networks of all components with a loop that does not close, in units in which all other meshes say equal."""
+    """Return the gain graphs of all components with an inconsistent loop, in units in which all other gains are 1."""
     size = len(parts.links)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
     gains = {chord: _gain(parts, chord) for chord in parts.breaking}
@@ -92,7 +92,7 @@ def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
 
 
 def _gain(parts: Components, chord: int) -> Gain:
-    """By how much a circuit contradicts the walk through its component, from its first link to its second."""
+    """Return the factor by which a circuit is inconsistent with the search tree, from its first link to its second."""
     gain = parts.closing_product(chord)
     return -1 if gain == -1 else gain
 
@@ -139,10 +139,10 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _held(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """The links that meshes hold still, whatever their teeth, once some meshes are out.
+    """Return the links that meshes lock for any tooth counts, after removal of some meshes.
 
-    A ratio can keep a link upright, and all that it drives at rest, while the train moves. Other teeth would move
-    such links, so what counts is to stand still with other ratios too.
+    A ratio can keep one link from rotating, and all links that it drives at rest, while the train moves. With other tooth
+    counts these links would move, so only links that are at rest for other ratios too are counted.
     """
     less = _without(part, gone)
     still = _still(less)
@@ -160,7 +160,7 @@ def _still(part: SolvedPart) -> tuple[str, ...]:
 
 
 def _varied(part: SolvedPart) -> SolvedPart:
-    """The train with another ratio for every link about every carrier; loops keep their products."""
+    """Return the train with another ratio for every link and carrier; the ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
         # long and random: that a link then stands still by accident is next to impossible (Schwartz-Zippel)
@@ -178,15 +178,15 @@ def _varied(part: SolvedPart) -> SolvedPart:
 
 
 def _frees(part: SolvedPart, gone: Collection[str]) -> bool:
-    """True if every loop closes and every link can move once some meshes are out."""
+    """Return True if every loop is consistent and every link can move after removal of some meshes."""
     less = _without(part, gone)
     return not less.reduced.components.breaking and not _held(part, gone)
 
 
 def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Meshes about several carriers that free the train: a least set if few are at stake, else none of which can stay.
+    """Return meshes of several carriers whose removal frees the train: a smallest set for few meshes, else a minimal one.
 
-    None where there are none, or too many to try.
+    None if there is no such set, or there are too many meshes to try.
     """
     toothed = _without(part, ())
     bound = {circuit.id for some in (toothed, _varied(toothed)) for circuit in relevant_circuits(some.circuits, ())}
@@ -206,10 +206,10 @@ def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemo
 
 
 def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:
-    """A set that frees the train and of which no mesh can stay, those early in the list first.
+    """Return a minimal set of meshes whose removal frees the train, preferring those early in the list.
 
-    Taking out more meshes never locks anything, so the shortest part of the list that does is found by halving; its
-    last mesh is needed, and the search goes on among those before it.
+    Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection. Its
+    last mesh is necessary, and the search continues among those before it.
     """
     needed: list[str] = []
     left = list(gears)
@@ -224,7 +224,7 @@ def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:
 
 
 def _searched(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
-    """All smaller sets tried, the smallest first."""
+    """Search all smaller sets exhaustively, in the order of size."""
     for size in sizes:
         for some in combinations(gears, size):
             if _frees(part, some):

@@ -1,4 +1,4 @@
-"""What a gridlock report says: the loops at fault, and the meshes to disengage."""
+"""Result of a gridlock analysis: the inconsistent loops, and the meshes to disengage."""
 
 from __future__ import annotations
 
@@ -16,18 +16,21 @@ _WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "gre
 
 @dataclass(frozen=True, slots=True)
 class RemovalBound(Result):
-    """Loops that do not close, each mesh on at most `sharing` of them: one mesh frees no more than that many."""
+    """Lower bound on the number of meshes to remove, proved by inconsistent loops.
+
+    Each mesh belongs to at most `sharing` of the loops, so removal of one mesh resolves at most that number of loops.
+    """
 
     KEYS = ("sharing", "loops")
 
     loops: tuple[Loop, ...]
-    """Loops that do not close."""
+    """Inconsistent loops (ratio product other than 1)."""
     sharing: int
-    """The most loops to which one mesh belongs."""
+    """Maximum number of loops to which one mesh belongs."""
 
     @property
     def at_least(self) -> int:
-        """How many meshes must go."""
+        """Minimum number of meshes to remove."""
         return -(-len(self.loops) // self.sharing)
 
     def __str__(self) -> str:
@@ -40,7 +43,7 @@ class RemovalBound(Result):
 
 @dataclass(frozen=True, slots=True)
 class MeshRemoval(Result):
-    """Meshes to disengage so that every loop closes and all links held by them can move; none of them could stay.
+    """Meshes to disengage so that all locked links can move. None of them can be left out.
 
     See Also
     --------
@@ -52,15 +55,18 @@ class MeshRemoval(Result):
     meshes: tuple[str, ...]
     """Ids of the pairs."""
     method: RemovalMethod
-    """One: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh. matching,
-    search: exact, by matching the odd regions of a planar set (a T-join) or by branch and bound. greedy: a good set
-    without a proof that it is the least."""
+    """Method by which the set was found.
+
+    one: a single mesh is enough (for each part). loops: the same number of inconsistent loops share no mesh. matching,
+    search: exact, by matching the odd faces of a planar graph (a T-join) or by branch and bound. greedy: a heuristic set,
+    not proved to be the smallest.
+    """
     at_least: int
-    """A proved lower bound on how many meshes must go."""
+    """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """Where one mesh is enough: all that would do."""
+    """All alternatives, if a single mesh is enough."""
     proofs: tuple[RemovalBound, ...] = ()
-    """Loops that prove the bound; empty where it rests on the method alone."""
+    """Loops that prove the bound; empty if only the method proves it."""
 
     def _summary(self) -> str:
         return str(self)
@@ -95,7 +101,7 @@ class MeshRemoval(Result):
 
 @dataclass(frozen=True, slots=True)
 class LockedSubgraph(Result):
-    """One component that its meshes lock to its carrier, and what frees it.
+    """One component that its meshes lock to its carrier, and the meshes whose removal frees it.
 
     See Also
     --------
@@ -103,17 +109,17 @@ class LockedSubgraph(Result):
     """
 
     carrier: str
-    """The link from which the component is seen, and with which alone it can turn."""
+    """Carrier of the component, together with which all its links turn."""
     loop: Loop
-    """A loop that does not close."""
+    """Inconsistent loop (ratio product other than 1)."""
     links: tuple[str, ...]
     """All links of the component."""
     meshes: int
-    """How many meshes are between them."""
+    """Number of meshes of the component."""
     by: Literal["sign", "ratio"]
-    """Sign: every loop comes back at the same speed, some reversed. ratio: some at another speed."""
+    """Cause: sign, if all inconsistent loops have the ratio product -1; ratio otherwise."""
     release: MeshRemoval
-    """What frees this component alone."""
+    """Meshes whose removal frees this component."""
 
     def _summary(self) -> str:
         return str(self)
@@ -131,12 +137,12 @@ class LockedSubgraph(Result):
 
 @dataclass(frozen=True, slots=True)
 class Gridlock(Result):
-    """Whether the meshes of a train let it move, brakes and inputs left aside, and if not, how to free it.
+    """Locked parts of a train, without regard to brakes and inputs, and the meshes whose removal frees it.
 
     Notes
     -----
-    The least set of meshes is the frustration index of a graph with gains; where all gains are 1 and -1 and the graph
-    is planar it is a least T-join (Katai and Iwai 1978), else branch and bound; docs/theory.md, 7.
+    The size of the smallest set of meshes is the frustration index of a gain graph. If all gains are 1 and -1 and the graph
+    is planar, the set is a minimum T-join (Katai and Iwai 1978); otherwise it is found by branch and bound; docs/theory.md, 7.
 
     Examples
     --------
@@ -155,30 +161,30 @@ class Gridlock(Result):
     KEYS = ("moves", "jams", "held", "release")
 
     jams: tuple[LockedSubgraph, ...] = ()
-    """Components with a loop that does not close, equation (21) of docs/theory.md."""
+    """Components with an inconsistent loop, equation (21) of docs/theory.md."""
     held: tuple[str, ...] = ()
-    """Links that meshes about several carriers hold still together, though each loop closes."""
+    """Links that meshes of several carriers lock together, although every loop is consistent."""
     release: MeshRemoval | None = None
-    """What frees the whole train; None if it moves, or if nothing was found."""
+    """Meshes whose removal frees the whole train; None if it moves, or if no set was found."""
 
     def _summary(self) -> str:
         return str(self)
 
     @property
     def moves(self) -> bool:
-        """True if no mesh holds anything still."""
+        """True if no link is locked by meshes."""
         return not self.jams and not self.held
 
     def __str__(self) -> str:
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """What is wrong and what to do, a sentence each; nothing for a train that moves.
+        """Yield one sentence for each problem and its remedy; nothing for a train that moves.
 
         Parameters
         ----------
         most : int
-            Components that are described; of the others only how many there are.
+            Maximum number of components that are described; for the others only their number is given.
         """
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"
@@ -198,12 +204,12 @@ class Gridlock(Result):
 
 
 def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:
-    """The method that proves least: what was found part by part is only as good as that."""
+    """Return the method with the weakest proof, which is the proof of the combined result."""
     return max(methods, key=_WEAKER.index)
 
 
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
-    """Releases of components that have no mesh in common, as one."""
+    """Combine the removals of components without common meshes."""
     parts = tuple(releases)
     if len(parts) == 1:
         return parts[0]
@@ -217,7 +223,7 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
 
 
 def merge_bounds(proofs: Iterable[RemovalBound]) -> Iterator[RemovalBound]:
-    """Proofs about meshes that are not in common: loops that share no mesh are counted together."""
+    """Merge bounds on disjoint sets of meshes; loops that share no mesh are counted together."""
     every = list(proofs)
     apart = tuple(loop for proof in every if proof.sharing == 1 for loop in proof.loops)
     if apart:

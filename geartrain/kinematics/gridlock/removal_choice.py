@@ -1,12 +1,12 @@
-"""Which meshes to disengage: one where one is enough, a least set where that can be proved, else a good one.
+"""Choice of the meshes to disengage: a single one if that is enough, a smallest set if it can be proved, else a good one.
 
-Least sets of meshes by branch and bound, good sets by a greedy forest, and loops that prove a lower bound.
+Smallest sets are found by branch and bound, good sets by a greedy forest; loops without a common mesh prove a lower
+bound. For planar graphs whose gains are signs, the smallest set is found by matching:
 
-The least set of meshes that frees a planar set of gears whose loops fail by sign alone.
-
-Drawn in the plane, a mesh graph parts it into regions. A set of meshes frees the train if and only if, in the dual
-graph, it joins the regions with an odd loop round them in pairs: a T-join, and the least is a minimum-weight perfect
-matching of the odd regions by their distances (Edmonds and Johnson 1973; for signed graphs Katai and Iwai 1978).
+Drawn in the plane, a mesh graph divides it into faces. A set of meshes frees the train if and only if, in the dual
+graph, it joins the faces with an odd boundary in pairs, that is, if it is a T-join. The smallest one is a
+minimum-weight perfect matching of the odd faces by their distances (Edmonds and Johnson 1973; for signed graphs Katai
+and Iwai 1978).
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ if TYPE_CHECKING:
 def disjoint_loops(
     network: GainGraph, without: Collection[int] = (), firm: Collection[int] = ()
 ) -> list[GainLoop] | None:
-    """Loops that do not close and share no mesh but firm ones: each costs a mesh of its own.
+    """Return inconsistent loops that share no mesh other than firm ones, so that each requires the removal of one mesh.
 
-    Shortest first. None where a loop consists of firm meshes alone, so that nothing frees it.
+    Shortest loops are taken first. None if a loop consists of firm meshes only, so that it cannot be resolved.
     """
     used = set(without)
     loops: list[GainLoop] = []
@@ -55,20 +55,21 @@ def disjoint_loops(
 
 
 def minimal_removal(network: GainGraph, most: int, budget: int) -> list[int] | None:
-    """A least set of meshes that frees the network, of fewer than `most`; None if there is none, `most` being least.
+    """Find a smallest set of fewer than `most` meshes whose removal frees the network; None if there is none.
 
-    Branches on the meshes of a shortest loop that does not close: one of them has to go. A bound on what is left
-    comes from loops without a common mesh. Raises `OverBudgetError` after `budget` branches.
+    Branch and bound. It branches on the meshes of a shortest inconsistent loop, one of which must be removed. The lower
+    bound on the remaining removals is the number of loops without a common mesh. Raises `OverBudgetError` after `budget`
+    branches.
     """
     return _Search(network, most, budget).run()
 
 
 class OverBudgetError(Exception):
-    """The search took more branches than allowed."""
+    """Error raised if branch and bound exceeds its number of branches."""
 
 
 class _Search:
-    """One branch and bound: `best` is the least set so far, `most` its size."""
+    """State of one branch and bound: `best` is the smallest set so far, `most` its size."""
 
     def __init__(self, network: GainGraph, most: int, budget: int) -> None:
         self.network, self.most, self.budget = network, most, budget
@@ -101,10 +102,10 @@ class _Search:
 
 
 def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list[GainLoop]]:
-    """Meshes that free the network, none of which could stay, and short loops without a common mesh.
+    """Return a minimal set of meshes whose removal frees the network, and short loops without a common mesh.
 
-    A forest of gains grows mesh by mesh and keeps what agrees: meshes on no short loop that fails first, those on
-    most such loops last. Nodes then move to the speed that most of their meshes ask for.
+    A spanning forest with gains grows mesh by mesh and keeps the consistent ones: first meshes on no short inconsistent
+    loop, last those on most such loops. Nodes then change to the speed for which most of their meshes are consistent.
     """
     suspects, loops = _suspects(network, found)
     tree = [mesh for mesh in found.entry if mesh >= 0]
@@ -121,10 +122,10 @@ def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list
 
 
 def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict[int, int], list[GainLoop]]:
-    """How many loops of two to four meshes that fail each mesh lies on; and such loops without a common mesh.
+    """Return the number of inconsistent loops of two to four meshes on which each mesh lies, and disjoint ones of them.
 
-    A loop that fails contains a mesh with a gain once the walk's speeds are taken as units, so only the
-    surroundings of those are looked at; nodes of very many meshes are passed over.
+    An inconsistent loop contains a mesh with a gain other than 1 if speeds are in the units of the search, so only the
+    neighbourhood of such meshes is searched. Nodes with more than `most` meshes are skipped.
     """
     times: dict[int, int] = {}
     loops: list[GainLoop] = []
@@ -147,7 +148,7 @@ def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict
 
 
 def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
-    """All loops of two, three and four meshes through one mesh."""
+    """Return all loops of two, three and four meshes through one mesh."""
     start, end = network.ends[mesh]
     loops: list[GainLoop] = []
     if max(len(network.at[start]), len(network.at[end])) > most:
@@ -172,7 +173,7 @@ def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
 
 
 def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
-    """A loop from the set of its meshes."""
+    """Arrange the set of meshes of a loop in their order."""
     left = sorted(meshes)
     first = left.pop(0)
     loop: GainLoop = [(network.ends[first][0], first)]
@@ -186,7 +187,8 @@ def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
 
 
 def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
-    """Kruskal's forest with gains: the meshes that contradict those before them; firm ones come first."""
+    """Return the meshes that are inconsistent with earlier ones in a forest with gains (Kruskal); firm ones come first.
+    """
     up = list(range(network.size))
     gain: list[Gain] = [1] * network.size  # speed over that of the node above
     refused = []
@@ -202,7 +204,7 @@ def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
 
 
 def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
-    """Union-find with path compression: the root above a node, and the node's speed over the root's."""
+    """Return the root of a node and the node's speed over the root's (union-find with path compression)."""
     chain = []
     while up[node] != node:
         chain.append(node)
@@ -215,7 +217,7 @@ def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
 
 
 def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
-    """Let nodes near refused meshes take the speed most of their meshes ask for, as long as that helps."""
+    """Improve a removal by local search: nodes take the speed for which most of their meshes are consistent."""
     speed = list(walk_gain_graph(network, refused).speed)
     queue = [node for mesh in refused for node in network.ends[mesh]]
     for here in queue:
@@ -243,18 +245,18 @@ def _agrees(network: GainGraph, speed: Sequence[Gain], mesh: int, start: int) ->
 
 
 MOST_ODD = 300
-"""Odd regions up to which all of them are matched: the matching costs the cube of their number."""
+"""Maximum number of odd faces for matching, whose cost grows with the cube of their number."""
 
 
 class TJoin(NamedTuple):
-    """Meshes to take out; and the loops round the odd regions, where no two meshes join the same nodes."""
+    """Meshes to remove, and the boundaries of the odd faces if no two meshes join the same nodes."""
 
     meshes: list[int]
     odd: list[GainLoop]
 
 
 def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None:
-    """A least set for one block whose gains are signs; None if it is not planar or has too many odd regions."""
+    """Return a smallest set for one block whose gains are signs; None if it is not planar or has too many odd faces."""
     import networkx as nx
 
     nodes = _merged_edges(network)
@@ -279,7 +281,7 @@ def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None
 
 
 def _merged_edges(network: GainGraph) -> list[tuple[int, Gain]]:
-    """Each node's stand-in and its sign against it: nodes that firm meshes join count as one."""
+    """Return the representative of each node and its relative sign; nodes joined by firm meshes are merged."""
     merged: list[tuple[int, Gain]] = [(node, 1) for node in range(network.size)]
     done: set[int] = set()
     starts = {end for mesh in network.firm for end in network.ends[mesh]}
@@ -300,9 +302,10 @@ Pair = tuple[int, int]
 
 
 def _bundles(network: GainGraph, nodes: Sequence[tuple[int, Gain]]) -> dict[Pair, int]:
-    """For nodes in mesh: how many more of their meshes keep the sense than turn it; balanced ones are left out.
+    """Return for each pair of adjacent nodes the number of meshes with gain 1 minus that with gain -1, if not 0.
 
-    Whichever way two nodes turn, the fewer have to go; the difference is what a change of sense costs.
+    For either relative sense of two nodes the minority of their meshes must be removed. The difference is the cost of a
+    change of sense.
     """
     bundles: dict[Pair, int] = {}
     for mesh, (i, j) in enumerate(network.ends):
@@ -314,7 +317,7 @@ def _bundles(network: GainGraph, nodes: Sequence[tuple[int, Gain]]) -> dict[Pair
 
 
 def _faces(drawing: nx.PlanarEmbedding[int]) -> list[list[int]]:
-    """The nodes round each region."""
+    """Return the nodes around each face of a planar embedding."""
     seen: set[Pair] = set()
     return [
         drawing.traverse_face(first, second, seen) for first, second in drawing.edges if (first, second) not in seen
@@ -326,12 +329,12 @@ def _steps(face: Sequence[int]) -> list[Pair]:
 
 
 def _fails(bundles: dict[Pair, int], face: Sequence[int]) -> bool:
-    """True if an odd number of bundles round a region turn the sense."""
+    """Return True if an odd number of bundles around a face have a negative sign."""
     return sum(bundles[min(step), max(step)] < 0 for step in _steps(face)) % 2 == 1
 
 
 def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
-    """The sense of every node, with the sense of all bundles kept but those of the join."""
+    """Return the sign of every node such that all bundles except those of the join are consistent."""
     near: dict[int, list[tuple[int, int]]] = {}
     for (one, two), surplus in bundles.items():
         sign = -1 if (surplus < 0) != ((one, two) in join) else 1
@@ -350,7 +353,7 @@ def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
 
 
 def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequence[int]) -> set[Pair]:
-    """The bundles crossed by a minimum T-join of the odd regions."""
+    """Return the bundles crossed by a minimum T-join of the odd faces."""
     import networkx as nx
 
     side = {step: at for at, face in enumerate(faces) for step in _steps(face)}
@@ -378,7 +381,7 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
 def _ways(
     dual: Sequence[Sequence[tuple[int, int, Pair]]], start: int
 ) -> tuple[dict[int, int], dict[int, tuple[int, Pair]]]:
-    """Dijkstra: distances from one region, and the region and bundle each was reached by."""
+    """Compute distances from one face by Dijkstra's algorithm, with predecessor face and bundle of each."""
     done: dict[int, int] = {}
     came: dict[int, tuple[int, Pair]] = {}
     near = {start: 0}
@@ -399,41 +402,41 @@ def _ways(
 
 
 SMALL = 20
-"""Meshes of a block up to which branch and bound always ends with a least set."""
+"""Number of meshes of a block up to which branch and bound always finds a smallest set."""
 LARGE = 10_000
-"""Meshes of a component past which only one mesh, or a greedy set, is looked for."""
+"""Number of meshes of a component above which only a single mesh or a greedy set is searched."""
 _MEDIUM = 300  # nodes, or meshes, up to which a loop is looked for from everywhere: that costs their square
 _SEARCHED = 100  # meshes of a block up to which branch and bound is tried
 _BRANCHES = 20_000  # times meshes: a second or two
 
 
 class LoopPacking(NamedTuple):
-    """Loops that do not close, each mesh on at most `sharing` of them: so many over `sharing` meshes must go."""
+    """Inconsistent loops, with each mesh on at most `sharing` of them, which prove a lower bound."""
 
     loops: list[GainLoop]
     sharing: int
 
     @property
     def at_least(self) -> int:
-        """How many meshes must go at least."""
+        """Minimum number of meshes to remove."""
         return -(-len(self.loops) // self.sharing)
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes that free a network."""
+    """Meshes whose removal frees a network."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
-    """A proved lower bound; a set of that size is least."""
+    """Proved lower bound; a set of that size is a smallest one."""
     choices: list[int]
-    """For a single mesh: all that would do."""
+    """All alternatives, if a single mesh is enough."""
     bounds: list[LoopPacking]
-    """What proves the bound, where loops do."""
+    """Loops that prove the bound, if there are any."""
 
 
 def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
-    """The meshes to disengage in a connected network that does not turn; `found` is a walk through it."""
+    """Choose the meshes to disengage in a connected locked network; `found` is a search through it."""
     singles = single_mesh_removals(network, found)
     if singles:
         loop = LoopPacking([open_loop(network, found)], 1)
@@ -450,7 +453,7 @@ def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
 
 
 def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
-    """A short loop that does not close: a shortest one in all but large networks."""
+    """Return a short inconsistent loop, a shortest one except in large networks."""
     if network.size <= _MEDIUM:
         starts: Sequence[int] = range(network.size)
         best = None
@@ -464,7 +467,7 @@ def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
 
 
 def _choose_in_block(block: GainGraph) -> RemovalChoice:
-    """A least set for one block if it is small, or planar with signs only; else the best of what is tried."""
+    """Return a smallest set for one block if it is small, or planar with signs only; else the best set found."""
     found = walk_gain_graph(block)
     singles = single_mesh_removals(block, found)
     if singles:
@@ -498,13 +501,14 @@ def _greedy(meshes: list[int], bound: LoopPacking) -> RemovalChoice:
 
 
 def _bound(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
-    """The better of two collections of loops without a common mesh."""
+    """Return the better of two collections of loops without a common mesh."""
     more = disjoint_loops(network) if len(network.ends) <= _MEDIUM else None
     return LoopPacking(max((loops, more or []), key=len), 1)
 
 
 def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
-    """Loops that prove a matching least, if any are found: the odd regions, or loops without a common mesh."""
+    """Return loops that prove a matching to be smallest, if any are found: odd faces, or loops without a common mesh.
+    """
     apart: list[GainLoop] = []
     used: set[int] = set()
     for loop in sorted(odd, key=len):
@@ -519,7 +523,7 @@ def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[L
 
 
 def _placed(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -> RemovalChoice:
-    """A block's choice in the numbers of the whole network."""
+    """Return the choice of a block with the indices of the whole network."""
     bounds = [
         LoopPacking([[(nodes[node], block[mesh]) for node, mesh in loop] for loop in bound.loops], bound.sharing)
         for bound in choice.bounds
@@ -529,7 +533,7 @@ def _placed(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -
 
 
 def _joined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
-    """The choices of all blocks as one: no loop runs through two blocks, so bounds add up."""
+    """Combine the choices of all blocks. No loop passes through two blocks, so bounds are added."""
     if len(choices) == 1:
         return choices[0]
     return RemovalChoice(
@@ -542,6 +546,6 @@ def _joined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
 
 
 def _merged(bounds: Sequence[LoopPacking]) -> list[LoopPacking]:
-    """Bounds of several blocks, those of loops without a common mesh as one."""
+    """Merge the bounds of several blocks; loops without a common mesh are counted together."""
     apart = [loop for bound in bounds if bound.sharing == 1 for loop in bound.loops]
     return ([LoopPacking(apart, 1)] if apart else []) + [bound for bound in bounds if bound.sharing > 1]

@@ -1,4 +1,4 @@
-"""From circuits to speeds, exact or in floats with their error; mobility and verdict never by a tolerance."""
+"""Speeds from circuits, exact or in floats with error estimates; mobility and verdict without any tolerance."""
 
 from __future__ import annotations
 

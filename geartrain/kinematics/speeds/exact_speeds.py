@@ -1,9 +1,9 @@
-"""Exact speeds: eliminate what couples the components, then read every link off its component; and the verdict.
+"""Exact speeds by propagation or elimination, and the verdict.
 
-Propagation comes first: where two of a circuit's three links are known, the third follows. It settles ordinary trains,
-and every train whose links are driven one after another, in plain integers and in a time proportional to the circuits.
-Where it stops (a planetary set with its ring held needs two circuits at once) the coupled system is reduced and
-eliminated. The diagnosis names the loops and prescriptions of systems without a unique solution.
+Propagation is tried first: if two of a circuit's three links are known, the third follows. It solves ordinary trains,
+and every train whose links are driven one after another, in integers and in linear time. If it stops (a planetary set
+with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved by Gaussian
+elimination. The diagnosis names the loops and prescriptions of systems without a unique solution.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _ZERO = Fraction(0)
 
 
 class PrescriptionStatement(NamedTuple):
-    """What one prescription says: its kind (input, fixed, lock), in words, as declared, and its value."""
+    """One prescription: its kind (input, fixed, lock), its text, the text of its declaration, and its speed."""
 
     kind: str
     text: str
@@ -47,11 +47,11 @@ class PrescriptionStatement(NamedTuple):
 
 
 def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], budget: int | None = None) -> Verdict:
-    """The verdict on a case that does not hold together, locked or contradictory, with its witnesses.
+    """Return the verdict on an inconsistent case, locked or contradictory, with its certificate.
 
-    An input is locked if its link stands still whatever the other inputs do; inputs that could move alone but not
-    together are contradictory. Witnesses cost memory in a long coupled train: past `budget` operations the verdict
-    comes without them.
+    An input is locked if its link cannot move whatever the other inputs are. Inputs that can move separately but not
+    together are contradictory. The certificate needs much memory for a long coupled train; beyond `budget` operations the
+    verdict is returned without it.
     """
     rows, statements = _tagged(reduced, case, signs)
     structural, held = len(reduced.equations), len(rows) - len(case.inputs)
@@ -76,12 +76,12 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _uses(row: LinearForm) -> dict[int, Fraction]:
-    """How much of each tagged equation goes into a row of symbols."""
+    """Return the factor of each tagged equation in a row of symbols."""
     return {-1 - column: value for column, value in row.items()}
 
 
 def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm:
-    """A row with its solved unknowns put in."""
+    """Return a row with its solved unknowns substituted."""
     resolved: LinearForm = {}
     for column, coefficient in row.items():
         add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
@@ -89,7 +89,7 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
 
 
 def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
-    """One row for each link held to the frame and each pair locked together."""
+    """Yield one row for each link fixed to the frame and for each pair of locked links."""
     index = reduced.components.index
     for link in case.fixed:
         yield dict(reduced.form(index[link]))
@@ -100,7 +100,7 @@ def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
 
 
 def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """What is certain without a certificate: an input that cannot move is locked, else several contradict."""
+    """Return the verdict without a certificate: locked if an input cannot move, else contradictory."""
     given = tuple(map(case.given, case.inputs))
     stuck = _stuck(reduced, case)
     if stuck:
@@ -109,9 +109,9 @@ def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 
 
 def _stuck(reduced: ReducedSystem, case: StateCase) -> list[str]:
-    """The inputs that are to move and stand still whatever the others do, modulo a prime.
+    """Return the non-zero inputs that cannot move whatever the other inputs are, by elimination modulo a prime.
 
-    With a symbol for each input, elimination leaves what the circuits say of the inputs alone.
+    With a symbol for each input, elimination leaves the relations between the inputs that the circuits imply.
     """
     rows = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
     rows += [
@@ -130,7 +130,7 @@ def _stuck(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """All equations, each with a symbol -1-t of its own, t counting structure first, then prescriptions."""
+    """Return all equations, each with its own symbol -1-t, where t counts structural rows first, then prescriptions."""
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
     statements: list[PrescriptionStatement] = [
@@ -150,7 +150,7 @@ def _tagged(
 def _name(
     reduced: ReducedSystem, case: StateCase, given: Mapping[int, Fraction], statements: Sequence[PrescriptionStatement]
 ) -> Verdict:
-    """One contradiction in words. `given` says how much of each equation goes into it."""
+    """Describe one contradiction. `given` has the factor of each equation in it."""
     parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
     inputs = [(stated.text, value, stated.speed) for stated, value in used if stated.kind == "input"]
@@ -185,7 +185,7 @@ def _name(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """The gear pairs that take part in a contradiction: the paths between the links its equations share."""
+    """Return the gear pairs that take part in a contradiction: the paths between the shared links of its equations."""
     parts = reduced.components
     touched: dict[int, set[int]] = {}
     for tag in given:
@@ -198,7 +198,7 @@ def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: in
 
 
 def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Nothing is driven and nothing could be: the train itself, or its brakes, hold every link."""
+    """Return the verdict on a case in which no input is driven and every link is locked, by loops or brakes."""
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
     holding = [case.declares(link) for link in case.fixed] + [case.declares(a, b) for a, b in case.locks]
@@ -216,7 +216,7 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """What is undetermined, and a least set of links whose speeds would settle it."""
+    """Return the verdict with all undetermined links, and a smallest set of links whose speeds would determine them."""
     index = reduced.components.index
     rows: list[LinearForm] = []
     fixes: list[str] = []
@@ -242,11 +242,11 @@ def free_verdict(
 
 
 Terms = tuple[tuple[int, int], ...]
-"""A row: pairs of link index and integer coefficient whose sum of products with the speeds vanishes."""
+"""A row: pairs of link index and integer coefficient; the sum of coefficient times speed is 0."""
 
 
 class PropagatedSpeeds(Mapping[str, Fraction]):
-    """Exact speeds by link, each multiplied out when it is read."""
+    """Exact speeds by link; each product of ratios is multiplied out on access."""
 
     def __init__(self, index: Mapping[str, int], products: FactoredRatios, signs: Mapping[str, int]) -> None:
         self._index, self._products, self._signs = index, products, signs
@@ -269,9 +269,9 @@ class PropagatedSpeeds(Mapping[str, Fraction]):
 def propagate(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: StateCase, signs: Mapping[str, int]
 ) -> PropagatedSpeeds | None:
-    """Every link's exact speed, or None where walking does not reach all, or meets a contradiction.
+    """Return every link's exact speed, or None if propagation does not reach all links or finds a contradiction.
 
-    signs   -1 for links whose axis points against the reference direction of its parallels
+    signs   -1 for links whose axis points against the reference direction of its parallel axes
     """
     index = {link: at for at, link in enumerate(links)}
     rows = _rows(index, frame, circuits, case)
@@ -311,7 +311,7 @@ def propagate(
 
 
 def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
-    """All circuits and locks as rows over the moving links."""
+    """Return all circuits and locks as rows over the moving links."""
     rows: list[Terms] = []
     for circuit in circuits:
         rows.append(tuple([(index[link], factor) for link, factor in circuit.terms if link != frame]))
@@ -327,7 +327,7 @@ def _prescribed(case: StateCase, signs: Mapping[str, int]) -> list[tuple[str, Fr
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:
-    """Give the one unknown link of a row its speed, and say which it was; -1 if it got one in the meantime."""
+    """Solve a row for its one unknown link and return that link; -1 if it was solved in the meantime."""
     target, lead = -1, 0
     moving = []
     for link, coefficient in row:
@@ -352,13 +352,13 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 _GIVEN = -1  # the column in which prescribed numbers stand
 
 EXACT_BUDGET = 400_000
-"""Coefficient operations after which exact elimination gives way to floats; about a second."""
+"""Coefficient operations after which exact elimination is replaced by floats; about one second."""
 
 _PREDICTED = 40_000
 """Operations modulo a prime beyond which exact elimination is not tried.
 
-Fill makes numbers long: in grids and random networks of differentials, this many operations with short numbers are some
-400,000 of `EXACT_BUDGET`.
+Fill-in makes numbers long: in grids and random networks of differentials, this number of operations with short numbers
+corresponds to about 400,000 of `EXACT_BUDGET`.
 """
 
 _FEW = 100  # equations up to which the prediction would cost as much as it saves
@@ -366,13 +366,13 @@ _FEW = 100  # equations up to which the prediction would cost as much as it save
 
 @dataclass(frozen=True, slots=True)
 class FreeForms:
-    """What is left of a train that is free: forms of its unknowns in those that stayed free."""
+    """Unknowns of a free train as linear forms of those that remain free."""
 
     reduced: ReducedSystem
     forms: Mapping[int, LinearForm]
 
     def difference(self, of: str, base: str) -> Fraction | None:
-        """The difference of two links' speeds, unsigned; None where free unknowns remain in it."""
+        """Return the difference of two links' speeds, without axis signs; None if it depends on free unknowns."""
         index = self.reduced.components.index
         row = dict(self.reduced.form(index[of]))
         add_into(row, self.reduced.form(index[base]), -1)
@@ -385,18 +385,18 @@ class Solution:
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
-    """Link -> speed, in the order declared; only links that are determined."""
+    """Speed by link, in the order of the declaration; only determined links."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Link -> input -> speed over that input, the others at rest."""
+    """Ratio of speeds by link and input, with the other inputs at rest."""
     signs: Mapping[str, int]
-    """-1 for links whose axis points against its parallels."""
+    """-1 for links whose axis points against its parallel axes."""
     loose: FreeForms | None = None
-    """Every link as a form of what stayed free; None where all is determined, or nothing is."""
+    """Every link as a form of the free unknowns; None if all links are determined, or none."""
 
     def relative(self, of: str, base: str) -> Fraction | None:
-        """Speed of a link seen from another, about the first one's axis; None where it is not determined.
+        """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
 
-        It may be determined though both links are free: it is wherever the difference lies in the space of the rows.
+        It may be determined although both links are free, namely if the difference is in the row space.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.loose is None:
@@ -412,14 +412,14 @@ class Solution:
 
 
 class _Ratios(Mapping[str, Mapping[str, Fraction]]):
-    """The exact link x input table. It is solved for when first read: a case with one answer does not need it."""
+    """Exact table of ratios, link by input; solved on first access."""
 
     def __init__(self, part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> None:
         self._part, self._case, self._signs = part, case, signs
 
     @cached_property
     def _forms(self) -> dict[int, LinearForm]:
-        """Every unknown in terms of the inputs, one symbol each."""
+        """Every unknown as a linear form of the inputs, with one symbol for each input."""
         reduced = self._part.reduced
         index = reduced.components.index
         rows = [*reduced.equations, *held_rows(reduced, self._case)]
@@ -444,10 +444,10 @@ class _Ratios(Mapping[str, Mapping[str, Fraction]]):
 
 @collector_paused()
 def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
-    """Solve one case exactly: link by link where that reaches every link, else reduced and eliminated.
+    """Solve one case exactly, by propagation if it reaches every link, else by reduction and elimination.
 
-    signs    -1 for links whose axis points against its parallels: their speeds change sign at this door
-    budget   operations allowed beyond linear work; `TooDenseError` past it, None for no bound
+    signs    -1 for links whose axis points against its parallel axes; results are converted to declared directions
+    budget   operations allowed beyond linear work; `TooDenseError` if exceeded, None for no limit
     """
     ratios = _Ratios(part, case, signs)
     walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
@@ -471,14 +471,14 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """The budget for one system: uncoupled equations cost a few operations each, and are always allowed."""
+    """Return the budget for one system, increased for uncoupled equations, which need only a few operations each."""
     return None if budget is None else budget + 30 * len(reduced.equations)
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Exact elimination within a budget; `TooDenseError` at once where its fill is predicted to exceed it.
+    """Eliminate exactly within a budget. Raises `TooDenseError` at once if the predicted fill-in exceeds it.
 
-    The prediction is the same elimination modulo a prime, whose numbers are short, and it stops at its own limit.
+    The prediction is the same elimination modulo a prime, with short numbers and its own limit.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)
@@ -486,7 +486,7 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """The verdict alone, modulo a prime: for coupled systems too dense for rational elimination."""
+    """Return only the verdict, by elimination modulo a prime, for systems too dense for rational elimination."""
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
@@ -501,7 +501,7 @@ def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, i
 
 
 def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) -> Verdict:
-    """The good verdict, with a word on a loop that holds part of the train, if there is one."""
+    """Return the verdict that all speeds are determined, with a remark on a loop that locks a part of the train."""
     parts = reduced.components if reduced else None
     loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
     text = f"every speed follows from {', '.join(case.inputs)}"
@@ -511,7 +511,7 @@ def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) ->
 
 
 def _driven(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Iterator[LinearForm]:
-    """One row for each input; what is prescribed stands in the one column -1."""
+    """Yield one row for each input, with the prescribed speed in column -1."""
     for link, speed in case.inputs.items():
         row = dict(reduced.form(reduced.components.index[link]))
         if speed:
@@ -520,12 +520,12 @@ def _driven(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -
 
 
 def _all_still(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
-    """True if nothing can move at all: an input of 0, or none, then hides a locked train."""
+    """Return True if no link can move, which inputs that are all 0 would conceal."""
     return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 
 class _ReadOff(Mapping[str, Fraction]):
-    """Speeds by link, put together when read: the carrier's plus the ratio times the component's unknown."""
+    """Speeds by link, computed on access: speed of the carrier plus ratio times the component's unknown."""
 
     def __init__(self, reduced: ReducedSystem, known: Sequence[Fraction | None], signs: Mapping[str, int]) -> None:
         self._reduced, self._known, self._signs = reduced, known, signs
@@ -533,7 +533,7 @@ class _ReadOff(Mapping[str, Fraction]):
         self._links: dict[str, None] = {}
 
     def take(self, link: str, speed: Fraction | None = None) -> None:
-        """Count a link among those that are determined; `speed` where its parts are not, but their sum is."""
+        """Add a determined link; `speed` is given if free unknowns cancel in its form."""
         self._links[link] = None
         if speed is not None:
             self._cancelled[link] = speed
@@ -573,7 +573,7 @@ class _ReadOff(Mapping[str, Fraction]):
 def _read_off(
     reduced: ReducedSystem, forms: Mapping[int, LinearForm], signs: Mapping[str, int]
 ) -> tuple[Mapping[str, Fraction], list[str]]:
-    """The speed of every link that has one, and the links that have none."""
+    """Return the speeds of all determined links, and the names of undetermined links."""
     parts = reduced.components
     known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
     speeds = _ReadOff(reduced, known, signs)
@@ -591,7 +591,7 @@ def _read_off(
 
 
 def _value(form: LinearForm | None) -> Fraction | None:
-    """The value of a form, or None where it holds a free unknown."""
+    """Return the value of a form, or None if it contains a free unknown."""
     if form is None or any(column >= 0 for column in form):
         return None
     return form.get(_GIVEN, Fraction(0))

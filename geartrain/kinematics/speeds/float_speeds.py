@@ -1,14 +1,14 @@
 """Float64 speeds by sparse LU and iterative refinement with extra-precise residuals, and their error bounds.
 
-The rows are integers, so the residual of a float solution can be computed to twice the working precision by error-free
-products and sums. Refinement with it brings every component within a rounding or two (docs/accuracy.md), as long as the
-factors hold any digit of the inverse: beyond that no bound from the same factors is valid, and the solution is refused
-(Demmel, Hida, Kahan, Li, Mukherjee and Riedy, Error bounds from extra-precise iterative refinement, 2006).
+The coefficients are integers, so the residual of a float solution can be computed in twice the working precision by
+error-free products and sums. Refinement with it reduces the error of every component to one or two roundings
+(docs/accuracy.md), as long as the factors have any correct digit of the inverse. Beyond that no bound from the same
+factors is valid, and the solution is refused (Demmel, Hida, Kahan, Li, Mukherjee and Riedy, Error bounds from
+extra-precise iterative refinement, 2006).
 
-Powers of two by which the speeds of a train that leaves float64 are near 1: its rows solved roughly.
-
-The rows are eliminated as the exact ones are, in numbers of 53 bits whose exponent has no end. What comes out may be
-wrong in any digit but its size; nothing is answered by it, and the scaled rows are solved and judged as any are.
+Trains whose speeds leave the range of float64 are scaled by powers of two. These follow from a rough elimination in
+numbers of 53 bits with unlimited exponents, of which only the order of magnitude is used; the scaled rows are then
+solved and checked like any other.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ _TOO_DENSE = Problem(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Rough(LongFloat):
-    """A long float at any size, whose sums are 0 where next to nothing is left of their terms."""
+    """A float with unlimited exponent whose sums are set to 0 after almost complete cancellation."""
 
     @classmethod
     def make(cls, mantissa: float, exponent: int) -> Any:
@@ -76,11 +76,11 @@ class _Rough(LongFloat):
 
 
 def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], links: Sequence[str]) -> list[int]:
-    """An exponent of two for each link, so that its speed over that power is near 1.
+    """Return an exponent of two for each link such that its speed divided by that power is near 1.
 
     given   right-hand side of each row
 
-    Raises `RangeError` where the rows are too dense to be eliminated in a minute or so.
+    Raises `RangeError` if the rows are too dense for elimination in about a minute.
     """
     at = {link: column for column, link in enumerate(links)}
     lines = [{at[link]: c for link, c in row.terms if link in at} for row in rows]
@@ -107,9 +107,9 @@ def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], li
 
 
 def _spread(lines: Sequence[Mapping[int, int]], found: dict[int, float]) -> None:
-    """Links that stand still have no size of their own: the least that a row with others gives them.
+    """Assign exponents to links at rest: the smallest that one of their rows with other links gives.
 
-    In a row that turns faster its entry then sinks, and says nothing there that the row did not say without it.
+    In rows of faster links the scaled entry is then negligible, which is correct because the link does not move.
     """
     users: dict[int, list[int]] = {}
     for row, line in enumerate(lines):
@@ -144,15 +144,15 @@ _ORDINARY = 400  # powers of two up to which speeds are solved as they are
 
 @dataclass(frozen=True, slots=True)
 class FloatSpeeds(FrozenFields, Shown):
-    """Float64 speeds by sparse LU and one refinement step, with an estimate of their error (docs/theory.md, 11).
+    """Float64 speeds by sparse LU and iterative refinement, with an estimate of their error (docs/theory.md, 11).
 
-    `floats[link]` is the speed of a link in the first case; `RangeError` where float64 does not hold it.
+    `floats[link]` is the speed of a link in the first case; `RangeError` beyond the range of float64.
 
     Notes
     -----
-    The step is equation (23), its residual in twice the precision; the estimate is (24). Every speed comes within a
-    rounding or two (docs/accuracy.md). The relative error of a speed is at most its condition times the greatest
-    residual (Oettli and Prager 1964). Higham, Accuracy and Stability of Numerical Algorithms, chapter 7.
+    The refinement step is equation (23) with its residual in twice the precision; the error estimate is (24). Every speed
+    is accurate to one or two roundings (docs/accuracy.md). The relative error of a speed is at most its condition number
+    times the largest residual (Oettli and Prager 1964). Higham, Accuracy and Stability of Numerical Algorithms, chapter 7.
 
     Examples
     --------
@@ -163,17 +163,17 @@ class FloatSpeeds(FrozenFields, Shown):
     """
 
     speeds: LabelledArray
-    """Axes (link, case) [the train's unit], to be multiplied by 2**exponents."""
+    """Speeds (link, case) [unit of the train], to be multiplied by 2**exponents."""
     estimate: LabelledArray
-    """Absolute error to expect of each speed, axes and unit as those of `speeds`."""
+    """Estimated absolute error of each speed, with axes and unit of `speeds`."""
     residual: LabelledArray
-    """Axes (row, case): by what part of its terms each row of the matrix is off, |b - A x| over |A| |x|, in twice
-    the precision [1]."""
+    """Relative residual (row, case) of each row of the matrix, |b - A x| over |A| |x|, in twice the precision [1]."""
     condition: Mapping[str, float]
-    """Component-wise condition number cond(A, x) of the first case, equation (25), of each link it was asked for; 1
-    or more, infinite of a link at rest. Made when read."""
+    """Component-wise condition number cond(A, x) of the first case, equation (25), for each requested link; at least 1,
+    infinite for a link at rest. Computed on access.
+    """
     exponents: LabelledArray
-    """Axes (link, case): powers of two, 0 wherever float64 holds the speed and its estimate."""
+    """Exponents of two (link, case); 0 if the speed and its estimate are within the range of float64."""
 
     def _summary(self) -> str:
         return self.speeds._summary()
@@ -187,28 +187,28 @@ class FloatSpeeds(FrozenFields, Shown):
         raise RangeError(Problem(what, "a float holds 1e-308 to 1e308", fix))
 
     def number(self, link: str, case: int = 0) -> Real:
-        """The speed of a link, as a float where one holds it.
+        """Return the speed of a link, as a float if it is within the range.
 
         Parameters
         ----------
         link : str
             Name of the link.
         case : int
-            Which of the cases, from 0.
+            Index of the case, from 0.
         """
         return scaled(float(self.speeds[link][case]), int(self.exponents[link][case]))
 
     def decimal(self, link: str, case: int = 0, digits: int = 10) -> str:
-        """The speed of a link in decimal, of any size.
+        """Return the speed of a link as decimal text, of any magnitude.
 
         Parameters
         ----------
         link : str
             Name of the link.
         case : int
-            Which of the cases, from 0.
+            Index of the case, from 0.
         digits : int
-            Significant digits, 1 or more.
+            Number of significant digits, 1 or more.
         """
         return f"{self.number(link, case):.{digits}g}"
 
@@ -221,16 +221,16 @@ def solve_floats(
     ordering: str = "COLAMD",
     refine: bool = True,
 ) -> FloatSpeeds:
-    """Solve a determined Willis system in float64: its `matrix()` is factorised.
+    """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs        link -> speeds, one a case, for every input of the system: one factorisation serves all
-    condition_of  links whose component-wise condition is wanted, one transposed solve each when they are read
-    ordering      column ordering of the factorisation; COLAMD is the one that never turns quadratic
-    refine        one refinement step (else the raw LU, for comparison)
+    inputs        speeds by link, one for each case, for every input of the system; one factorisation serves all cases
+    condition_of  links whose component-wise condition number is wanted; one transposed solve each, on access
+    ordering      column ordering of the factorisation; COLAMD is the only one that never takes quadratic time
+    refine        True for iterative refinement, False for the unrefined LU solution (for comparison)
 
-    Where speeds leave the range of float64 each case is solved with a power of two of its own for every link.
-    Raises `RangeError` where the system is not square and regular, or where that does not bring it within the range
-    either: a silent 0 is never returned.
+    If speeds leave the range of float64, each case is solved with a separate power of two for every link. Raises
+    `RangeError` if the system is not square and regular, or if scaling does not bring it within the range either. Underflow
+    to 0 is never returned.
     """
     matrix, rows = prepare(system)
     found, exponents = _solve_any(matrix, rows, _given(rows, inputs), _Way(ordering, refine, condition_of))
@@ -245,7 +245,7 @@ def solve_floats(
 
 
 class _Solved(NamedTuple):
-    """Speeds and their estimates (link, case), residuals (row, case), conditions by link."""
+    """Speeds and their estimates (link, case), residuals (row, case), and condition numbers by link."""
 
     x: Floats
     estimate: Floats
@@ -254,7 +254,7 @@ class _Solved(NamedTuple):
 
 
 class _Way(NamedTuple):
-    """How to solve, as `solve_floats` is told."""
+    """Options of `solve_floats`."""
 
     ordering: str
     refine: bool
@@ -264,7 +264,7 @@ class _Way(NamedTuple):
 def _solve_any(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
 ) -> tuple[_Solved, NDArray[np.int64]]:
-    """What is found, speeds and estimates over powers of two, and those powers; ordinary trains need none."""
+    """Return scaled speeds with their estimates, and the exponents of two; these are 0 for ordinary trains."""
     near = None
     with suppress(RangeError):
         near = _solve(matrix, rows, given, way)
@@ -277,7 +277,7 @@ def _solve_any(
 
 
 def _is_ordinary(x: Floats) -> bool:
-    """True if no speed is so large or small that its errors, or their squares in `_reach`, leave float64."""
+    """Return True if no speed is so large or small that its errors, or their squares in `_reach`, leave float64."""
     sizes = np.frexp(x)[1]
     return bool(((x == 0) | (np.abs(sizes) <= _ORDINARY)).all())
 
@@ -285,7 +285,7 @@ def _is_ordinary(x: Floats) -> bool:
 def _solve(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
 ) -> _Solved:
-    """What is found; `RangeError` where float64 does not hold it."""
+    """Return the solution with its error estimates. Raises `RangeError` beyond the range of float64."""
     right, remainder = _right_sides(rows, given)
     try:
         lu = matrix.factorise(way.ordering)
@@ -311,7 +311,9 @@ def _solve(
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Iterative refinement (23): one step for an ordinary train, more while a step at least halves the last one."""
+    """Refine a solution iteratively (23): one step for an ordinary train, more while each step at least halves the
+    last.
+    """
     last = 1.0
     for _ in range(_STEPS):
         step = lu.solve(matrix.residual(x, right, remainder))
@@ -328,7 +330,7 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
 def _solve_far(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
 ) -> tuple[_Solved, NDArray[np.int64]]:
-    """One case, in speeds over powers of two: scaling by them rounds nothing, so all is as good as near 1."""
+    """Solve one case in speeds scaled by powers of two, which causes no rounding."""
     exponents = np.array(find_exponents(rows, [right for (right,) in given], list(matrix.at)), dtype=np.int64)
     near, shifts = matrix.scaled(exponents)
     moved = [[right * Fraction(2) ** -shift] for (right,), shift in zip(given, shifts.tolist(), strict=True)]
@@ -342,17 +344,17 @@ def _solve_far(
 
 
 def _held(values: Floats, powers: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Where values times powers of two are 0 or within float64 with all their bits."""
+    """Return a mask of values that, times powers of two, are 0 or normal float64 numbers."""
     sizes = np.frexp(values)[1] + powers
     held: NDArray[np.bool_] = (values == 0) | ((sizes >= LOWEST) & (sizes <= HIGHEST))
     return held
 
 
 def _reach(lu: Any, error: Floats) -> Floats:
-    """How far errors in the equations, of any sign, may move each speed: |A^-1| error.
+    """Return the maximum change of each speed by errors of the equations of any sign: |A^-1| error.
 
-    A solution for one set of signs may cancel to 0 where another does not. The inverse is made column by column up to
-    some hundred links; beyond, the root mean square over random signs and sizes stands for it, four times over.
+    A solution for one set of signs may cancel to 0 where another does not. The inverse is computed column by column for up
+    to 400 links. For more links four times the root mean square over random signs and sizes is used.
     """
     found = np.zeros_like(error)
     size, cases = error.shape
@@ -371,7 +373,10 @@ def _reach(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """As many independent rows as there are moving links, ready to be factorised, or a `RangeError`."""
+    """Return as many independent rows as there are moving links, ready for factorisation.
+
+    Raises `RangeError` if the system is not square.
+    """
     links, rows = independent_rows(system.links, system.equations, system.redundant)
     if len(rows) > len(links):
         what = "the prescribed speeds contradict each other"
@@ -384,7 +389,7 @@ def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
 
 
 def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) -> LabelledArray:
-    """One row a link in the order declared, the frame's being 0."""
+    """Return values with one row for each link in the order of the declaration, 0 for the frame."""
     at = next(at for at, link in enumerate(system.links) if link not in matrix.at)
     return labelled_array(
         np.insert(values, at, 0, axis=0),
@@ -394,7 +399,7 @@ def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) 
 
 
 def _given(rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None) -> list[list[Fraction]]:
-    """The right-hand side of every row, one number a case."""
+    """Return the right-hand side of every row, one number for each case."""
     cases = len(next(iter(inputs.values()))) if inputs else 1
     return [
         [Fraction(value) for value in inputs[row.terms[0][0]]]
@@ -405,7 +410,7 @@ def _given(rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]]
 
 
 def _right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]]) -> tuple[Floats, Floats]:
-    """Right-hand sides as float plus the exact remainder that the float leaves."""
+    """Return right-hand sides as floats, and the exact remainders after rounding."""
     right = np.zeros((len(rows), len(given[0])))
     remainder = np.zeros_like(right)
     for at, line in enumerate(given):
@@ -420,9 +425,9 @@ def _right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequence[Fracti
 
 
 def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[WillisEquation]) -> None:
-    """Refuse a solution that overflowed, or sank below what float64 can hold on its way along the train.
+    """Raise `RangeError` for a solution with overflow, or with underflow along the train.
 
-    One mesh changes a speed by a factor of 1e12 at most, so a speed that sank to 0 left others near the edge.
+    One mesh changes a speed by a factor of at most 1e12, so a speed that underflows to 0 has neighbours near the limit.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         size = matrix.size(x)
@@ -442,12 +447,12 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
 
 
 def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -> None:
-    """Refuse factors that hold no digit of the inverse: the spectral radius of |A^-1| |A| is 1 / (4 eps) or more.
+    """Raise `RangeError` if the factors have no correct digit: the spectral radius of |A^-1| |A| is 1 / (4 eps) or more.
 
-    The radius is the condition of the system in the best units for each link (Bauer 1963). For any positive v it is at
-    most the maximum of |A^-1| |A| v / v (Collatz and Wielandt); power iteration from |x| lowers that bound. A link that
-    is at rest, or slow because large terms cancel, costs one iteration; computed by factors that are wrong themselves,
-    the bound stays at the limit.
+    The radius is the condition number of the system in the best units for each link (Bauer 1963). For any positive v it is
+    at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and power iteration from |x| lowers that bound. A link
+    that is at rest, or slow because large terms cancel, costs one iteration. If the factors are wrong themselves, the bound
+    stays at the limit.
 
     speeds   |x|
     spread   |A^-1| |A| |x|, by the factors
@@ -462,7 +467,8 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
 
 
 def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
-    """|A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v that brings it below the limit."""
+    """Return |A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v with a bound below the limit.
+    """
     for _ in range(_ITERATIONS):
         condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
         if (condition <= limit).all():
@@ -472,9 +478,9 @@ def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limi
 
 
 def is_regular(system: WillisSystem) -> bool:
-    """True if float64 proves that the system determines all speeds; False if it does not, or if that is in doubt.
+    """Return True if float64 proves that the system determines all speeds; False if it does not, or in doubt.
 
-    The factors of a singular matrix are those of a regular one that differs by roundings, so that their condition is
+    The factors of a singular matrix are those of a regular one that differs by roundings, so their condition number is
     about 1 / eps. The limit is a thousand times lower.
     """
     try:

@@ -186,7 +186,7 @@ def _frees(part: SolvedPart, gone: Collection[str]) -> bool:
 def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
     """Return meshes of several carriers whose removal frees the train: a smallest set for few meshes, else a minimal one.
 
-    None if there is no such set, or there are too many meshes to try.
+    None if such a set does not exist, or there are too many meshes to try.
     """
     toothed = _without(part, ())
     bound = {circuit.id for some in (toothed, _varied(toothed)) for circuit in relevant_circuits(some.circuits, ())}

@@ -55,11 +55,11 @@ def disjoint_loops(
 
 
 def minimal_removal(network: GainGraph, most: int, budget: int) -> list[int] | None:
-    """Find a smallest set of fewer than `most` meshes whose removal frees the network; None if there is none.
+    """Find a smallest set of fewer than `most` meshes whose removal frees the network; None if none exists.
 
-    Branch and bound. It branches on the meshes of a shortest inconsistent loop, one of which must be removed. The lower
-    bound on the remaining removals is the number of loops without a common mesh. Raises `OverBudgetError` after `budget`
-    branches.
+    Branch and bound. It branches on the meshes of a shortest inconsistent loop, one of which must be removed. The
+    lower bound on the remaining removals is the number of loops without a common mesh. Raises `OverBudgetError` after
+    `budget` branches.
     """
     return _Search(network, most, budget).run()
 
@@ -217,7 +217,7 @@ def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
 
 
 def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
-    """Improve a removal by local search: nodes take the speed for which most of their meshes are consistent."""
+    """Reduce a removal by local search: nodes take the speed for which most of their meshes are consistent."""
     speed = list(walk_gain_graph(network, refused).speed)
     queue = [node for mesh in refused for node in network.ends[mesh]]
     for here in queue:

@@ -1,4 +1,4 @@
-"""The phases of all meshes as one system modulo a pitch: residues of a cycle basis, link angles, errors spread."""
+"""Phases of all meshes as one system modulo a pitch: residues of a cycle basis, link angles, distributed errors."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Row = Mapping[int, int]
-"""Whole weights of meshes."""
+"""Integer weights of meshes."""
 
 
 class PhaseCycle(NamedTuple):
-    """A loop. nodes[k] lies between meshes[k - 1] and meshes[k], nodes[0] after the last mesh."""
+    """A loop. nodes[k] lies between meshes[k - 1] and meshes[k], and nodes[0] follows the last mesh."""
 
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
-    """Whole numbers without a common divisor, with which the equations of the meshes add up to 0 on the left."""
+    """Coprime integers with which the left sides of the equations of the meshes add up to 0."""
 
     @property
     def row(self) -> dict[int, int]:
-        """The weight of each mesh."""
+        """Weight of each mesh."""
         return dict(zip(self.meshes, self.weights, strict=True))
 
 
@@ -52,9 +52,9 @@ _Edges = dict[int, list[tuple[int, int]]]
 def find_cycle_basis(
     parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
 ) -> list[PhaseCycle]:
-    """One loop for each mesh that closes one: the shortest through it and meshes taken before, which ends with it.
+    """Return a cycle basis: for each chord the shortest loop through it and the tree or chords taken before.
 
-    A loop holds its own mesh and none that is taken later, so no loop follows from the others, and they make all.
+    Each loop contains its own chord and no chord that is taken later, so the loops are independent and generate all loops.
     """
     groups = {parts.node_group[ends[chord][0]] for chord in parts.closing}
     edges: _Edges = {}
@@ -85,7 +85,7 @@ def find_cycle_basis(
 
 
 def node_depths(parts: Components) -> list[int]:
-    """Meshes between every node and the root of its component."""
+    """Return the number of meshes between every node and the root of its component."""
     depth = [-1] * len(parts.node_parent)
     for node in range(len(depth)):
         way = []
@@ -104,7 +104,7 @@ def _join(edges: _Edges, mesh: int, i: int, j: int) -> None:
 
 
 def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[int], list[int]] | None:
-    """Nodes and meshes of the shortest way, looked for from both ends; None where it has more than `most` meshes."""
+    """Return nodes and meshes of a shortest path by bidirectional search; None if it has more than `most` meshes."""
     came: tuple[dict[int, tuple[int, int]], ...] = ({start: (-1, -1)}, {goal: (-1, -1)})
     fronts = [[start], [goal]]
     length = 0
@@ -139,7 +139,7 @@ def _way(came: tuple[dict[int, tuple[int, int]], ...], meet: tuple[int, int], me
 def cycle_weights(
     circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], nodes: Sequence[int], meshes: Sequence[int]
 ) -> tuple[int, ...]:
-    """Weights that cancel at every node; that of the last mesh is positive."""
+    """Return weights that cancel at every node, with a positive weight of the last mesh."""
     weights: list[Fraction | int] = [1]
     for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
         came, goes = mesh_coefficient(circuits, ends, before, node), mesh_coefficient(circuits, ends, mesh, node)
@@ -153,7 +153,7 @@ def cycle_weights(
 
 
 def mesh_coefficient(circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], mesh: int, node: int) -> int:
-    """The coefficient of a node's angle in the equation of a mesh."""
+    """Return the coefficient of a node's angle in the equation of a mesh."""
     return circuits[mesh].a if ends[mesh][0] == node else circuits[mesh].b
 
 
@@ -164,16 +164,16 @@ _BUDGET = 10**7  # operations; past it, trains of coupled planetaries are judged
 
 Number = Fraction | float
 Left = Callable[[int, Sequence[Number]], Number]
-"""What is left of the constant of a mesh at given angles of the nodes."""
+"""Function that returns the remaining constant of a mesh at given angles of the nodes."""
 
 
 @dataclass(frozen=True)
 class CarrierCoupling:
-    """How components are connected.
+    """Coupling of components through shared links and carriers.
 
-    rows       weights of meshes of several carriers whose equations add up to 0 on the left
-    complete   False where finding them was given up
-    forms      unknowns of the components by the angles at which they come together (symbol -1 - equation)
+    rows       weights of meshes of several carriers with which the left sides of their equations add up to 0
+    complete   False if the search for them was given up
+    forms      unknowns of the components as forms of the angles at which they meet (symbol -1 - equation)
     """
 
     reduced: ReducedSystem
@@ -184,13 +184,13 @@ class CarrierCoupling:
 
     @property
     def complete(self) -> bool:
-        """False where it was too dense to be solved: only loops in one carrier's frame are known."""
+        """False if the system was too dense to be solved, so that only loops of one carrier are known."""
         return self.forms is not None
 
     def angles(self, nodes: Sequence[Number], left: Left) -> list[Number]:
-        """Angles of links from those of nodes, as their components alone give them (turns).
+        """Convert angles of nodes, relative to their carriers, to angles of links (turns).
 
-        What stays free is 0: carriers stand in the pose in which they are declared.
+        Free unknowns are 0, so carriers are in their declared pose.
         """
         parts, own = self.reduced.components, self.reduced.own
         together = [self._apart(at, nodes, left) for at in range(len(self.reduced.origin))]
@@ -208,7 +208,7 @@ class CarrierCoupling:
         return found
 
     def _apart(self, at: int, nodes: Sequence[Number], left: Left) -> Number:
-        """By how much a link differs as two carriers see it; or where a loop that cannot turn must stand."""
+        """Return the difference of a link's angles relative to two carriers, or the required angle of a rigid loop."""
         parts = self.reduced.components
         kind, first, node = self.reduced.origin[at]
         if kind == "share":
@@ -222,7 +222,7 @@ class CarrierCoupling:
 def find_carrier_coupling(
     parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
 ) -> CarrierCoupling:
-    """Solve what couples the components, with the angles at which they come together as symbols."""
+    """Solve the equations that couple the components, with the angles at which they meet as symbols."""
     reduced = reduce_components(parts)
     try:
         equations = ({**row, -at - 1: Fraction(-1)} for at, row in enumerate(reduced.equations))
@@ -253,7 +253,7 @@ def _follow(
     factor: Fraction,
     total: dict[int, Fraction],
 ) -> None:
-    """Add what the constants of the meshes on the way from the root contribute to a node's angle."""
+    """Add the contribution of each mesh constant on the path from the root to a node's angle."""
     speed = parts.relative(node) * factor
     while parts.node_parent[node] >= 0:
         mesh = parts.node_circuit[node]
@@ -277,39 +277,39 @@ _SAME = 1e-6  # pitch: errors that are alike, so that every tooth stays in its g
 
 @dataclass(frozen=True)
 class PhaseCondition:
-    """Meshes whose equations add up to 0 on the left: their constants must add up to a whole number of pitches."""
+    """Meshes whose left sides add up to 0, so that their constants must add up to an integer number of pitches."""
 
     cycle: PhaseCycle | None
-    """The loop; None where loops only together fulfil it."""
+    """Loop of the condition; None if it applies to several loops together."""
     row: Mapping[int, int]
-    """The weight of each mesh."""
+    """Weight of each mesh."""
     residue: Fraction | float
-    """The sum less the nearest whole number (pitches): a Fraction where it is exact."""
+    """Sum minus the nearest integer (pitches); a Fraction if it is exact."""
     slack: float
-    """How far off it may be (pitches)."""
+    """Maximum error of the residue (pitches)."""
     guessed: bool
-    """True if an exact residue rests on angles that were recognised in rounded positions."""
+    """True if an exact residue depends on angles recognised from rounded positions."""
 
     @property
     def kind(self) -> PhaseKind:
-        """closes, misses, or unclear where positions are too rough to tell."""
+        """Verdict: closes, misses, or unclear if positions are too inaccurate."""
         return judge_residue(self.residue, self.slack)
 
     @property
     def how(self) -> ResidueKnowledge:
-        """How the residue is known."""
+        """Basis of the residue: exact, recognised or numeric."""
         if not isinstance(self.residue, Fraction):
             return "numeric"
         return "recognised" if self.guessed else "exact"
 
     @property
     def miss(self) -> Fraction | float:
-        """What is left at the last mesh when all others fit (pitches)."""
+        """Error of the last mesh if all others mesh exactly (pitches)."""
         return self.residue / (self.cycle.weights[-1] if self.cycle else list(self.row.values())[-1])
 
 
 def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
-    """closes, misses, or unclear where positions are too rough to tell."""
+    """Return closes, misses, or unclear if positions are too inaccurate."""
     if abs(float(residue)) > slack:
         return "misses"
     return "unclear" if slack > _UNCLEAR else "closes"
@@ -317,41 +317,43 @@ def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
 
 @dataclass(frozen=True)
 class PhaseSystem:
-    """a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md; angles in turns, c in pitches."""
+    """System a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md; angles in turns, c in
+    pitches.
+    """
 
     parts: Components
     contacts: PitchPoints
 
     @property
     def circuits(self) -> Sequence[Circuit]:
-        """The meshes."""
+        """Circuits of the meshes."""
         return self.contacts.circuits
 
     @cached_property
     def ends(self) -> list[tuple[int, int]]:
-        """The two nodes of every mesh."""
+        """Two nodes of every mesh."""
         return mesh_nodes(self.parts, self.circuits)
 
     @cached_property
     def cycles(self) -> list[PhaseCycle]:
-        """Short loops that make all loops."""
+        """Cycle basis of short loops."""
         return find_cycle_basis(self.parts, self.circuits, self.ends)
 
     @cached_property
     def coupling(self) -> CarrierCoupling:
-        """What links seen from several carriers add."""
+        """Coupling of components by links that occur relative to several carriers."""
         return find_carrier_coupling(self.parts, self.circuits, self.ends)
 
     @cached_property
     def carriers(self) -> frozenset[int]:
-        """Links that carry meshes, but for the frame."""
+        """Carriers of meshes, except the frame."""
         return frozenset(self.parts.group_carrier) - {self.parts.frame}
 
     # ------------------------------------------------------------------------------------------------------ conditions
 
     @cached_property
     def conditions(self) -> list[PhaseCondition]:
-        """One for every loop, then those that loops only fulfil together."""
+        """Conditions of all loops, followed by those that apply to several loops together."""
         cycles = self.cycles
         with collector_paused():
             found = [self._condition(cycle, cycle.row) for cycle in cycles]
@@ -363,12 +365,12 @@ class PhaseSystem:
 
     @cached_property
     def complete(self) -> bool:
-        """False where loops were judged one by one, and what they must fulfil together was not looked for."""
+        """False if loops were checked only one by one, without conditions on several loops together."""
         return self.coupling.complete and (self._uneven_size <= _MOST)
 
     @cached_property
     def _uneven(self) -> list[dict[int, int]]:
-        """Rows that may have multiples in common: all of components in which some loop has unequal weights."""
+        """Rows whose integer combinations may have common factors: all rows of components with unequal weights."""
         if not self.cycles:
             return list(self.coupling.rows)
         group = self.parts.node_group
@@ -417,7 +419,9 @@ class PhaseSystem:
         return float(Fraction(weight) * Fraction(constant) % 1)  # a long weight would eat the digits of the fraction
 
     def _families(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> list[int] | None:
-        """The families of all contacts, if at every node they cancel; None where a residue is known in floats only."""
+        """Return the families of all contacts if they cancel at every node; None if the residue is known in floats
+        only.
+        """
         family = self.contacts.family
         if cycle is not None:
             found = []
@@ -440,7 +444,7 @@ class PhaseSystem:
 
     @cached_property
     def _engaged(self) -> dict[int, int]:
-        """Whole pitches to add to constants, so that loops with unequal weights close as nearly as they can."""
+        """Integer pitches to add to constants, so that loops with unequal weights close as nearly as possible."""
         basis, dual, _ = self._together
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
@@ -454,9 +458,9 @@ class PhaseSystem:
 
     @cached_property
     def _tree_nodes(self) -> list[Number]:
-        """Angles of links as seen from their carriers, with every mesh fulfilled but those that close loops.
+        """Angles of nodes relative to their carriers that satisfy every mesh of the search tree.
 
-        Where wheels are compound, a whole turn of a link is another engagement elsewhere: angles are kept whole, exact.
+        With compound wheels, a full turn of one link changes the engagement of others; these angles are exact fractions.
         """
         parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
         found: list[Number] = list(nodes)
@@ -481,7 +485,7 @@ class PhaseSystem:
 
     @cached_property
     def tree_angles(self) -> list[float]:
-        """Angles of links (turns) with every mesh fulfilled but those that close loops."""
+        """Angles of links (turns) that satisfy every mesh except those that close loops."""
         return self._of_links(self._tree_nodes)
 
     def _of_links(self, nodes: Sequence[Number]) -> list[float]:
@@ -506,13 +510,15 @@ class PhaseSystem:
         return SparseRows(nodes, self._requested(self.contacts.teeth), len(self.parts.node_parent))
 
     def _requested(self, factors: Floats) -> Floats:
-        """Rows of meshes that let loops stand only somewhere are not asked for anything."""
+        """Return the factors with rows of 0 for meshes that close rigid loops, which have no phase condition."""
         found = factors.copy()
         found[list(self.parts.breaking)] = 0.0  # their loops are asked for no phase
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """By how much of a pitch every mesh is off at given angles of links (turns); 0 where it closes a rigid loop."""
+        """Return the error of every mesh (pitches) at given angles of links (turns); 0 for meshes that close a rigid
+        loop.
+        """
         return self._errors(self._by_links, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
@@ -524,11 +530,11 @@ class PhaseSystem:
 
     @cached_property
     def spread_angles(self) -> list[float]:
-        """Angles of links for the least sum of squares of errors that is found.
+        """Angles of links with the smallest sum of squared errors that was found.
 
-        Which tooth meets which gap is chosen in two ways to begin with: errors at the pairs that close loops below half
-        a pitch, and residues of short loops below half a pitch. Then errors are spread and teeth chosen anew until
-        nothing changes; each step lessens the sum. No proof that no other choice would be better.
+        The assignment of teeth to gaps starts from two choices: errors of the pairs that close loops below half a pitch, and
+        residues of short loops below half a pitch. Then errors are distributed by least squares and teeth are reassigned until
+        nothing changes. Each step reduces the sum. It is not proved that no other assignment is better.
         """
         start = self.errors(self.tree_angles)
         starts = [self._by_loops(start), start][: 2 if self._by_nodes.small(len(start)) else 1]
@@ -536,7 +542,9 @@ class PhaseSystem:
         return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
 
     def _by_loops(self, errors: Floats) -> Floats:
-        """Errors of the meshes that close loops, whole pitches added so that residues of short loops stay small."""
+        """Return errors of the meshes that close loops, with integer pitches added so that residues of short loops are
+        small.
+        """
         found = errors.tolist()
         for condition in self.conditions:
             if condition.cycle is not None:
@@ -546,7 +554,7 @@ class PhaseSystem:
         return np.array(found)
 
     def _spread(self, errors: Floats) -> list[float]:
-        """Unless carriers are geared to each other, links seen from their carriers move and carriers stay."""
+        """Distribute the errors; carriers are kept in place unless they are geared to each other."""
         if self.coupling.rows:
             together = np.mod(self._settle(self._by_links, np.array(self.tree_angles), errors), 1.0)
             return [float(angle) for angle in together]
@@ -555,7 +563,7 @@ class PhaseSystem:
         return self._of_links([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
 
     def _settle(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
-        """Spread errors and choose teeth anew, in turn."""
+        """Distribute errors by least squares and reassign teeth to gaps, alternately until nothing changes."""
         for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
             step = rows.least_squares(errors)
             angles = angles + step

@@ -47,8 +47,8 @@ class Loop(Result):
     pairs: tuple[str, ...]
     """Ids of the pairs in the order of the loop; the last one closes it."""
     product: Fraction
-    """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one mesh is redundant;
-    otherwise the links of the loop are locked to the carrier.
+    """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one mesh is
+    redundant; otherwise the links of the loop are locked to the carrier.
     """
 
     def _summary(self) -> str:
@@ -130,8 +130,8 @@ class RowResiduals(TypedDict, total=False):
 class Answer(FrozenFields, Tabular, TrainResult):
     """Solution of a train in one state: speeds by the Willis system, equations (4) and (5) of docs/theory.md.
 
-    True if the verdict is as expected (`determined` unless the state's `expect` names another) and all outputs agree with
-    their expectations. `answer[name]` is the speed of an output or a link; `KeyError` if it is not determined.
+    True if the verdict is as expected (`determined` unless the state's `expect` names another) and all outputs agree
+    with their expectations. `answer[name]` is the speed of an output or a link; `KeyError` if it is not determined.
 
     Examples
     --------

@@ -88,8 +88,8 @@ class Components:
     def closing_product(self, circuit: int) -> Fraction:
         """Return the product of the ratios around the loop that a circuit completes, (20); 1 if the loop is consistent.
 
-        It is the factor between the speed ratio of the circuit and the ratio along the search tree, from its first link to
-        its second.
+        It is the factor between the speed ratio of the circuit and the ratio along the search tree, from its first link
+        to its second.
         """
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]
@@ -113,10 +113,11 @@ class Components:
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
-    """Find the ordinary train of every carrier by breadth-first search, with factored ratios: (18), (19) of docs/theory.md.
+    """Find the ordinary train of every carrier by breadth-first search, with factored ratios: (18), (19) of
+    docs/theory.md.
 
-    first   links from which the search starts if possible (the inputs); the unknown of their component is then their own
-            speed, and long numbers are never multiplied with each other
+    first   links from which the search starts if possible (the inputs); the unknown of their component is then their
+            own speed, and long numbers are never multiplied with each other
     """
     index = {link: at for at, link in enumerate(links)}
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
@@ -295,8 +296,8 @@ class SolvedPart:
 def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
     """Return the circuits that can affect the links in `keep`, by repeated removal of leaves (docs/theory.md, 10).
 
-    A circuit with a link that is not wanted and occurs in no other circuit only determines the speed of that link and is
-    removed. This is repeated until no such circuit remains. Loops have no leaves, so a locked train stays locked.
+    A circuit with a link that is not wanted and occurs in no other circuit only determines the speed of that link and
+    is removed. This is repeated until no such circuit remains. Loops have no leaves, so a locked train stays locked.
     """
     wanted = set(keep)
     users: dict[str, set[int]] = {}

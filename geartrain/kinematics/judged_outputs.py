@@ -78,8 +78,8 @@ class TargetResult(Result):
     error: SpeedValue
     """Output / target - 1, of magnitudes if the sign is not compared; the output itself if the target is 0."""
     days_per_century: float | None
-    """Gain of the pointer in time [d per 36525 d], if the unit is a time and the target is not 0; None beyond the range of
-    float64.
+    """Gain of the pointer in time [d per 36525 d], if the unit is a time and the target is not 0; None beyond the range
+    of float64.
     """
     degrees_per_unit: float | None
     """Gain of the pointer in angle during one unit of time [deg]; None beyond the range of float64."""
@@ -174,8 +174,8 @@ class OutputResult(Result):
     relative_to: str
     """Link to which the speed is relative."""
     speed: SpeedValue | None
-    """Relative speed of `of`, about its own axis [unit of the train]: exact, or a float (`LongFloat` above 1e308) if solved
-    in floats; None if undetermined.
+    """Relative speed of `of`, about its own axis [unit of the train]: exact, or a float (`LongFloat` above 1e308) if
+    solved in floats; None if undetermined.
     """
     ratio: SpeedValue | None
     """Output over input, if there is exactly one non-zero input."""
@@ -365,12 +365,12 @@ class Sensitivity(Result):
     output: str
     """Name of the output."""
     less: float | None
-    """Change of the speed of the output with one tooth less [ppm]; None if the train can no longer turn, or the output is at
-    rest.
+    """Change of the speed of the output with one tooth less [ppm]; None if the train can no longer turn, or the output
+    is at rest.
     """
     more: float | None
-    """Change of the speed of the output with one tooth more [ppm]; None if the train can no longer turn, or the output is at
-    rest.
+    """Change of the speed of the output with one tooth more [ppm]; None if the train can no longer turn, or the output
+    is at rest.
     """
 
 

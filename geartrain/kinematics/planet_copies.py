@@ -48,8 +48,7 @@ def originals(train: Train) -> dict[str, str]:
 
 
 def as_one(train: Train) -> Train:
-    """Return the train in which one planet has the mass, inertia and stiffness of all equal ones, as they move alike.
-    """
+    """Return the train in which one planet has the mass, inertia and stiffness of all equal ones, as they move alike."""
     if not has_copies(train):
         return train
     links = {name: _heavier(train, part) for name, part in train.links.items()}

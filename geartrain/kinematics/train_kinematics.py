@@ -423,8 +423,7 @@ class TrainKinematics(Shown):
         return replace(answer, residual=LazyMapping(residual))
 
     def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
-        """Return the verdict on a dense system, by its LU factors if these are certainly regular, else modulo a prime.
-        """
+        """Return the verdict on a dense system, by its LU factors if these are certainly regular, else modulo a prime."""
         from geartrain.kinematics.speeds import is_regular
 
         moved = any(case.inputs.values())
@@ -435,8 +434,7 @@ class TrainKinematics(Shown):
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
     def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
-        """Return links whose condition number is reported; only outputs of long trains, because each costs one solve.
-        """
+        """Return links whose condition number is reported; only outputs of long trains, because each costs one solve."""
         if wanted is None and len(part.links) <= _CONDITIONED:
             return part.links
         frame = self.declaration.frame
@@ -465,8 +463,7 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """Return the answer with evaluated outputs, restricted to the links in `wanted`; `ratios` is None for floats.
-        """
+        """Return the answer with evaluated outputs, restricted to the links in `wanted`; `ratios` is None for floats."""
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
             verdict = replace(verdict, text=verdict.text + "".join(map(_side, self._bevels_on_one_side)))

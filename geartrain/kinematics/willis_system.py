@@ -98,8 +98,8 @@ class WillisSystem(Shown):
         Parameters
         ----------
         whole : bool
-            True to include the column and row of the frame and rows that follow from others, as in `text`. Otherwise the
-            matrix is square and regular if the train is determined.
+            True to include the column and row of the frame and rows that follow from others, as in `text`. Otherwise
+            the matrix is square and regular if the train is determined.
 
         Returns
         -------

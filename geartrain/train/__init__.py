@@ -1,8 +1,8 @@
 """Declaration of a train: immutable models, and the checks that need only the declaration itself.
 
-Input is plain data with the keys of the YAML format (docs/reference.md), or a file. The result is a `Train`, whose parts
-keep their line numbers, or a `DeclarationError` with every problem that could be collected. Nothing is calculated here;
-`geartrain.GearTrain` does that.
+Input is plain data with the keys of the YAML format (docs/reference.md), or a file. The result is a `Train`, whose
+parts keep their line numbers, or a `DeclarationError` with every problem that could be collected. Nothing is calculated
+here; `geartrain.GearTrain` does that.
 
 declaration                      complete model, friction in force, epoch
 mechanism                        links, wheels, axes, pairs; uncertain tooth counts, efficiencies, bearing friction

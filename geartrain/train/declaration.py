@@ -446,8 +446,7 @@ class Train(Declared):
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit in which inputs with a unit are shown: that of the first one that is not 0, else of the first; or empty.
-        """
+        """Unit in which inputs with a unit are shown: that of the first one that is not 0, else of the first; or empty."""
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         if len(groups) == len(self.states) and groups:
             speeds = [speed for group in groups for speed in group.values()]

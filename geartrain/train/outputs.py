@@ -253,8 +253,8 @@ def _not_negative(figure: Figure) -> Figure:
 class Target(Declared):
     """Target of an output: a name of the shipped table, a period or a speed. A plain text is a name.
 
-    A `speed` has a sign. A name or a period is a magnitude, which an output of either sense of rotation can meet, unless
-    `sense` is given.
+    A `speed` has a sign. A name or a period is a magnitude, which an output of either sense of rotation can meet,
+    unless `sense` is given.
 
     See Also
     --------

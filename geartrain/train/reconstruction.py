@@ -98,8 +98,8 @@ class PriorCost(Declared):
 class MeasuredGeometry(Declared):
     """Weights of measured modules, pitch radii and positions of axes. Without this block they are ignored.
 
-    A misfit has the weight exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the twelve
-    pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The default spread of distances
+    A misfit has the weight exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the
+    twelve pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The default spread of distances
     corresponds to the same errors if only one wheel is measured.
 
     See Also

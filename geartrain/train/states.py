@@ -102,8 +102,9 @@ class HandDrive(Declared):
 class Drive(Declared):
     """Drive of the train in time: exactly one of rate, torque, weight, spring, hand.
 
-    Every drive acts where power enters, at `crank` or else at the input, in the direction in which it turns. A rate is the
-    mean speed of the input, as for the train's `rate`; if `crank` is another link, its speed follows from the mean ratio.
+    Every drive acts where power enters, at `crank` or else at the input, in the direction in which it turns. A rate is
+    the mean speed of the input, as for the train's `rate`; if `crank` is another link, its speed follows from the mean
+    ratio.
 
     See Also
     --------

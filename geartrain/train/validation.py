@@ -1,4 +1,5 @@
-"""Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and fix.
+"""Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and
+fix.
 
 `revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the others.
 `gears: [s ~ p]`: a pair of two wheels.

@@ -211,8 +211,7 @@ class TrainAssembly:
 
     @cached_property
     def kin(self) -> Mapping[str, int]:
-        """Group number of each wheel. Wheels that are connected by meshes, except those of worms, must share a module.
-        """
+        """Group number of each wheel. Wheels that are connected by meshes, except those of worms, must share a module."""
         worms = {wheel for wheel, (_, kind) in self.train.wheels.items() if kind.kind == "worm"}
         pairs = [circuit.wheels for circuit in self.circuits if circuit.kind == "gear"]
         groups = joined_groups(self.train.wheels, [pair for pair in pairs if worms.isdisjoint(pair)])
@@ -289,8 +288,7 @@ def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class PlanetContact:
-    """A mesh of a planet: its own count, the count of its mate, and the sense of the pair (1 external, -1 with a ring).
-    """
+    """A mesh of a planet: its own count, the count of its mate, and the sense of the pair (1 external, -1 with a ring)."""
 
     own: CountRef
     mate: CountRef
@@ -346,21 +344,22 @@ def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
     """Return integers E: a set of planets rotated by t about the carrier's axis also meshes if every E t is an integer.
 
     The angle t is in turns. A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo a pitch (angles in
-    turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the position of another set,
-    and rotates the central wheels by t too; they must return to their positions, because they are shared. So the planets
-    must have angles phi with
+    turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the position of another
+    set, and rotates the central wheels by t too; they must return to their positions, because they are shared. So the
+    planets must have angles phi with
 
         z_p phi_p + z_c t integer for every central wheel c (minus for a ring),
         z_p phi_p + z_q phi_q integer for planets that mesh.
 
     Planets are processed from the leaves of their tree to its root. The remaining angles of a planet satisfy
-    D phi = b t (mod 1) for integers D and b. A central wheel c gives D = z_p, b = -z_c. Two such conditions are compatible if
-    gcd(D1, D2) divides (D1 b2 - D2 b1) t; they combine to one condition with D = gcd(D1, D2) and b = u b1 + v b2, where
-    u D1 + v D2 = D.
+    D phi = b t (mod 1) for integers D and b. A central wheel c gives D = z_p, b = -z_c. Two such conditions are
+    compatible if gcd(D1, D2) divides (D1 b2 - D2 b1) t; they combine to one condition with D = gcd(D1, D2) and b = u b1
+    + v b2, where u D1 + v D2 = D.
 
     A planet with one wheel gives the textbook rule: E = z_s + z_r, and n planets can be evenly spaced (t = 1/n) if n
-    divides it. A planet with two wheels gives (z_s z_q + z_r z_p)/gcd(z_p, z_q), and two planets in series give z_r - z_s. A
-    second derivation is phase closure (`geartrain.kinematics.phasing`): loops through neighbouring planets must close.
+    divides it. A planet with two wheels gives (z_s z_q + z_r z_p)/gcd(z_p, z_q), and two planets in series give z_r -
+    z_s. A second derivation is phase closure (`geartrain.kinematics.phasing`): loops through neighbouring planets must
+    close.
     """
     found: list[Any] = []
     left = _left(arm, kind, found)
@@ -654,8 +653,7 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _reach(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis (modules of the wheel); None if unknown.
-        """
+        """Return twice the distance of a planet's axis from the central axis (modules of the wheel); None if unknown."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None

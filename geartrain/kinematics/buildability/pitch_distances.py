@@ -33,17 +33,18 @@ PRESSURE = radians(20)
 
 @lru_cache(maxsize=4096)
 def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
-    """Return the angle by which the tip corner of a planet's tooth clears that of a ring's (rad, about the ring's axis).
+    """Return the angle by which a planet's tooth tip clears a ring's (rad, about the ring's axis).
 
     z1, z2     teeth of the planet and the ring; z2 > z1
     pressure   pressure angle (rad)
     h1, h2     addenda (modules)
 
-    Teeth without backlash; the angle is negative if the corners collide. Known as trochoid interference (Elements of Metric
-    Gear Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at theta1 about its
-    own axis and theta2 about the ring's (both from the line of centres), the planet has turned from the position in which
-    its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth is thinner at its tip, and
-    the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 + inv(alpha) - inv(alpha_a2).
+    Teeth without backlash; the angle is negative if the corners collide. Known as trochoid interference (Elements of
+    Metric Gear Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at
+    theta1 about its own axis and theta2 about the ring's (both from the line of centres), the planet has turned from
+    the position in which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth
+    is thinner at its tip, and the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 +
+    inv(alpha) - inv(alpha_a2).
 
     -inf if the ring's tip circle lies within its base circle, or within the planet's tip circle. At 20 degrees and full
     depth a ring of 34 to 77 teeth needs 9 teeth more than the planet, a larger one 8; the source gives "larger than 9".
@@ -67,8 +68,8 @@ def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
 def radial_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     """Return the angle by which a planet's teeth clear the ring's in radial assembly (rad, about the planet's axis).
 
-    Arguments as for `tip_room`. Negative if tips collide during assembly (trimming interference, SDP/SI equations 5-9 to
-    5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, one of 80 or 100 teeth 16.
+    Arguments as for `tip_room`. Negative if tips collide during assembly (trimming interference, SDP/SI equations 5-9
+    to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, one of 80 or 100 teeth 16.
     """
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
     lean = cos(tip2) / cos(tip1)
@@ -219,8 +220,8 @@ class PitchPair:
     def bounds(self) -> tuple[Fraction, Fraction]:
         """Minimum and maximum centre distance (modules) at which such teeth can run, though possibly less well.
 
-        If no teeth are declared, profiles may be shifted. If no size is declared either, wheels of nearly one size may have been
-        cut with different pitches. Declared involutes can run at distances with more backlash.
+        If no teeth are declared, profiles may be shifted. If no size is declared either, wheels of nearly one size may
+        have been cut with different pitches. Declared involutes can run at distances with more backlash.
         """
         wanted, form = self.distance, self.form
         low = high = SLACK
@@ -235,8 +236,7 @@ class PitchPair:
 
 
 def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
-    """Return the distance (modules) without backlash: that of the pitch circles, except for profile-shifted involutes.
-    """
+    """Return the distance (modules) without backlash: that of the pitch circles, except for profile-shifted involutes."""
     from geartrain.teeth.involute import Involute
 
     if not isinstance(form, Involute) or not any(figure.value for figure in form.shift):
@@ -304,8 +304,7 @@ class PitchDistances:
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats multiples of the root quantity of a pair's distance: in mm, else in modules.
-        """
+        """Return a function that formats multiples of the root quantity of a pair's distance: in mm, else in modules."""
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
         return lambda size: _modules(size * module) if known is None else _mm(size * known)

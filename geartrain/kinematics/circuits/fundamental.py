@@ -25,8 +25,8 @@ from geartrain.train import Train, Wheel
 class Circuit(NamedTuple):
     """A fundamental circuit and its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
 
-    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j. For a coupling, i is the slot (or holes)
-    with a = 1 and j the pin with b = -m, where m is the winding number, equations (13) to (15).
+    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j. For a coupling, i is the slot (or
+    holes) with a = 1 and j the pin with b = -m, where m is the winding number, equations (13) to (15).
 
     Examples
     --------
@@ -74,8 +74,8 @@ class Circuit(NamedTuple):
     def terms(self) -> tuple[tuple[str, int], ...]:
         """Row of the Willis system: links with their non-zero coefficients in a w_i + b w_j - (a + b) w_k.
 
-        Speeds are about the reference direction of parallel axes. The transpose of the row gives the torques of a pair without
-        losses, and the row modulo 1 gives the phases of its teeth.
+        Speeds are about the reference direction of parallel axes. The transpose of the row gives the torques of a pair
+        without losses, and the row modulo 1 gives the phases of its teeth.
         """
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
@@ -156,8 +156,8 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
     """Return the transfer vertex of the path i..j, or None unless the axis changes exactly once.
 
-    With every link attached to the top of its axis, the path changes axis once in three cases: both tops are the carrier,
-    or the carrier is one link's top and shares the other's axis, or it is attached to the other link.
+    With every link attached to the top of its axis, the path changes axis once in three cases: both tops are the
+    carrier, or the carrier is one link's top and shares the other's axis, or it is attached to the other link.
     """
     parent, top = tree.parent, tree.top
     axis_i = parent[i][1] if i in parent else None
@@ -214,8 +214,8 @@ _MEET = 1e-3  # of the distance of two declared points: nearer axes meet, for po
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     """Return the shaft angle of a gear pair (rad, between 0 and pi); None if its axes are parallel.
 
-    It is the sum of both cone angles, measured between the directions in which the wheels lie from the apex, which follow
-    from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
+    It is the sum of both cone angles, measured between the directions in which the wheels lie from the apex, which
+    follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
     """
     axes = Axes(train, tree)
     if axes.plain:
@@ -235,10 +235,11 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
 def bevels_on_one_side(
     train: Train, circuits: Iterable[Circuit], is_rotation: Callable[[str, str], bool]
 ) -> Iterator[tuple[str, str, str]]:
-    """Yield two bevels on parallel axes, and the bevel on another axis that both meet from the same side, by their `facing`.
+    """Yield two bevels on parallel axes, and the bevel on another axis that both meet from the same side, by their
+    `facing`.
 
-    Both axes pass through the apex of the third, so the two bevels would be in the same place. The sides follow from the
-    senses of rotation of the two circuits.
+    Both axes pass through the apex of the third, so the two bevels would be in the same place. The sides follow from
+    the senses of rotation of the two circuits.
 
     is_rotation   function that returns whether all axes between two links are parallel
     """

@@ -52,8 +52,8 @@ class Tree(FrozenFields):
     def axis_seen_from(self, carrier: str, link: str) -> str:
         """Return the label of the axis about which a link of a circuit turns relative to the circuit's carrier.
 
-        It is the link's own axis if the carrier carries it. Otherwise the link is coaxial with the carrier, or carries the
-        carrier's axis, and the axis is the carrier's.
+        It is the link's own axis if the carrier carries it. Otherwise the link is coaxial with the carrier, or carries
+        the carrier's axis, and the axis is the carrier's.
         """
         return self.parent[link if self.bears(carrier, link) else carrier][1]
 
@@ -150,8 +150,8 @@ _SAME = 1e-6  # rad: angles as near as this are equal, for they are rounded as w
 def check_parallel(first: Wheel, second: Wheel) -> None:
     """Raise `GearTrainError` for wheels on parallel axes whose helix angles or hands do not match.
 
-    Teeth in contact have the same direction, so the hands of an external pair are opposite and those of a ring and its mate
-    are equal. An undeclared hand is assumed to match.
+    Teeth in contact have the same direction, so the hands of an external pair are opposite and those of a ring and its
+    mate are equal. An undeclared hand is assumed to match.
     """
     angles = tuple(0.0 if wheel.helix_angle is None else wheel.helix_angle.si for wheel in (first, second))
     if abs(angles[0] - angles[1]) > _SAME:
@@ -169,9 +169,9 @@ def check_parallel(first: Wheel, second: Wheel) -> None:
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
     """Return 1 if two helical wheels on skew axes turn in opposite senses like spur wheels, else -1; and a note.
 
-    With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about the
-    direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 = -z2 w2, or
-    z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
+    With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about
+    the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
+    -z2 w2, or z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
 
     Parameters
     ----------
@@ -286,8 +286,7 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links separated from the frame by non-parallel joints, whose speed is a sum of joint speeds, not a rotation.
-        """
+        """Links separated from the frame by non-parallel joints, whose speed is a sum of joint speeds, not a rotation."""
         if self.plain:
             return frozenset()
         sums: set[str] = set()
@@ -308,16 +307,14 @@ class Axes:
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """Return True if both axes have positions and are collinear; axes without positions count as different lines.
-        """
+        """Return True if both axes have positions and are collinear; axes without positions count as different lines."""
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the screw of a rotation about an axis: direction, and velocity of the origin; None without a position.
-        """
+        """Return the screw of a rotation about an axis: direction, and velocity of the origin; None without a position."""
         here = self.positions.get(label)
         if here is None:
             return None
@@ -326,7 +323,8 @@ class Axes:
         return {at: part for at, part in enumerate(parts) if part}
 
     def _crossing(self, one: str, other: str) -> tuple[float, int]:
-        """Return the angle (rad) from one axis to another, 0 to pi, and its sense about the direction from the other to the one.
+        """Return the angle (rad) from one axis to another, 0 to pi, and its sense about the direction from the other to
+        the one.
 
         The sense is 0 if the positions do not determine it.
         """
@@ -445,7 +443,8 @@ def _closed(train: Train, lines: JointLines, sums: frozenset[str], case: StateCa
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """Yield the prescriptions of a case that a brake or clutch cannot realise, because two or more joints must be closed.
+    """Yield the prescriptions of a case that a brake or clutch cannot realise, because two or more joints must be
+    closed.
 
     A link whose carrier is fixed, or is part of the same body, has only one open joint.
     """
@@ -461,8 +460,7 @@ class JointLines:
         self.frame, self._tree, self._axes = tree.frame, tree, Axes(train, tree)
 
     def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """Return the joints between two links, one for each line, with each link attached to the carrier of its axis.
-        """
+        """Return the joints between two links, one for each line, with each link attached to the carrier of its axis."""
         parent, top = self._tree.parent, self._tree.top
         up, down = ways_to_common_ancestor(a, b, top.get)
         steps = [(link, top[link], parent[link][1]) for link in up[:-1]]

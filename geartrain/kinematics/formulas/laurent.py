@@ -117,8 +117,7 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the lowest exponent of every variable, which are those of the largest monomial that divides all terms.
-        """
+        """Return the lowest exponent of every variable, which are those of the largest monomial that divides all terms."""
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
     def shifted(self, by: Exponents) -> Laurent:
@@ -167,10 +166,11 @@ def product(factors: Iterable[Laurent], width: int) -> Laurent:
 
 
 def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
-    """Return the determinants of n rows and n + 1 columns, one for each omitted column; the order of the others is kept.
+    """Return the determinants of n rows and n + 1 columns, one for each omitted column; the order of the others is
+    kept.
 
-    Dynamic programming over rows with one partial sum for each set of used columns (a bit mask). It needs no division, and
-    sparse rows reach few of the 2^n sets. Raises `TooLongError` beyond `MOST_PRODUCTS`.
+    Dynamic programming over rows with one partial sum for each set of used columns (a bit mask). It needs no division,
+    and sparse rows reach few of the 2^n sets. Raises `TooLongError` beyond `MOST_PRODUCTS`.
     """
     partial = {0: Laurent.constant(1, width)}
     work = 0
@@ -229,8 +229,8 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     """Return the primitive common divisor of highest degree of two Laurent polynomials; 1 if they are coprime.
 
-    Euclid's algorithm with primitive remainders over the rationals, in one variable after another. Coprime polynomials are
-    usually recognised at once by their images modulo a prime, whose common divisor never has too low a degree.
+    Euclid's algorithm with primitive remainders over the rationals, in one variable after another. Coprime polynomials
+    are usually recognised at once by their images modulo a prime, whose common divisor never has too low a degree.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:

@@ -79,10 +79,10 @@ class SymbolicSolution:
 def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None = None) -> SymbolicSolution:
     """Solve rows that must all vanish. A random point decides which of them determine the unknowns.
 
-    preferred   an assignment of intended counts. If there are more coupled rows than unknowns, rows that are independent
-                there are used; without it, rows with prescribed values come first
+    preferred   an assignment of intended counts. If there are more coupled rows than unknowns, rows that are
+                independent there are used; without it, rows with prescribed values come first
 
-    Raises `TooLongError` if so many unknowns depend on each other that their functions are not useful.
+    Raises `TooLongError` if too many unknowns depend on each other for their functions to be useful.
     """
     # always the same point, so that a question has one answer
     draw = random.Random(width)
@@ -360,21 +360,23 @@ Counts = tuple[int, ...]
 class Formulas(Mapping[str, Formula], Result):
     """Outputs of a train in one state, as functions of its free wheels. As a mapping it is `outputs`.
 
-    A loop is either consistent, or it locks its wheels. Only the first case is considered for loops with free wheels, so a
-    train that runs with an inconsistent loop of free wheels has no formulas. Loops of fixed counts may be of either kind.
+    A loop is either consistent, or it locks its wheels. Only the first case is considered for loops with free wheels,
+    so a train that runs with an inconsistent loop of free wheels has no formulas. Loops of fixed counts may be of
+    either kind.
     """
 
     outputs: Mapping[str, Formula]
     """Exact speed of each output in the train's unit (a difference of speeds for `relative_to`)."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 for the train to turn, because of loops, or of links driven or fixed in several ways.
+    """Functions that must all be 0 for the train to turn, because of loops, or of links driven or fixed in several
+    ways.
 
-    The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where all
-    conditions are satisfied.
+    The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where
+    all conditions are satisfied.
     """
     exclusions: tuple[Formula, ...]
-    """Functions that must not be 0. Where one vanishes, the train is locked or free although the outputs have values, because
-    the factor cancels in them.
+    """Functions that must not be 0. Where one vanishes, the train is locked or free although the outputs have values,
+    because the factor cancels in them.
     """
     undetermined: tuple[str, ...]
     """Outputs that the inputs do not determine for any counts."""

@@ -87,7 +87,8 @@ Member = TypeVar("Member")
 
 
 def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[Exponents, dict[Member, int]]:
-    """Group keys whose integer lists are multiples of one list; return for each class its list and the multiple of each key.
+    """Group keys whose integer lists are multiples of one list; return for each class its list and the multiple of each
+    key.
 
     The lists of the classes are primitive (their entries are coprime), and their first non-zero entry is positive. Keys
     with zero lists are left out.
@@ -103,11 +104,12 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
 
 
 def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
-    """Find the coarsest classes of variables such that a quotient of the polynomials depends on each through one monomial.
+    """Find the coarsest classes of variables such that a quotient of the polynomials depends on each through one
+    monomial.
 
     Division of all polynomials by one monomial changes no quotient, so only differences of exponents matter. A class
-    depends on one monomial if and only if the lists of its variables' exponent differences, over all terms, are multiples
-    of one list. For a quotient in lowest terms no coarser classes exist.
+    depends on one monomial if and only if the lists of its variables' exponent differences, over all terms, are
+    multiples of one list. For a quotient in lowest terms no coarser classes exist.
     """
     terms = [exponents for p in polynomials for exponents in p.terms]
     columns = enumerate(zip(*terms, strict=True))
@@ -218,7 +220,8 @@ class Formula:
         return self._bounded(columns)[0]
 
     def accuracy(self, columns: Mapping[str, Ints]) -> Floats:
-        """Return a bound on the relative error of `values`: |value - exact| <= accuracy |exact|, including cancellation.
+        """Return a bound on the relative error of `values`: |value - exact| <= accuracy |exact|, including
+        cancellation.
 
         Infinite if cancellation leaves no digit, at poles, and beyond the range of float64.
         """

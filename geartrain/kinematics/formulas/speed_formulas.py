@@ -138,8 +138,8 @@ def _times(ratio: str, speed: str, style: str) -> str:
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
     """Yield the formulas of all outputs of a state, or of some, in the order of the declaration.
 
-    Outputs that are not determined are left out. All wheels with a count are free variables. Wheels without a count, and
-    couplings, are treated as in `find_formulas`, which also raises the errors.
+    Outputs that are not determined are left out. All wheels with a count are free variables. Wheels without a count,
+    and couplings, are treated as in `find_formulas`, which also raises the errors.
     """
     case = train.case(state)
     for name in outputs:

@@ -148,9 +148,9 @@ def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
 def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
     """Return every mesh whose removal alone frees a connected network, in linear time.
 
-    Such a mesh lies on every inconsistent loop, so one such loop is taken as a tree path plus its chord. The tree path of
-    any other chord covers an interval of that path. A mesh of the path frees the network if every inconsistent chord covers
-    it, all with the same factor, and no consistent chord covers it.
+    Such a mesh lies on every inconsistent loop, so one such loop is taken as a tree path plus its chord. The tree path
+    of any other chord covers an interval of that path. A mesh of the path frees the network if every inconsistent chord
+    covers it, all with the same factor, and no consistent chord covers it.
     """
     if not found.breaking:
         return []

@@ -141,8 +141,8 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 def _held(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
     """Return the links that meshes lock for any tooth counts, after removal of some meshes.
 
-    A ratio can keep one link from rotating, and all links that it drives at rest, while the train moves. With other tooth
-    counts these links would move, so only links that are at rest for other ratios too are counted.
+    A ratio can keep one link from rotating, and all links that it drives at rest, while the train moves. With other
+    tooth counts these links would move, so only links that are at rest for other ratios too are counted.
     """
     less = _without(part, gone)
     still = _still(less)
@@ -184,7 +184,8 @@ def _frees(part: SolvedPart, gone: Collection[str]) -> bool:
 
 
 def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return meshes of several carriers whose removal frees the train: a smallest set for few meshes, else a minimal one.
+    """Return meshes of several carriers whose removal frees the train: a smallest set for few meshes, else a minimal
+    one.
 
     None if such a set does not exist, or there are too many meshes to try.
     """
@@ -208,8 +209,8 @@ def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemo
 def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:
     """Return a minimal set of meshes whose removal frees the train, preferring those early in the list.
 
-    Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection. Its
-    last mesh is necessary, and the search continues among those before it.
+    Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
+    Its last mesh is necessary, and the search continues among those before it.
     """
     needed: list[str] = []
     left = list(gears)

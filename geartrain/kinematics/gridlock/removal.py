@@ -58,8 +58,8 @@ class MeshRemoval(Result):
     """Method by which the set was found.
 
     one: a single mesh is enough (for each part). loops: the same number of inconsistent loops share no mesh. matching,
-    search: exact, by matching the odd faces of a planar graph (a T-join) or by branch and bound. greedy: a heuristic set,
-    not proved to be the smallest.
+    search: exact, by matching the odd faces of a planar graph (a T-join) or by branch and bound. greedy: a heuristic
+    set, not proved to be the smallest.
     """
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
@@ -141,8 +141,9 @@ class Gridlock(Result):
 
     Notes
     -----
-    The size of the smallest set of meshes is the frustration index of a gain graph. If all gains are 1 and -1 and the graph
-    is planar, the set is a minimum T-join (Katai and Iwai 1978); otherwise it is found by branch and bound; docs/theory.md, 7.
+    The size of the smallest set of meshes is the frustration index of a gain graph. If all gains are 1 and -1 and the
+    graph is planar, the set is a minimum T-join (Katai and Iwai 1978); otherwise it is found by branch and bound;
+    docs/theory.md, 7.
 
     Examples
     --------

@@ -39,8 +39,7 @@ class UnplacedPair:
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """Gear pairs with known positions. All arrays have one row for each pair and one column for each of its two wheels.
-    """
+    """Gear pairs with known positions. All arrays have one row for each pair and one column for each of its two wheels."""
 
     circuits: tuple[Circuit, ...]
     """Circuits of the pairs. Each wheel on the frame is a separate link here, because its mounting angle is free."""
@@ -85,8 +84,7 @@ class PitchPoints:
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """Constant c as an integer multiple of 1/`scale`, with azimuths relative to the first contact of each family.
-        """
+        """Constant c as an integer multiple of 1/`scale`, with azimuths relative to the first contact of each family."""
         scale, found = self.scale, []
         for circuit, (p, q) in zip(self.circuits, self.part, strict=True):
             here, there = p.numerator * (scale // p.denominator), q.numerator * (scale // q.denominator)

@@ -91,8 +91,9 @@ class DivisibilityRule(Result):
 def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> DivisibilityRule:
     """Find the rule under which all forms are integers: sum of form[kind] z[kind] is an integer for each form.
 
-    Forms matter modulo 1, and generate a finite abelian group, which is the direct sum of its p-parts. In every part the
-    rows modulo a power of p are brought to triangular (Howell) form. Conditions on one kind only are combined again.
+    Forms matter modulo 1, and generate a finite abelian group, which is the direct sum of its p-parts. In every part
+    the rows modulo a power of p are brought to triangular (Howell) form. Conditions on one kind only are combined
+    again.
 
     Parameters
     ----------
@@ -328,8 +329,7 @@ def _pull(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) ->
 
 
 def _inside(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return the signed and weighted azimuths of both contacts of each gear, summed: the angle inside the loop (turns).
-    """
+    """Return the signed and weighted azimuths of both contacts of each gear, summed: the angle inside the loop (turns)."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -462,9 +462,9 @@ class MeshPhasing(Result):
     def angles(self) -> Mapping[str, float]:
         """Angle of the zero mark of every link (rad, 0 to 2 pi) at which all teeth mesh.
 
-        Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is nearly
-        x), with carriers in their declared pose if possible. All wheels of a link have a tooth at its mark. If loops miss,
-        errors are distributed. A wheel on the frame is listed like a link, by its own name.
+        Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is
+        nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at its mark. If
+        loops miss, errors are distributed. A wheel on the frame is listed like a link, by its own name.
         """
         turns = self.problem.spread_angles if self.missing else self.problem.tree_angles
         parts = self.problem.parts
@@ -784,7 +784,8 @@ def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> P
 
 
 def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats]:
-    """Return azimuths (turns) of both contacts of every mesh about outward axes, and the sine of the angle between the axes.
+    """Return azimuths (turns) of both contacts of every mesh about outward axes, and the sine of the angle between the
+    axes.
 
     The azimuth is measured from the direction normal to the axis and to the coordinate axis farthest from it.
     """

@@ -54,7 +54,8 @@ def find_cycle_basis(
 ) -> list[PhaseCycle]:
     """Return a cycle basis: for each chord the shortest loop through it and the tree or chords taken before.
 
-    Each loop contains its own chord and no chord that is taken later, so the loops are independent and generate all loops.
+    Each loop contains its own chord and no chord that is taken later, so the loops are independent and generate all
+    loops.
     """
     groups = {parts.node_group[ends[chord][0]] for chord in parts.closing}
     edges: _Edges = {}
@@ -460,7 +461,8 @@ class PhaseSystem:
     def _tree_nodes(self) -> list[Number]:
         """Angles of nodes relative to their carriers that satisfy every mesh of the search tree.
 
-        With compound wheels, a full turn of one link changes the engagement of others; these angles are exact fractions.
+        With compound wheels, a full turn of one link changes the engagement of others; these angles are exact
+        fractions.
         """
         parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
         found: list[Number] = list(nodes)
@@ -532,9 +534,10 @@ class PhaseSystem:
     def spread_angles(self) -> list[float]:
         """Angles of links with the smallest sum of squared errors that was found.
 
-        The assignment of teeth to gaps starts from two choices: errors of the pairs that close loops below half a pitch, and
-        residues of short loops below half a pitch. Then errors are distributed by least squares and teeth are reassigned until
-        nothing changes. Each step reduces the sum. It is not proved that no other assignment is better.
+        The assignment of teeth to gaps starts from two choices: errors of the pairs that close loops below half a
+        pitch, and residues of short loops below half a pitch. Then errors are distributed by least squares and teeth
+        are reassigned until nothing changes. Each step reduces the sum. It is not proved that no other assignment is
+        better.
         """
         start = self.errors(self.tree_angles)
         starts = [self._by_loops(start), start][: 2 if self._by_nodes.small(len(start)) else 1]

@@ -50,8 +50,8 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
     """Return the verdict on an inconsistent case, locked or contradictory, with its certificate.
 
     An input is locked if its link cannot move whatever the other inputs are. Inputs that can move separately but not
-    together are contradictory. The certificate needs much memory for a long coupled train; beyond `budget` operations the
-    verdict is returned without it.
+    together are contradictory. The certificate needs much memory for a long coupled train; beyond `budget` operations
+    the verdict is returned without it.
     """
     rows, statements = _tagged(reduced, case, signs)
     structural, held = len(reduced.equations), len(rows) - len(case.inputs)

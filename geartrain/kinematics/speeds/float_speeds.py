@@ -150,9 +150,10 @@ class FloatSpeeds(FrozenFields, Shown):
 
     Notes
     -----
-    The refinement step is equation (23) with its residual in twice the precision; the error estimate is (24). Every speed
-    is accurate to one or two roundings (docs/accuracy.md). The relative error of a speed is at most its condition number
-    times the largest residual (Oettli and Prager 1964). Higham, Accuracy and Stability of Numerical Algorithms, chapter 7.
+    The refinement step is equation (23) with its residual in twice the precision; the error estimate is (24). Every
+    speed is accurate to one or two roundings (docs/accuracy.md). The relative error of a speed is at most its condition
+    number times the largest residual (Oettli and Prager 1964). Higham, Accuracy and Stability of Numerical Algorithms,
+    chapter 7.
 
     Examples
     --------
@@ -229,8 +230,8 @@ def solve_floats(
     refine        True for iterative refinement, False for the unrefined LU solution (for comparison)
 
     If speeds leave the range of float64, each case is solved with a separate power of two for every link. Raises
-    `RangeError` if the system is not square and regular, or if scaling does not bring it within the range either. Underflow
-    to 0 is never returned.
+    `RangeError` if the system is not square and regular, or if scaling does not bring it within the range either.
+    Underflow to 0 is never returned.
     """
     matrix, rows = prepare(system)
     found, exponents = _solve_any(matrix, rows, _given(rows, inputs), _Way(ordering, refine, condition_of))
@@ -353,8 +354,8 @@ def _held(values: Floats, powers: NDArray[np.int64]) -> NDArray[np.bool_]:
 def _reach(lu: Any, error: Floats) -> Floats:
     """Return the maximum change of each speed by errors of the equations of any sign: |A^-1| error.
 
-    A solution for one set of signs may cancel to 0 where another does not. The inverse is computed column by column for up
-    to 400 links. For more links four times the root mean square over random signs and sizes is used.
+    A solution for one set of signs may cancel to 0 where another does not. The inverse is computed column by column for
+    up to 400 links. For more links four times the root mean square over random signs and sizes is used.
     """
     found = np.zeros_like(error)
     size, cases = error.shape
@@ -447,12 +448,13 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
 
 
 def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -> None:
-    """Raise `RangeError` if the factors have no correct digit: the spectral radius of |A^-1| |A| is 1 / (4 eps) or more.
+    """Raise `RangeError` if the factors have no correct digit: the spectral radius of |A^-1| |A| is 1 / (4 eps) or
+    more.
 
-    The radius is the condition number of the system in the best units for each link (Bauer 1963). For any positive v it is
-    at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and power iteration from |x| lowers that bound. A link
-    that is at rest, or slow because large terms cancel, costs one iteration. If the factors are wrong themselves, the bound
-    stays at the limit.
+    The radius is the condition number of the system in the best units for each link (Bauer 1963). For any positive v it
+    is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and power iteration from |x| lowers that bound. A
+    link that is at rest, or slow because large terms cancel, costs one iteration. If the factors are wrong themselves,
+    the bound stays at the limit.
 
     speeds   |x|
     spread   |A^-1| |A| |x|, by the factors
@@ -467,8 +469,7 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
 
 
 def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
-    """Return |A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v with a bound below the limit.
-    """
+    """Return |A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v with a bound below the limit."""
     for _ in range(_ITERATIONS):
         condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
         if (condition <= limit).all():

@@ -16,7 +16,8 @@ from geartrain.numerics.results import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Mobility(Result):
-    """Mobility of a train by count and by exact rank, with the reasons for the difference; docs/theory.md, (16), (17), (20).
+    """Mobility of a train by count and by exact rank, with the reasons for the difference; docs/theory.md, (16), (17),
+    (20).
 
     Examples
     --------

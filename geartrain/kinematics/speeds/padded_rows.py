@@ -36,9 +36,9 @@ class PaddedRows:
     def scaled(self, exponents: NDArray[np.int64]) -> tuple[PaddedRows, NDArray[np.int64]]:
         """Return the rows for scaled speeds, and the power of two by which each row was divided.
 
-        The largest entry of each row is then between 1 and 2. All scalings are exact. Entries below 1e-200 of their row are
-        dropped: they change no rounding, and their products would lose the bits of which residuals consist. Their maximum
-        effect is given by `sunk`.
+        The largest entry of each row is then between 1 and 2. All scalings are exact. Entries below 1e-200 of their row
+        are dropped: they change no rounding, and their products would lose the bits of which residuals consist. Their
+        maximum effect is given by `sunk`.
         """
         sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
         shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
@@ -96,7 +96,8 @@ class PaddedRows:
 
     @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition past float64 is infinite
     def condition(self, lu: Any, links: Sequence[str], x: Floats) -> dict[str, float]:
-        """Return cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, by one transposed solve each.
+        """Return cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, by one transposed solve
+        each.
 
         Infinite for a link at rest, whose relative error is not defined.
         """

@@ -62,18 +62,18 @@ class Epoch(Declared):
     """
 
     date: str = Field(
-        description="Year, month, day, such as -204-05-12 for 12 May 205 BC, with an hour or not: `2000-01-01 18:30`; "
-        "without one it is noon"
+        description="Year, month, day, such as -204-05-12 for 12 May 205 BC, optionally with a time such as "
+        "`2000-01-01 18:30`; default noon"
     )
     calendar: Literal["julian", "gregorian"] | None = Field(
         None, description="Calendar of the date; default Julian before 1582-10-15, Gregorian from then on"
     )
     turns: Figure = Field(
         Figure.parse(0),
-        description="Turns that the input has made at the date, since all pointers stood at the start of their scales",
+        description="Turns of the input from the state with all pointers at the start of their scales to the date",
     )
-    source: Id | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    source: Id | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
     def _is_a_day(self) -> Epoch:
@@ -164,77 +164,92 @@ class Train(Declared):
     geartrain.GearTrain : answers questions about one
     """
 
-    name: str = Field("train", description="A short name, best that of the file")
-    title: str = Field("", description="One line for a reader")
-    note: str | None = Field(None, description="A remark for the reader")
+    name: str = Field("train", description="Short name, preferably that of the file")
+    title: str = Field("", description="Title on one line, for readers")
+    note: str | None = Field(None, description="Remark for readers")
     extends: str | None = Field(
-        None, description="The train this one changes: a file beside it, or a shipped train or evidence by name"
+        None,
+        description="Parent declaration to change: a file in the same folder, or a shipped train or evidence by name",
     )
-    remove: Remove | None = Field(None, description="What is taken away from the parent, before anything is added")
+    remove: Remove | None = Field(None, description="Parts of the parent to remove, before other parts are added")
     sources: ByName[Annotated[Source, BeforeValidator(_cited)]] = Field(
-        {}, validate_default=True, description="Citations by key"
+        {}, validate_default=True, description="Sources by key"
     )
-    errata: tuple[Erratum, ...] = Field((), description="What the sources print that is not so")
-    frame: Id = Field("frame", description="The link whose speed is 0")
-    unit: SpeedUnit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
-    epoch: DeclaredEpoch | None = Field(None, description="When its pointers stood where; for a unit of time")
-    view: View = Field(View(), description="From where the train is seen, and which sense is positive")
-    links: ByName[Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
+    errata: tuple[Erratum, ...] = Field((), description="Errors in published sources")
+    frame: Id = Field("frame", description="Fixed link, whose speed is 0")
+    unit: SpeedUnit | None = Field(None, description="Unit of speeds; default plain numbers")
+    epoch: DeclaredEpoch | None = Field(
+        None, description="Date at which the positions of all pointers are known; needs a `unit` of time"
+    )
+    view: View = Field(View(), description="Side from which the train is viewed, and positive sense of rotation")
+    links: ByName[Annotated[Link, Nothing]] = Field(description="All links with their wheels, by name")
     axes: ByName[Axis] = Field(
-        {}, validate_default=True, description="Directions and positions of axes; without them all axes are parallel"
+        {},
+        validate_default=True,
+        description="Directions and positions of axes, by label; default all axes are parallel",
     )
-    revolutes: Revolutes = Field((), description="Turning pairs; together they form a tree")
-    gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
-    couplings: tuple[Coupling, ...] = Field((), description="Pins in slots and in holes, links that turn alike")
-    tooth_form: DeclaredToothForm | None = Field(
-        None, description="Form of the teeth of every pair that has none of its own"
+    revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
+    gears: tuple[GearPair, ...] = Field((), description="Gear pairs in mesh")
+    couplings: tuple[Coupling, ...] = Field(
+        (), description="Couplings: pins in slots, pins in holes, links kept parallel"
     )
+    tooth_form: DeclaredToothForm | None = Field(None, description="Default tooth form of all gear pairs")
     friction: DeclaredFriction | None = Field(
         None,
-        description="Friction of the teeth of every pair that has none of its own: a coefficient, or {sliding, static, "
-        "deviation}, or a law of speed",
+        description="Default friction of all gear pairs: a coefficient, {sliding, static, "
+        "deviation}, or a friction law",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Of every pair and coupling that has none of its own: speed of parting over that of meeting"
+        None, description="Default coefficient of restitution of all pairs and couplings, 0 to 1"
     )
-    stiffness: PairStiffness | None = Field(None, description="Of the teeth of every pair that has none of its own")
-    damping: PairDamping | None = Field(None, description="Of the teeth of every pair that has none of its own")
-    thickness: Thickness | None = Field(None, description="Of every wheel that has none of its own")
-    density: MaterialDensity | None = Field(None, description="Of every wheel that has none of its own")
-    face_width: FaceWidth | None = Field(None, description="Width of the teeth of every wheel that has none of its own")
-    material: Id | None = Field(None, description="Of every wheel that has none of its own: a name of the table")
-    materials: ByName[Material] = Field({}, validate_default=True, description="By name, beside those of the table")
-    cutting: WheelManufacture | None = Field(
-        None, description="How far the teeth of every wheel are off that says nothing of its own"
+    stiffness: PairStiffness | None = Field(None, description="Default mesh stiffness of all gear pairs")
+    damping: PairDamping | None = Field(None, description="Default mesh damping of all gear pairs")
+    thickness: Thickness | None = Field(None, description="Default thickness of all wheels")
+    density: MaterialDensity | None = Field(None, description="Default density of all wheels")
+    face_width: FaceWidth | None = Field(None, description="Default face width of all wheels")
+    material: Id | None = Field(
+        None, description="Default material of all wheels: a name of the table or of `materials`"
     )
-    fitting: PairMounting | None = Field(
-        None, description="How far the axes of every pair are off that says nothing of its own"
+    materials: ByName[Material] = Field(
+        {}, validate_default=True, description="Further materials besides those of the table, by name"
     )
+    cutting: WheelManufacture | None = Field(None, description="Default manufacturing errors of all wheels")
+    fitting: PairMounting | None = Field(None, description="Default mounting errors of all gear pairs")
     inputs: ByName[Speed] = Field(
-        {}, validate_default=True, description="Prescribed speeds by link, in `unit`, else in that of the first one"
+        {}, validate_default=True, description="Prescribed speeds by link, in `unit`, else in the unit of the first one"
     )
-    crank: Id | None = Field(None, description="The link where power enters; default the inputs")
-    rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")
-    drive: Drive | None = Field(None, description="What drives the train in time; default `rate`")
-    escapement: Escapement | None = Field(None, description="What lets one link pass half a tooth a beat")
-    fixed: tuple[Id, ...] = Field((), description="Links held to the frame, one body with it")
-    locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that are one body")
+    crank: Id | None = Field(None, description="Link at which power enters the train; default the inputs")
+    rate: Speed | None = Field(
+        None, description="Speed of the input in real time, for powers and impacts, such as 30 rpm"
+    )
+    drive: Drive | None = Field(None, description="Drive of the train in time; default `rate`")
+    escapement: Escapement | None = Field(
+        None, description="Escapement, which lets one link advance by half a tooth per beat"
+    )
+    fixed: tuple[Id, ...] = Field((), description="Links fixed to the frame")
+    locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that are locked together")
     clutches: ByName[Clutch] = Field(
-        {}, validate_default=True, description="Brakes and clutches by name, engaged by states"
+        {}, validate_default=True, description="Brakes and clutches by name; states engage them"
     )
     loads: ByName[Torque] = Field(
-        {}, validate_default=True, description="Torques on links; power into the train is positive"
+        {}, validate_default=True, description="External torques by link; positive if power enters the train"
     )
-    solve_for: Id | None = Field(None, description="The link whose torque is unknown")
+    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown")
     states: ByName[Annotated[State, Nothing]] = Field(
-        {}, validate_default=True, description="Ways the train is run, each solved on its own"
+        {}, validate_default=True, description="Modes of operation by name, each solved separately"
     )
-    expect: ExpectedVerdict | None = Field(None, description="The verdict that holds and is no failure, of all states")
-    dials: ByName[Annotated[Dial, Nothing]] = Field({}, validate_default=True, description="Dials by name")
+    expect: ExpectedVerdict | None = Field(
+        None, description="Expected verdict of all states, which does not count as a failure; default `determined`"
+    )
+    dials: ByName[Annotated[Dial, Nothing]] = Field(
+        {}, validate_default=True, description="Dials with their scales, by name"
+    )
     outputs: ByName[Annotated[Output, Nothing]] = Field(
-        {}, validate_default=True, description="What the train is asked for, by name"
+        {}, validate_default=True, description="Required outputs of the train, by name"
     )
-    reconstruct: Reconstruction | None = Field(None, description="Makes this evidence, of a train that is to be found")
+    reconstruct: Reconstruction | None = Field(
+        None, description="Constraints of a reconstruction; they make the declaration evidence of an unknown train"
+    )
 
     _marks: Marks | None = PrivateAttr(None)
 
@@ -446,7 +461,7 @@ class Train(Declared):
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit in which inputs with a unit are shown: that of the first one that is not 0, else of the first; or empty."""
+        """Unit in which inputs with a unit are shown: that of the first one that is not 0, else of the first; or ""."""
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         if len(groups) == len(self.states) and groups:
             speeds = [speed for group in groups for speed in group.values()]

@@ -49,7 +49,7 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
 
 
 def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
-    """Return the declaration with changed values, by the rules of `extends`. Unchanged values keep their line numbers."""
+    """Return a declaration with changed values by the rules of `extends`; unchanged values keep their line numbers."""
 
     def place(loc: Loc) -> str:
         return declared.place(*loc)

@@ -71,26 +71,28 @@ class Material(Declared):
     ('206 GPa', 1863)
     """
 
-    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(description="Young's modulus")
+    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(
+        description="Young's modulus, such as 100 GPa"
+    )
     poisson: Annotated[Figure, AfterValidator(_contracts)] = Field(
         Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5"
     )
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
         None,
-        description="Stress at which it gives way: 0.2 % proof stress of metals, tensile strength of what does not "
-        "yield; no safety is counted in it",
+        description="Strength: 0.2 % proof stress of metals, tensile strength of materials that do not "
+        "yield, such as 200 MPa; without safety factor",
     )
     hardness: Annotated[Figure, above_zero("give for example 120, in HV")] | None = Field(
-        None, description="Vickers hardness (HV), which wear goes by"
+        None, description="Vickers hardness (HV), for wear calculations"
     )
     density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
-        None, description="Density; `density` of a wheel goes before it"
+        None, description="Density, such as 8.5 g/cm3; the `density` of a wheel takes precedence"
     )
     spread: Annotated[Figure, AfterValidator(_partly)] = Field(
-        Figure.parse("0.3"), description="How far the strength may be off to either side, as a part of it"
+        Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
     )
-    what: str = Field("", description="What is meant by the name")
-    source: str = Field("", description="Where the values come from")
+    what: str = Field("", description="Description of the material")
+    source: str = Field("", description="Source of the values")
 
     @property
     def hardness_pressure(self) -> float | None:
@@ -109,11 +111,13 @@ class ArborSizes(Declared):
     Link : has it as `arbor`
     """
 
-    diameter: FaceWidth = Field(description="Diameter between its shoulders")
-    span: FaceWidth = Field(description="Length from the middle of one bearing to that of the other")
-    pivot: FaceWidth | None = Field(None, description="Diameter of its pivots; default its own")
-    pivot_length: FaceWidth | None = Field(None, description="Length of a pivot in its hole; default its diameter")
-    material: str = Field("steel", description="Name of its material")
+    diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
+    span: FaceWidth = Field(description="Distance of the bearings, from middle to middle")
+    pivot: FaceWidth | None = Field(None, description="Diameter of its pivots; default `diameter`")
+    pivot_length: FaceWidth | None = Field(
+        None, description="Length of a pivot in its hole; default the pivot's diameter"
+    )
+    material: str = Field("steel", description="Name of the material, in the table or in `materials`")
 
 
 @cache
@@ -164,30 +168,32 @@ class _Off(Declared):
 class AngleError(_Off):
     """Error of an angle, fixed or random."""
 
-    value: AngleOff | None = Field(None, description="A fixed error")
+    value: AngleOff | None = Field(None, description="Fixed error")
     normal: AngleOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
-    uniform: AngleOff | None = Field(None, description="Greatest error, all up to it equally likely")
+    uniform: AngleOff | None = Field(None, description="Maximum magnitude of a uniform distribution about 0")
 
 
 class LengthError(_Off):
     """Error of a length, fixed or random."""
 
-    value: LengthOff | None = Field(None, description="A fixed error")
+    value: LengthOff | None = Field(None, description="Fixed error")
     normal: LengthOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
-    uniform: LengthOff | None = Field(None, description="Greatest error, all up to it equally likely")
+    uniform: LengthOff | None = Field(None, description="Maximum magnitude of a uniform distribution about 0")
 
 
 class MeasuredTeeth(Declared):
     """Errors measured on a real wheel, one value for each tooth in the order of rotation."""
 
     pitch_deviation: tuple[AngleOff, ...] | None = Field(
-        None, fail_fast=True, description="How far each tooth is ahead of its place"
+        None,
+        fail_fast=True,
+        description="Pitch deviation of each tooth; positive if it is ahead of its nominal position",
     )
     tip: tuple[LengthOff, ...] | None = Field(
-        None, fail_fast=True, description="How far each tip stands out beyond its radius"
+        None, fail_fast=True, description="Deviation of each tip radius; positive if it is too large"
     )
     aperture_deviation: tuple[AngleOff, ...] | None = Field(
-        None, fail_fast=True, description="How much wider each tooth's aperture is"
+        None, fail_fast=True, description="Deviation of each tooth's aperture; positive if it is too wide"
     )
 
     @property
@@ -207,23 +213,25 @@ class WheelManufacture(Declared):
     """
 
     pitch_deviation: Annotated[AngleError, short_for("value")] | None = Field(
-        None, description="Of each tooth from its place about the axle; positive is ahead, the way the wheel turns"
+        None,
+        description="Pitch deviation of each tooth from its nominal position about the axis; positive in the direction "
+        "of rotation",
     )
     eccentricity: Annotated[LengthError, short_for("value")] | None = Field(
-        None, description="Distance of the axle from the middle of the teeth"
+        None, description="Distance of the axis of rotation from the centre of the teeth"
     )
     eccentricity_angle: Angle | None = Field(
         None,
-        description="Where the middle of the teeth lies from the axle, from the first tooth; positive is ahead, the "
-        "way the wheel turns, as of pitch_deviation; default anywhere",
+        description="Direction from the axis to the centre of the teeth, measured from the first tooth, positive in "
+        "the direction of rotation; default random",
     )
-    tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Of each tip along its radius")
+    tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Deviation of each tip radius")
     aperture_deviation: Annotated[AngleError, short_for("value")] | None = Field(
-        None, description="Of each tooth's aperture"
+        None, description="Deviation of each tooth's aperture"
     )
-    measured: MeasuredTeeth | None = Field(None, description="Tables of a real wheel, tooth by tooth")
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    measured: MeasuredTeeth | None = Field(None, description="Deviations measured on a real wheel, tooth by tooth")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
 
 class Filing(Declared):
@@ -235,7 +243,7 @@ class Filing(Declared):
     """
 
     stroke: LengthOff = Field(
-        description="What one stroke of the file takes off a flank, along its normal; a fraction of the tooth's depth"
+        description="Thickness that one stroke of the file removes from a flank, as a length or a fraction of the depth"
     )
 
     @model_validator(mode="after")
@@ -262,13 +270,17 @@ class PairMounting(Declared):
     """
 
     centre: Annotated[LengthError, short_for("value")] | None = Field(
-        None, description="Of the distance of the two axes; positive is further apart"
+        None, description="Error of the centre distance; positive if the axes are too far apart"
     )
     bearing: Annotated[LengthError, short_for("value")] | None = Field(
-        None, description="Play of the bearings: the distance moves by up to this, either way, from tooth to tooth"
+        None,
+        description="Bearing clearance: the centre distance varies by up to this length to either side, from tooth to "
+        "tooth",
     )
     filing: Filing | None = Field(
-        None, description="The pair is turned through its cycle, and what jams is filed until it passes; default not"
+        None,
+        description="Fitting by filing: the pair is turned through its cycle, and jamming teeth are filed until they "
+        "pass; default none",
     )
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")

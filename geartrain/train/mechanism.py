@@ -94,9 +94,9 @@ class BearingFriction(Declared):
     0.5
     """
 
-    sliding: FrictionTorque = Field(description="Friction torque while it turns, against its turning")
+    sliding: FrictionTorque = Field(description="Sliding friction torque, such as 0.5 mN m, opposed to the rotation")
     static: FrictionTorque | None = Field(
-        None, description="Torque that a start has to overcome; `sliding` or more, default `sliding`"
+        None, description="Static friction torque that must be exceeded to start; at least `sliding`, default `sliding`"
     )
 
     @model_validator(mode="after")
@@ -158,8 +158,12 @@ class Efficiencies(Declared):
     A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
     """
 
-    forward: Efficiency = Field(description="With the first wheel driving, at most 1; 0 or less locks")
-    backward: Efficiency = Field(description="With the second wheel driving, at most 1; 0 or less locks")
+    forward: Efficiency = Field(
+        description="Efficiency with the first wheel driving, at most 1; 0 or less means self-locking"
+    )
+    backward: Efficiency = Field(
+        description="Efficiency with the second wheel driving, at most 1; 0 or less means self-locking"
+    )
 
     @model_validator(mode="after")
     def _passes_power_one_way(self) -> Efficiencies:
@@ -195,27 +199,27 @@ class Teeth(Declared):
     Wheel : an example
     """
 
-    value: Count | None = Field(None, description="The count used")
+    value: Count | None = Field(None, description="Tooth count used in calculations")
     range: tuple[Count, Count] | None = Field(
-        None, description="Least and greatest count the evidence allows, inclusive"
+        None, description="Minimum and maximum count that the evidence allows, inclusive"
     )
-    choices: tuple[Count, ...] | None = Field(None, fail_fast=True, description="The counts the evidence allows")
+    choices: tuple[Count, ...] | None = Field(None, fail_fast=True, description="Tooth counts that the evidence allows")
     weights: tuple[Figure, ...] | None = Field(
-        None, fail_fast=True, description="Relative weight of each count in range or choices"
+        None, fail_fast=True, description="Relative probability of each count in `range` or `choices`; default equal"
     )
-    source: str | None = Field(None, description="Key of the source")
+    source: str | None = Field(None, description="Key of the source in `sources`")
     search: tuple[Count, ...] | None = Field(
         None,
         min_length=2,
         fail_fast=True,
-        description="The count is to be found: within two bounds, inclusive, or among three or more counts",
+        description="Counts among which the tooth count is searched: two inclusive bounds, or a list of three or more",
     )
 
     def _brief(self) -> str:
         """Return the count as it is printed in the line of a wheel."""
         return str(self.value)
 
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
     def _makes_sense(self) -> Teeth:
@@ -303,9 +307,9 @@ class Source(Declared):
     Train : has them as `sources`, by key
     """
 
-    cite: str = Field(description="The citation")
-    url: str | None = Field(None, description="Where it can be read")
-    note: str | None = Field(None, description="How it was reached, or how far it is trusted")
+    cite: str = Field(description="Bibliographic citation")
+    url: str | None = Field(None, description="Address (URL) of the source")
+    note: str | None = Field(None, description="Remark on access to the source or its reliability")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -336,38 +340,41 @@ class Wheel(Declared):
     """
 
     teeth: Annotated[Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)] = (
-        Field(description="Tooth count, or a count with its range; the starts of a worm")
+        Field(description="Tooth count, or an uncertain count with its range; for a worm, the number of starts")
     )
-    internal: Boolean = Field(False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense")
+    internal: Boolean = Field(
+        False, description="True for a ring (internal teeth); a mesh with it preserves the sense of rotation"
+    )
     flexible: Boolean = Field(
         False,
-        description="Bent into its ring by a wave generator: its teeth go in and out radially, and clear the ring's",
+        description="True for the flexible wheel of a strain wave gear, bent radially into its ring by a wave generator",
     )
-    kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="How the teeth stand")
+    kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="Kind of wheel")
     facing: Annotated[Literal[1, -1], BeforeValidator(side)] = Field(
-        1, description="Side of the axis to which the cone opens, -1 for the negative one (bevel, contrate)"
+        1, description="Side of the axis to which the cone opens: 1 positive, -1 negative (bevel, contrate)"
     )
     helix_angle: HelixAngle | None = Field(
-        None, description="Of helical teeth, and of a worm's thread: between its direction and the axis"
+        None,
+        description="Helix angle of helical teeth or of a worm's thread, measured from the axis; 0 to less than 90 deg",
     )
     hand: Literal["right", "left"] | None = Field(
-        None, description="Hand of a worm's thread or of helical teeth; a worm's is right by default"
+        None, description="Hand of helical teeth or of a worm's thread; a worm is right-handed by default"
     )
     module: Length | None = Field(
-        None, description="Pitch diameter over tooth count; of helical teeth across them, the normal module"
+        None, description="Module, pitch diameter over tooth count; for helical teeth the normal module"
     )
-    thickness: Thickness | None = Field(None, description="Of the wheel along its axis; default the train's")
-    density: MaterialDensity | None = Field(None, description="Of what it is made of; default the train's")
+    thickness: Thickness | None = Field(None, description="Thickness of the wheel along its axis; default the train's")
+    density: MaterialDensity | None = Field(None, description="Density of the material; default the train's")
     face_width: FaceWidth | None = Field(
-        None, description="Width of its teeth along the axis; default the train's, or its thickness"
+        None, description="Face width (width of the teeth along the axis); default the train's, or the thickness"
     )
     material: Id | None = Field(
-        None, description="What it is made of: a name of the table (docs/strength.md) or of `materials`"
+        None, description="Name of the material, in the table (docs/strength.md) or in `materials`; default the train's"
     )
-    cutting: WheelManufacture | None = Field(None, description="How far its teeth are off; default the train's")
-    status: Status | None = Field(None, description="surviving, reconstructed or hypothetical")
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    cutting: WheelManufacture | None = Field(None, description="Manufacturing errors of the teeth; default the train's")
+    status: Status | None = Field(None, description="Status of the wheel: surviving, reconstructed or hypothetical")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @property
     def count(self) -> int | None:
@@ -438,28 +445,28 @@ class Link(Declared):
     """
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
-        {}, validate_default=True, description="The wheels fixed on this link, by id"
+        {}, validate_default=True, description="Wheels fixed on this link, by id"
     )
     copies: Annotated[int, Field(le=MOST_COPIES), BeforeValidator(read_count)] = Field(
-        1, description="So many equal links, evenly spaced about the axis of the carrier that bears this one"
+        1, description="Number of equal links, evenly spaced about the axis of the carrier of this link"
     )
     inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
-        None, description="Moment of inertia about its axis; default from its wheels, where their `density` is given"
+        None, description="Moment of inertia about its axis; default from its wheels, if their `density` is given"
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
-        None, description="Mass of a link that a carrier takes round; default from its wheels, as `inertia`"
+        None, description="Mass of a link on a moving carrier; default from its wheels, like `inertia`"
     )
     bearing: DeclaredBearing | None = Field(
-        None, description="Friction torque of its bearing, against its turning, or {sliding, static}"
+        None, description="Friction torque of its bearing, opposed to the rotation, or {sliding, static}; default none"
     )
     drag: Annotated[TorsionalDamping, not_below_zero("it acts against the turning: give its magnitude")] | None = Field(
-        None, description="Viscous drag: torque against its turning for each radian a second"
+        None, description="Coefficient of viscous drag: torque opposed to the rotation per rad/s; default none"
     )
     arbor: ArborSizes | None = Field(
-        None, description="Its arbor between two bearings, where its strength is asked for"
+        None, description="Dimensions of its arbor between two bearings, for strength calculations"
     )
-    angle: Angle | None = Field(None, description="Angle at the start")
-    note: str | None = Field(None, description="A remark for the reader")
+    angle: Angle | None = Field(None, description="Angle at the start; default follows from the meshes")
+    note: str | None = Field(None, description="Remark for readers")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -476,10 +483,12 @@ class Axis(Declared):
 
     direction: tuple[Figure, Figure, Figure] = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
-        description="Direction vector, default z; speeds are positive about it",
+        description="Direction vector about which speeds are positive; default z",
     )
-    position: tuple[Length, Length, Length] | None = Field(None, description="A point of the axis")
-    note: str | None = Field(None, description="A remark for the reader")
+    position: tuple[Length, Length, Length] | None = Field(
+        None, description="A point of the axis, as three lengths; default unknown"
+    )
+    note: str | None = Field(None, description="Remark for readers")
 
     @property
     def way(self) -> Vector:
@@ -513,9 +522,9 @@ class Revolute(Declared):
     Train : has them as `revolutes`
     """
 
-    pair: tuple[Id, Id] = Field(description="The two links")
-    axis: Id = Field(description="Label of the axis")
-    note: str | None = Field(None, description="A remark for the reader")
+    pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
+    axis: Id = Field(description="Label of the axis; equal labels mean coaxial joints")
+    note: str | None = Field(None, description="Remark for readers")
 
 
 Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
@@ -541,38 +550,43 @@ class GearPair(Declared):
     ('sun~planet', Fraction(49, 50))
     """
 
-    id: str = Field("", description="Name of the pair; default first~second")
-    pair: tuple[Id, Id] = Field(description="The two wheels")
-    tooth_form: DeclaredToothForm | None = Field(None, description="Form of the teeth; default the train's")
+    id: str = Field("", description="Name of the pair; default `first~second`")
+    pair: tuple[Id, Id] = Field(description="Ids of the two wheels")
+    tooth_form: DeclaredToothForm | None = Field(None, description="Tooth form; default the train's")
     friction: DeclaredFriction | None = Field(
-        None, description="Coefficient of friction between teeth, or {sliding, static, deviation}, or a law of speed"
+        None,
+        description="Coefficient of friction between teeth, {sliding, static, deviation}, or a friction law; "
+        "default the train's",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Speed of parting over speed of meeting of teeth that strike, 0 to 1; default the train's"
+        None, description="Coefficient of restitution of tooth impacts, 0 to 1; default the train's"
     )
     stiffness: PairStiffness | None = Field(
         None,
-        description="Of teeth in mesh: torque on the driven wheel for each radian that it yields, or force along the "
-        "line of action for each length; default the train's",
+        description="Mesh stiffness: torque on the driven wheel per radian of its deflection, or force along the "
+        "line of action per length; default the train's",
     )
     damping: PairDamping | None = Field(
-        None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length; default the train's"
+        None,
+        description="Mesh damping: torque on the driven wheel per rad/s, or force along the line of action per speed; "
+        "default the train's",
     )
     efficiency: DeclaredEfficiency | None = Field(
         None,
-        description="Basic efficiency with the carrier held, at most 1: a number, a percentage, or {forward, backward}",
+        description="Basic efficiency with the carrier fixed, at most 1: a number, a percentage, or {forward, backward}; "
+        "default from friction and tooth form",
     )
     share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
-        None, description="Part of a torque it carries, among the pairs that have a wheel in common and a share"
+        None, description="Share of a torque, relative to the shares of other pairs with a common wheel; above 0"
     )
-    driver: Id | None = Field(None, description="The wheel that drives; default by the flow of power")
+    driver: Id | None = Field(None, description="Id of the driving wheel; default from the power flow")
     phase: Figure | None = Field(
         None,
-        description="Pitches by which a tooth of the first wheel is past the line of centres at turn 0; default 0",
+        description="Pitches by which a tooth of the first wheel is past the line of centres at angle 0; default 0",
     )
-    fitting: PairMounting | None = Field(None, description="How far its axes are off; default the train's")
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    fitting: PairMounting | None = Field(None, description="Mounting errors of its axes; default the train's")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:

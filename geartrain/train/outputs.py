@@ -47,8 +47,8 @@ class DialName(Declared):
     Dial : has them as `names`
     """
 
-    name: str = Field("", description="As it is engraved; empty for divisions without a name")
-    span: Whole | None = Field(None, description="Divisions that it takes; without it all names take as many")
+    name: str = Field("", description="Engraved label; empty for divisions without a label")
+    span: Whole | None = Field(None, description="Number of divisions of the label; default equal for all labels")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -63,10 +63,11 @@ class DialNumerals(Declared):
     Dial : has them as `numerals`
     """
 
-    style: Literal["roman", "arabic"] = Field("arabic", description="How they are written")
-    every: Whole | None = Field(None, description="Divisions from one to the next; default as many as fit")
+    style: Literal["roman", "arabic"] = Field("arabic", description="Style of the numerals")
+    every: Whole | None = Field(None, description="Number of divisions between numerals; default as small as fits")
     to: Whole | None = Field(
-        None, description="Where they begin again, such as 12 on a dial of 24 hours; default all divisions"
+        None,
+        description="Highest numeral before they start again, such as 12 on a dial of 24 hours; default all divisions",
     )
 
     @classmethod
@@ -83,17 +84,19 @@ class Graduation(Declared):
     DialRing : one around a dial
     """
 
-    divisions: Whole = Field(1, description="Cells along all turns; default as many as its names take")
-    cell: str = Field("", description="What one division is, such as month; default as in a named scale, or cell")
+    divisions: Whole = Field(
+        1, description="Number of divisions along all turns; default the sum of the spans of its names"
+    )
+    cell: str = Field("", description="Name of one division, such as month; default from a named scale, else cell")
     names: Annotated[
         tuple[Annotated[DialName, short_for("name")], ...],
         AlsoShort({"enum": [*NAMED_SCALES]}),
-    ] = Field((), description="Of divisions: a named scale, a list for equal parts, or a list of {name, span}")
+    ] = Field((), description="Labels of divisions: a named scale, a list for equal parts, or a list of {name, span}")
     numerals: Annotated[DialNumerals, short_for("style")] | None = Field(
-        None, description="Numbers at the lines: roman, arabic, or {style, every, to}; default counted from 0"
+        None, description="Numerals at the lines: roman, arabic, or {style, every, to}; default counted from 0"
     )
     glyphs: Annotated[dict[Whole, str], AfterValidator(FrozenDict)] = Field(
-        {}, validate_default=True, description="What is engraved in single cells, by the cell's number from 1"
+        {}, validate_default=True, description="Engraved texts of single divisions, by their number from 1"
     )
 
     @model_validator(mode="before")
@@ -188,17 +191,17 @@ class Dial(Graduation):
     Train : has them as `dials`, by name
     """
 
-    face: str | None = Field(None, description="The side it is read from, such as front or back")
-    turns: Whole = Field(1, description="Turns of a spiral")
+    face: str | None = Field(None, description="Side from which the dial is read, such as front or back")
+    turns: Whole = Field(1, description="Number of turns of a spiral scale")
     counted: Literal["clockwise", "counter-clockwise"] = Field(
-        "clockwise", description="The way along which its divisions are counted, as read"
+        "clockwise", description="Sense in which the divisions are counted, as seen by the reader"
     )
-    around: DialRing | None = Field(None, description="Another scale around this one, read by the same pointers")
+    around: DialRing | None = Field(None, description="Second scale around this one, read by the same pointers")
     look: Literal["scale", "ball"] = Field(
         "scale",
-        description="What is drawn: a scale with a pointer, or a ball, half black, such as shows the Moon's phase",
+        description="Appearance: a scale with a pointer, or a half-black ball such as shows the Moon's phase",
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -262,26 +265,26 @@ class Target(Declared):
     geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
-    name: str | None = Field(None, description="A row of the shipped table; `geartrain periods` lists them")
+    name: str | None = Field(None, description="Name of an astronomical period; `geartrain periods` lists them")
     period: Annotated[Span, AfterValidator(_lasts)] | None = Field(
-        None, description="Time of `turns` turns, such as 29.53059 d; above 0"
+        None, description="Time for `turns` turns, such as 29.53059 d; above 0"
     )
     speed: Figure | None = Field(
-        None, description="Speed in the train's unit, with its sign; 0 is compared by difference"
+        None, description="Speed in the train's unit with its sign; 0 is compared by difference"
     )
     sense: Literal["direct", "retrograde"] | None = Field(
-        None, description="Sense of a name or period, positive or negative speed; without it either will do"
+        None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
     )
     turns: Annotated[Figure, AfterValidator(_turns)] = Field(
         Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0"
     )
     tolerance: Share | None = Field(
         None,
-        description="How far off counts as met, such as 20 ppm of the target; of a speed of 0, a plain number of "
-        "units. `check` fails where it is missed; a target without a tolerance is information",
+        description="Maximum relative error, such as 20 ppm; for a speed of 0 a maximum difference in the train's unit, "
+        "as a plain number. `check` fails if it is exceeded; a target without tolerance is only reported",
     )
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
     def _is_one_thing(self) -> Target:
@@ -336,9 +339,11 @@ class Expect(Declared):
     False
     """
 
-    value: Figure = Field(description="Integer or fraction: exact. Decimal: at the digits written")
+    value: Figure = Field(
+        description="Expected speed in the train's unit; integers and fractions are exact, decimals to their digits"
+    )
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
-        None, description="Greatest difference that still holds"
+        None, description="Maximum difference, in the unit of the value; default by its digits"
     )
 
     def holds(self, speed: Any) -> bool:
@@ -364,15 +369,15 @@ class Published(Declared):
     Output : has it as `published`
     """
 
-    value: Figure = Field(description="The number as printed; it must hold at its digits")
+    value: Figure = Field(description="Value as printed; it must agree to its digits")
     as_: Literal["speed", "input/output", "output/input"] = Field(
-        "speed", alias="as", description="What the number is; ratios need one non-zero input"
+        "speed", alias="as", description="Quantity that is printed; ratios need exactly one non-zero input"
     )
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
-        None, description="Greatest difference that still holds"
+        None, description="Maximum difference, in the unit of the value; default by its digits"
     )
-    place: str | None = Field(None, description="Where it is printed")
-    source: str | None = Field(None, description="Key of the source")
+    place: str | None = Field(None, description="Place in the source, such as a page or table")
+    source: str | None = Field(None, description="Key of the source in `sources`")
 
     @model_validator(mode="after")
     def _can_be(self) -> Published:
@@ -396,18 +401,20 @@ class Output(Declared):
     Fraction(-20, 21)
     """
 
-    of: Id | None = Field(None, description="The link; default the output's own name")
-    relative_to: Id | None = Field(None, description="The link it is seen from; default the frame")
-    expect: Annotated[Expect, short_for("value")] | None = Field(
-        None, description="The speed it must have, in the train's unit"
+    of: Id | None = Field(None, description="Link that turns; default the name of the output")
+    relative_to: Id | None = Field(None, description="Link to which the speed is relative; default the frame")
+    expect: Annotated[Expect, short_for("value")] | None = Field(None, description="Required speed in the train's unit")
+    published: Published | None = Field(None, description="Value that a source prints")
+    targets: tuple[Annotated[Target, short_for("name")], ...] = Field(
+        (), description="Astronomical or other targets of the output"
     )
-    published: Published | None = Field(None, description="What a source prints")
-    targets: tuple[Annotated[Target, short_for("name")], ...] = Field((), description="What it should show")
-    dial: Id | None = Field(None, description="The dial it is read on")
+    dial: Id | None = Field(None, description="Name of the dial on which the output is read")
     hand: Literal["needle", "hour", "minute", "seconds"] = Field(
-        "needle", description="How its hand is made: slender, a spade, a long leaf, or thin with a counterpoise"
+        "needle",
+        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or thin with a "
+        "counterpoise (seconds)",
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
     def links(self, name: str, frame: str) -> tuple[str, str]:
         """Return the link that turns, and the link to which its motion is relative.
@@ -434,7 +441,9 @@ class SpeedUnit(Declared):
     Train : has it as `unit`
     """
 
-    per: str = Field(description="A period of the shipped table, or a quantity such as 7 d or 18 ft")
+    per: str = Field(
+        description="Name of an astronomical period, or a time or length such as 7 d or 18 ft: one turn per this"
+    )
 
 
 class View(Declared):
@@ -445,7 +454,7 @@ class View(Declared):
     Train : has it as `view`
     """
 
-    from_: str | None = Field(None, alias="from", description="The side the reader looks from, such as front")
+    from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, such as front")
     positive: Literal["clockwise", "counter-clockwise"] = Field(
-        "counter-clockwise", description="The sense of a positive speed"
+        "counter-clockwise", description="Sense of rotation of a positive speed"
     )

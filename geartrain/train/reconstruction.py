@@ -52,13 +52,13 @@ class AddedParts(Declared):
     Reconstruction : has it as `add`
     """
 
-    wheels: PartNumber = Field(0, description="The most wheels that may be added")
-    arbors: PartNumber | None = Field(None, description="The most arbors that may be added; default any number")
+    wheels: PartNumber = Field(0, description="Maximum number of added wheels")
+    arbors: PartNumber | None = Field(None, description="Maximum number of added arbors; default no limit")
     teeth: Annotated[tuple[Count, Count], AfterValidator(_ordered)] | None = Field(
-        None, description="Least and greatest count of an added wheel, inclusive"
+        None, description="Minimum and maximum tooth count of an added wheel, inclusive"
     )
     on: Literal["any", "new"] = Field(
-        "any", description="Where added wheels stand: also beside surviving wheels, to drive, or on new arbors alone"
+        "any", description="Arbors of added wheels: any (surviving ones too, as driving wheels) or only new ones"
     )
 
     @model_validator(mode="after")
@@ -78,8 +78,10 @@ class GivenCoupling(Declared):
     Reconstruction : has them as `given`
     """
 
-    pair: tuple[Id, Id] = Field(description="The two links, that of the pin first")
-    kind: Literal["pin_and_slot"] = Field("pin_and_slot", description="A pin in a slot: a mean ratio of 1")
+    pair: tuple[Id, Id] = Field(description="Two links, that of the pin first")
+    kind: Literal["pin_and_slot"] = Field(
+        "pin_and_slot", description="Kind of coupling: a pin in a slot has a mean ratio of 1"
+    )
 
 
 class PriorCost(Declared):
@@ -90,9 +92,9 @@ class PriorCost(Declared):
     Reconstruction : has it as `cost`
     """
 
-    wheel: Factor = Field(Figure.parse(10), description="Each added wheel")
-    arbor: Factor = Field(Figure.parse(10), description="Each added arbor")
-    unused: Factor = Field(Figure.parse(100), description="Each surviving wheel that is not used")
+    wheel: Factor = Field(Figure.parse(10), description="Factor for each added wheel")
+    arbor: Factor = Field(Figure.parse(10), description="Factor for each added arbor")
+    unused: Factor = Field(Figure.parse(100), description="Factor for each surviving wheel that is not used")
 
 
 class MeasuredGeometry(Declared):
@@ -109,25 +111,25 @@ class MeasuredGeometry(Declared):
 
     module: Spread = Field(
         Quantity.parse("4.3 %", "fraction", True),
-        description="Spread of modules of wheels in mesh: the logarithm of their quotient, which is the difference "
-        "over the mean",
+        description="Standard deviation of the logarithm of the ratio of modules in mesh, about the relative "
+        "difference",
     )
     distance: Spread = Field(
         Quantity.parse("3 %", "fraction", True),
-        description="Spread of the sum of pitch radii about the distance of the axes: the logarithm of their quotient",
+        description="Standard deviation of the logarithm of the sum of pitch radii over the distance of the axes",
     )
     reach: Distance | None = Field(
         None,
-        description="By how much the sum of pitch radii may miss the distance of the axes at most; "
-        "default anything, at its weight",
+        description="Maximum difference between the sum of pitch radii and the distance of the axes; "
+        "default no limit, only its weight",
     )
     radius: Distance | None = Field(
         None,
-        description="Error of every measured pitch radius, beside the spread of modules, for small wheels are measured "
-        "worse; default none, so that the spread alone counts",
+        description="Error of every measured pitch radius in addition to the spread of modules, because small wheels "
+        "are measured less accurately; default none",
     )
     radii: Mapping[Id, Distance] = Field(
-        {}, description="Measured pitch radii of surviving wheels, where that and not the module was measured"
+        {}, description="Measured pitch radii of surviving wheels, if the radius was measured instead of the module"
     )
 
 
@@ -144,20 +146,20 @@ class Reconstruction(Declared):
     ('any', 'wheels', 'given', Fraction(100, 1))
     """
 
-    add: AddedParts = Field(AddedParts(), description="What may be added")
+    add: AddedParts = Field(AddedParts(), description="Parts that may be added")
     carrier: Id | None = Field(
-        None, description="The link on which the arbors turn, with its speed among the inputs; default the frame"
+        None, description="Link on which the arbors turn, with its speed among the inputs; default the frame"
     )
     use: Literal["wheels", "arbors", "some"] = Field(
-        "wheels", description="What must be used: every surviving wheel, every surviving arbor, or neither"
+        "wheels", description="Parts that must be used: every surviving wheel, every surviving arbor, or neither"
     )
     sense: Literal["given", "free"] = Field(
-        "given", description="Whether the signs of speeds are evidence, or their magnitudes alone"
+        "given", description="Evidence of speeds: with their signs (given), or magnitudes only (free)"
     )
-    idlers: Boolean = Field(False, description="Whether a driven wheel may itself drive")
-    apart: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of wheels known not to mesh")
-    given: tuple[GivenCoupling, ...] = Field((), description="Couplings that are taken as they are")
-    cost: PriorCost = Field(PriorCost(), description="Factors of the prior")
+    idlers: Boolean = Field(False, description="True if a driven wheel may itself drive another (idler)")
+    apart: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of wheels that are known not to mesh")
+    given: tuple[GivenCoupling, ...] = Field((), description="Known couplings")
+    cost: PriorCost = Field(PriorCost(), description="Factors of the prior probability")
     geometry: MeasuredGeometry | None = Field(
-        None, description="How modules, radii and positions of axes are weighed; default not at all"
+        None, description="Weights of measured modules, radii and positions of axes; default not used"
     )

@@ -50,10 +50,10 @@ class SpringDrive(Declared):
     """
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
-        description="Torque for each radian by which it is wound"
+        description="Torsional stiffness: torque per radian of winding, such as 0.02 N m/rad"
     )
     turns: Annotated[Figure, not_below_zero("give the turns by which it is wound at the start")] = Field(
-        description="Turns by which it is wound at the start"
+        description="Turns of winding at the start"
     )
 
     def torque(self, unwound: float) -> float:
@@ -75,10 +75,10 @@ class HandDrive(Declared):
     Drive : has it as `hand`
     """
 
-    torque: DriveTorque | None = Field(None, description="Torque that it gives")
-    rate: Speed | None = Field(None, description="Speed that it means to keep")
+    torque: DriveTorque | None = Field(None, description="Constant torque of the hand, such as 0.5 N m")
+    rate: Speed | None = Field(None, description="Speed that the hand keeps, such as 30 rpm")
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 5 N m/rad")] | None = Field(
-        None, description="Torque for each radian by which the crank is behind the hand; default rigid"
+        None, description="Torque per radian by which the crank lags behind the hand, such as 5 N m/rad; default rigid"
     )
     inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
         None, description="Moment of inertia of arm and crank; default 0"
@@ -119,18 +119,20 @@ class Drive(Declared):
     ('weight', 0.08)
     """
 
-    rate: Speed | None = Field(None, description="Speed of the input in real time, held whatever the load")
-    torque: DriveTorque | None = Field(None, description="A constant torque")
+    rate: Speed | None = Field(
+        None, description="Constant speed of the input in real time, for any load, such as 30 rpm"
+    )
+    torque: DriveTorque | None = Field(None, description="Constant torque, such as 0.5 N m")
     weight: Annotated[Mass, above_zero("give a mass such as 4 kg")] | None = Field(
-        None, description="Mass of a weight that pulls a line on a drum"
+        None, description="Mass of a weight on a line around a drum, such as 4 kg; needs `drum`"
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
         None,
-        description="Radius at which that line pulls, that of the drum plus half the thickness of the line. The line "
-        "carries the whole weight: if the weight hangs in a pulley, give half of its mass",
+        description="Lever arm of the line: radius of the drum plus half the thickness of the line. The line "
+        "carries the whole weight; if the weight hangs in a pulley, give half of its mass",
     )
-    spring: SpringDrive | None = Field(None, description="A spring")
-    hand: HandDrive | None = Field(None, description="A hand")
+    spring: SpringDrive | None = Field(None, description="Drive by a spring")
+    hand: HandDrive | None = Field(None, description="Drive by a hand")
 
     @model_validator(mode="after")
     def _is_one_thing(self) -> Drive:
@@ -191,13 +193,14 @@ class Escapement(Declared):
     0.994
     """
 
-    link: Id = Field(description="The link of the escape wheel")
-    teeth: Count = Field(description="Teeth of the escape wheel")
+    link: Id = Field(description="Link of the escape wheel")
+    teeth: Count = Field(description="Tooth count of the escape wheel")
     beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
-        description="Time from one beat to the next, of which each lets half a tooth pass"
+        description="Time between beats, each of which lets half a tooth pass, such as 1 s"
     )
     pendulum: Annotated[MeasuredLength, above_zero("give a length such as 994 mm")] | None = Field(
-        None, description="Length of its pendulum, from where it hangs to the middle of its bob"
+        None,
+        description="Length of its pendulum from the suspension to the middle of the bob, such as 994 mm; default none",
     )
 
     @model_validator(mode="after")
@@ -240,8 +243,8 @@ class Clutch(Declared):
     State : engages them
     """
 
-    fixes: Id | None = Field(None, description="The link it holds to the frame")
-    locks: tuple[Id, Id] | None = Field(None, description="The two links it makes one body")
+    fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
+    locks: tuple[Id, Id] | None = Field(None, description="Two links that the clutch locks together")
 
     @model_validator(mode="after")
     def _is_one_thing(self) -> Clutch:
@@ -261,43 +264,48 @@ class State(Declared):
     StateCase : what comes of one
     """
 
-    engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are closed")
-    fixed: tuple[Id, ...] | None = Field(None, description="Links held to the frame, one body with it")
-    locks: tuple[tuple[Id, Id], ...] | None = Field(None, description="Pairs of links that are one body")
-    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link")
-    loads: ByName[Torque] | None = Field(None, description="Torques on links; power into the train is positive")
-    solve_for: Id | None = Field(None, description="The link whose torque is unknown")
-    drive: Drive | None = Field(None, description="What drives the train in time")
+    engaged: tuple[Id, ...] = Field((), description="Names of engaged clutches and brakes")
+    fixed: tuple[Id, ...] | None = Field(None, description="Links fixed to the frame; default the train's")
+    locks: tuple[tuple[Id, Id], ...] | None = Field(
+        None, description="Pairs of links that are locked together; default the train's"
+    )
+    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link; default the train's")
+    loads: ByName[Torque] | None = Field(
+        None, description="External torques by link, positive if power enters the train; default the train's"
+    )
+    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown; default the train's")
+    drive: Drive | None = Field(None, description="Drive of the train in time; default the train's")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Outputs of this state, merged with the train's by name"
     )
     expect: ExpectedVerdict | None = Field(
-        None, description="The verdict that holds and is no failure: neutral is free"
+        None,
+        description="Expected verdict, which does not count as a failure (`free` for a neutral gear); default the train's",
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
 
 class Erratum(Declared):
     """An error in a published source."""
 
-    place: Id = Field(description="Where it is printed")
-    printed: Id = Field(description="What is printed")
-    right: Id = Field(description="What is right")
-    why: str = Field(description="How one knows")
+    place: Id = Field(description="Place in the source, such as a page or table")
+    printed: Id = Field(description="Printed value or statement")
+    right: Id = Field(description="Correct value or statement")
+    why: str = Field(description="Evidence for the correction")
 
 
 class Remove(Declared):
     """Parts of the parent that a child removes before it adds its own parts."""
 
-    links: tuple[Id, ...] = Field((), description="Links, with their wheels, joints, pairs and couplings")
-    wheels: tuple[Id, ...] = Field((), description="Wheels, with their pairs")
-    gears: tuple[Id, ...] = Field((), description="Gear pairs by id")
-    couplings: tuple[Id, ...] = Field((), description="Couplings by id")
-    revolutes: tuple[tuple[Id, Id], ...] = Field((), description="Turning pairs by their two links")
-    outputs: tuple[Id, ...] = Field((), description="Outputs by name")
-    dials: tuple[Id, ...] = Field((), description="Dials by name")
-    states: tuple[Id, ...] = Field((), description="States by name")
-    axes: tuple[Id, ...] = Field((), description="Axes by label")
+    links: tuple[Id, ...] = Field((), description="Links to remove with their wheels, joints, pairs and couplings")
+    wheels: tuple[Id, ...] = Field((), description="Wheels to remove with their pairs")
+    gears: tuple[Id, ...] = Field((), description="Ids of gear pairs")
+    couplings: tuple[Id, ...] = Field((), description="Ids of couplings")
+    revolutes: tuple[tuple[Id, Id], ...] = Field((), description="Turning pairs, each as its two links")
+    outputs: tuple[Id, ...] = Field((), description="Names of outputs")
+    dials: tuple[Id, ...] = Field((), description="Names of dials")
+    states: tuple[Id, ...] = Field((), description="Names of states")
+    axes: tuple[Id, ...] = Field((), description="Labels of axes")
 
 
 # ----------------------------------------------------------------------------------------------------------- state case

@@ -281,7 +281,7 @@ def _section(key: str, value: Any) -> str:
 
 
 def _line(value: Any) -> str:
-    """Return a value on one line. Numbers are written by `repr`, because a declaration keeps the text of its numbers."""
+    """Return a value on one line. Numbers are written by `repr`, as a declaration keeps the text of its numbers."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_line(key)}: {_line(part)}" for key, part in value.items()) + "}"
     if isinstance(value, list | tuple):

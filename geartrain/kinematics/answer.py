@@ -219,7 +219,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         result = self.outputs.get(name)
         speed = result.speed if result is not None else self.speeds.get(name)
         if speed is None:
-            raise KeyError(f"'{name}' is no determined output or link of '{self.train}'")
+            raise KeyError(f"'{name}' is not a determined output or link of '{self.train}'")
         return speed
 
     @property

@@ -48,7 +48,9 @@ def originals(train: Train) -> dict[str, str]:
 
 
 def as_one(train: Train) -> Train:
-    """Return the train in which one planet has the mass, inertia and stiffness of all equal ones, as they move alike."""
+    """Return the train in which one planet has the mass, inertia and stiffness of all equal ones, as they move
+    alike.
+    """
     if not has_copies(train):
         return train
     links = {name: _heavier(train, part) for name, part in train.links.items()}
@@ -117,18 +119,18 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
         bearer = tree.top.get(link)
         if part.copies == 1:
             if bearer in train.links and train.links[bearer].copies > 1:
-                what = f"'{link}' turns on '{bearer}', of which there are {train.links[bearer].copies}"
+                what = f"'{link}' turns on '{bearer}', which has `copies: {train.links[bearer].copies}`"
                 fix = (
-                    f"write `copies: {train.links[bearer].copies}` for it too; or, where all bear one '{link}', let it "
-                    "turn on an added link of the carrier's axis, joined by "
+                    f"write `copies: {train.links[bearer].copies}` for it too; or, if all share one '{link}', let it "
+                    "turn on an added link coaxial with the carrier, joined by "
                     f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
                 )
-                yield Problem(what, "each of those would bear one", fix, train.place("links", link))
+                yield Problem(what, "each copy would need its own", fix, train.place("links", link))
             continue
         if bearer is None or bearer == train.frame:
-            what = f"{part.copies} links '{link}' have no carrier to stand about"
-            why = "equal planets are spaced about the axis of the link that bears them, and the frame has no one axis"
-            fix = "let them turn on a carrier; where that stands still hold it: `fixed: [carrier]`"
+            what = f"{part.copies} links '{link}' have no carrier"
+            why = "equal planets are spaced about the axis of their carrier, and the frame has no single axis"
+            fix = "let them turn on a carrier, and fix it if it is at rest: `fixed: [carrier]`"
             yield Problem(what, why, fix, train.place("links", link))
         elif train.links[bearer].copies not in (1, part.copies):
             yield _unequal(train, link, bearer, "links", link)
@@ -152,8 +154,8 @@ def _taken_names(train: Train) -> Iterator[Problem]:
             ):
                 for name in own:
                     if _named(name, at) in all_of:
-                        what = f"{kind} '{_named(name, at)}' is declared, and copy {at} of '{name}' is called so"
-                        why = f"the {part.copies} links '{link}' and what they bear are numbered from 2"
+                        what = f"{kind} '{_named(name, at)}' is declared, but copy {at} of '{name}' has the same name"
+                        why = f"the {part.copies} links '{link}' and their parts are numbered from 2"
                         yield Problem(what, why, f"rename '{_named(name, at)}'", train.place("links", link))
 
 
@@ -167,8 +169,8 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
         for link in (coupling.pin, coupling.slot):
             if train.links[link].copies > 1 and not _takes_copies(train, coupling):
                 what = f"'{coupling.name}' joins one of {train.links[link].copies} links '{link}'"
-                fix = "declare these links one by one, and the coupling of each"
-                why = "`copies` are equal in all that they meet, and a pin drives each of them at another angle"
+                fix = "declare these links one by one, each with its coupling"
+                why = "copies have equal motions, and a pin would drive each of them at a different angle"
                 yield Problem(what, why, fix, train.place("couplings", at))
 
 
@@ -291,9 +293,9 @@ class _Unfolding:
         }
         if axis.point is not None:
             if about.point is None:
-                what = f"it is not known where copies of axis '{label}' stand"
-                fix = f"give axis '{self.tree.axis(carrier)}' a position, or take that of '{label}' away"
-                why = "they stand about the axis of their carrier, which has no position"
+                what = f"the positions of copies of axis '{label}' are unknown"
+                fix = f"give axis '{self.tree.axis(carrier)}' a position, or remove that of '{label}'"
+                why = "copies are spaced about the axis of their carrier, which has no position"
                 raise DeclarationError([Problem(what, why, fix, self.declared.place("axes", label))])
             place = plus(about.point, turned(minus(axis.point, about.point), about.way, angle))
             told["position"] = tuple(Quantity.parse(f"{_decimal(part)} mm", "length", plain=False) for part in place)

@@ -129,7 +129,7 @@ class TrainKinematics(Shown):
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
             what = f"'{self.declaration.name}' has no pair '{name}'"
-            raise QuestionError(Problem(what, "it is not declared", suggest(name, known)))
+            raise QuestionError(Problem(what, "only declared pairs can be left out", suggest(name, known)))
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     @cached_property
@@ -341,7 +341,9 @@ class TrainKinematics(Shown):
             known = dict.fromkeys([*case.outputs, *train.links])
             raise QuestionError(
                 Problem(
-                    f"'{train.name}' has no output or link '{output}'", "it is not declared", suggest(output, known)
+                    f"'{train.name}' has no output or link '{output}'",
+                    "it must be a declared output or link",
+                    suggest(output, known),
                 )
             )
         outputs = {output: declared} if declared else {}
@@ -423,7 +425,9 @@ class TrainKinematics(Shown):
         return replace(answer, residual=LazyMapping(residual))
 
     def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
-        """Return the verdict on a dense system, by its LU factors if these are certainly regular, else modulo a prime."""
+        """Return the verdict on a dense system, by its LU factors if these are certainly regular, else modulo a
+        prime.
+        """
         from geartrain.kinematics.speeds import is_regular
 
         moved = any(case.inputs.values())
@@ -434,7 +438,9 @@ class TrainKinematics(Shown):
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
     def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
-        """Return links whose condition number is reported; only outputs of long trains, because each costs one solve."""
+        """Return links whose condition number is reported; only outputs of long trains, because each costs one
+        solve.
+        """
         if wanted is None and len(part.links) <= _CONDITIONED:
             return part.links
         frame = self.declaration.frame
@@ -463,7 +469,9 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """Return the answer with evaluated outputs, restricted to the links in `wanted`; `ratios` is None for floats."""
+        """Return the answer with evaluated outputs, restricted to the links in `wanted`; `ratios` is None for
+        floats.
+        """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
             verdict = replace(verdict, text=verdict.text + "".join(map(_side, self._bevels_on_one_side)))
@@ -508,8 +516,8 @@ class TrainKinematics(Shown):
             return verdict
         if not any(case.inputs.values()) and (whole := self._verdict(case)).kind == "locked":
             return whole  # nothing is driven, and nothing could be
-        follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, for it is held"
-        seen = f"{wanted[0]} seen from {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
+        follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, because it is fixed"
+        seen = f"{wanted[0]} relative to {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
         return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)
 
     def _verdict(self, case: StateCase) -> Verdict:
@@ -539,7 +547,7 @@ def _nearest(speed: Fraction) -> float:
     """Return the nearest float. Raises `RangeError` beyond the range of float64."""
     value = as_float(speed)
     if value is None:
-        why = "its ratio would come out as 0 or infinity"
+        why = "its ratio would become 0 or infinity"
         raise RangeError(Problem("a speed leaves the range of float64", why, "use the exact method, and no radians"))
     return value
 
@@ -550,11 +558,15 @@ def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]
         check_choice("input", link, declared)
     for link in declared:
         if link not in inputs:
-            why = "every input of the state needs its speeds"
+            why = "every input of the state needs speeds"
             raise QuestionError(Problem(f"input '{link}' is missing", why, f"give speeds of '{link}' too"))
     if len({len(speeds) for speeds in inputs.values()}) > 1:
-        why = "there is one speed a case for each input"
-        raise QuestionError(Problem("the inputs have unequal numbers of cases", why, "give each as many"))
+        why = "every input needs one speed for each case"
+        raise QuestionError(
+            Problem("the inputs have unequal numbers of cases", why, "give the same number of speeds for every input")
+        )
     for link, speeds in inputs.items():
         if not all(map(isfinite, speeds)):
-            raise QuestionError(Problem(f"a speed of '{link}' is not finite", "nothing follows from it", "mend it"))
+            raise QuestionError(
+                Problem(f"a speed of '{link}' is not finite", "inputs must be finite", "replace inf or nan")
+            )

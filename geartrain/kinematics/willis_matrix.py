@@ -127,6 +127,6 @@ def independent_rows(
 def _nearest(row: WillisEquation) -> float:
     value = as_float(row.right)
     if value is None:
-        what = f"the right-hand side of '{row.label}' is no float"
-        raise RangeError(Problem(what, "a float holds 1e-308 to 1e308", "read `equations().equations`, in fractions"))
+        what = f"the right-hand side of '{row.label}' is beyond the range of float64"
+        raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", "read `equations().equations`, in fractions"))
     return value

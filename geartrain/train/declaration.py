@@ -386,7 +386,9 @@ class Train(Declared):
         """
         if state is not None and state not in self.states:
             fix = suggest(state, self.states) if self.states else "leave the state out"
-            raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
+            raise QuestionError(
+                Problem(f"'{self.name}' has no state '{state}'", "a state must be declared under `states`", fix)
+            )
 
     def single_state(self, state: str | None) -> str | None:
         """Return the given state, or the only one. Raises `QuestionError` if there are several and none is given.
@@ -399,7 +401,7 @@ class Train(Declared):
         if state is None and len(self.states) > 1:
             names = ", ".join(self.states)
             raise QuestionError(
-                Problem(f"'{self.name}' has states", "speeds differ between them", f"name one of: {names}")
+                Problem(f"'{self.name}' has several states", "the result depends on the state", f"name one of: {names}")
             )
         self.check_state(state)
         return next(iter(self.states), None) if state is None else state

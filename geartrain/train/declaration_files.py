@@ -159,18 +159,18 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     """
     evidence = _read_source(source, shipped_evidence())
     if evidence.reconstruct is None:
-        what = f"'{evidence.name}' is no evidence"
-        fix = "add `reconstruct:` with what may be added, such as `add: {wheels: 2, teeth: [12, 225]}`"
-        raise DeclarationError(Problem(what, "it does not say what is to be reconstructed", fix, evidence.place()))
+        what = f"'{evidence.name}' is not evidence"
+        fix = "add `reconstruct:` with the parts that may be added, such as `add: {wheels: 2, teeth: [12, 225]}`"
+        raise DeclarationError(Problem(what, "evidence has the key `reconstruct`", fix, evidence.place()))
     return evidence
 
 
 def check_is_train(train: Train) -> None:
     """Raise `DeclarationError` if the declaration is evidence for a reconstruction."""
     if train.reconstruct is not None:
-        what = f"'{train.name}' is evidence, not yet a train"
-        why = "it says by `reconstruct` that who meshes with whom is to be found"
-        fix = "`geartrain reconstruct` finds the trains that explain it"
+        what = f"'{train.name}' is evidence, not a train"
+        why = "its key `reconstruct` leaves gear pairs to be found"
+        fix = "run `geartrain reconstruct`, which finds the trains that explain it"
         raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
 
 
@@ -219,8 +219,10 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
     before = declared(text)
     new = with_long_forms(text) if long else with_short_forms(text)
     if declared(new) != before:
-        why = "its new text would declare another train"
-        raise DeclarationError(Problem("the file is left as it is", why, "please report it", str(path)))
+        why = "the new text would declare a different train"
+        raise DeclarationError(
+            Problem("the file cannot be rewritten", why, "report this as a bug; the file is unchanged", str(path))
+        )
     return text, new
 
 
@@ -272,11 +274,13 @@ def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[
         if path.resolve() in met:
             loop = " -> ".join(step.name for step in (*met, path))
             raise DeclarationError(
-                Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place)
+                Problem("`extends` forms a cycle", loop, "remove `extends` from one of these files", place)
             )
         if at == _MOST_PARENTS:
-            why = f"a train may change another one that changes another one, {_MOST_PARENTS} at most"
-            raise DeclarationError(Problem("the chain of `extends` is too long", why, "write one of them out", place))
+            why = f"at most {_MOST_PARENTS} levels of inheritance are allowed"
+            raise DeclarationError(
+                Problem("the chain of `extends` is too long", why, "write one of the parents out in full", place)
+            )
         met[path.resolve()] = None
         folder, node = path.parent, parse_yaml(_read(path), str(path))
         yield path, node
@@ -286,9 +290,9 @@ def _parent(name: str, folder: Path, place: str) -> Path:
     if not name:
         raise DeclarationError(
             Problem(
-                "`extends` names nothing",
-                "it is the file, shipped train or shipped evidence to change",
-                "name one",
+                "`extends` is empty",
+                "it names the file, shipped train or shipped evidence to change",
+                "give a name, such as `extends: parent.yaml`, or remove the key",
                 place,
             )
         )
@@ -301,8 +305,8 @@ def _parent(name: str, folder: Path, place: str) -> Path:
     where = "this folder" if folder == Path() else folder
     raise DeclarationError(
         Problem(
-            f"`extends` names '{name}'",
-            f"there is no such file in {where}, and no shipped train or evidence has that name",
+            f"`extends` names the unknown parent '{name}'",
+            f"{where} contains no such file, and no shipped train or evidence has that name",
             suggest(name, siblings, otherwise="`geartrain list [--evidence]` shows what is shipped", wide=True),
             place,
         )
@@ -330,8 +334,8 @@ def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
     kind = "evidence" if evidence else "train"
     raise DeclarationError(
         Problem(
-            "there is no such file",
-            f"and no shipped {kind} is called '{path.stem}'",
+            "the file does not exist",
+            f"no shipped {kind} is called '{path.stem}' either",
             _instead(path.stem, evidence),
             str(source),
         )
@@ -341,7 +345,7 @@ def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
 def _instead(name: str, evidence: bool) -> str:
     """Suggest a correction for a name that is not shipped as evidence or as a train."""
     if evidence and name in shipped():
-        return f"it is a shipped train: say by `--without ARBOR` what to take for lost, or give evidence: {_evidence()}"
+        return f"it is a shipped train: name lost arbors by `--without ARBOR`, or give evidence: {_evidence()}"
     if not evidence and name in shipped_evidence():
         return f"it is evidence: `geartrain reconstruct {name}` finds the trains that explain it"
     if evidence:
@@ -358,21 +362,21 @@ def _read(path: Path) -> str:
     try:
         status = path.stat()
         if not S_ISREG(status.st_mode) and not S_ISDIR(status.st_mode):
-            why = "a device or a pipe may have no end, and is read once"
-            raise DeclarationError(Problem("this is no regular file", why, "save the declaration as a file", place))
+            why = "a device or a pipe may be endless, and cannot be read twice"
+            raise DeclarationError(Problem("this is not a regular file", why, "save the declaration as a file", place))
         if status.st_size > _MOST_BYTES:
             raise DeclarationError(
                 Problem(
                     "the file is too large",
                     f"a declaration has at most {_MOST_BYTES >> 20} MB",
-                    "build the train in Python",
+                    "build the train in Python with `GearTrain.declare`",
                     place,
                 )
             )
         raw = path.read_bytes()
     except IsADirectoryError:
         raise DeclarationError(
-            Problem("this is a directory", "a declaration is a file", "name a .yaml file in it", place)
+            Problem("this is a directory", "a declaration is read from a single file", "name a .yaml file in it", place)
         ) from None
     except OSError as error:
         raise DeclarationError(
@@ -391,6 +395,6 @@ def _read(path: Path) -> str:
         ) from None
     if "\0" in text:
         raise DeclarationError(
-            Problem("this is not a text file", "it holds zero bytes", "name a YAML declaration", place)
+            Problem("this is not a text file", "it contains NUL bytes", "name a YAML declaration", place)
         )
     return text

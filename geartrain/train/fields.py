@@ -74,7 +74,7 @@ def _refused(error: Mapping[str, Any]) -> Problem:
         *parent, key = error["loc"]
         return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")
     fix = error.get("ctx", {}).get("fix", "see docs/reference.md")
-    return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"it is {str(error['input'])[:60]!r}", fix)
+    return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"the given value is {str(error['input'])[:60]!r}", fix)
 
 
 def read_count(raw: object) -> int:
@@ -90,7 +90,7 @@ def read_count(raw: object) -> int:
     raise PydanticCustomError(
         "teeth",
         "{shown} is not a tooth count",
-        {"shown": shown, "fix": "a tooth count is a whole number from 1 to 10^12"},
+        {"shown": shown, "fix": "give a whole number from 1 to 10^12"},
     )
 
 

@@ -68,8 +68,8 @@ def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Ite
             old = owner.get(wheel, link)
             if old != link and wheel in _child(merged, "links", old, "wheels"):
                 yield Problem(
-                    f"the parent has wheel '{wheel}' on link '{old}'",
-                    f"it is declared again on link '{link}', and wheel ids are unique over the train",
+                    f"wheel '{wheel}' is already on link '{old}' of the parent",
+                    f"link '{link}' declares it again, and wheel ids are unique in a train",
                     f"to change the parent's wheel, write it under `{old}`: `links: {{{old}: {{wheels: {{{wheel}: "
                     "...}}}`; give an additional wheel another id",
                     child.place_of(("links", link, "wheels", wheel)),
@@ -230,10 +230,10 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]]
     for key, names in gone.items():
         for at, name in enumerate(names):
             if key in known and name not in known[key]:
-                fix = suggest(name, known[key], otherwise="leave it out")
+                fix = suggest(name, known[key], otherwise="delete this entry")
                 problems.append(
                     Problem(
-                        f"`remove` names '{name}'",
+                        f"`remove` names the unknown '{name}'",
                         f"the parent has no such entry in {key}",
                         fix,
                         remove.place_of((key, at)),
@@ -246,9 +246,9 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]]
         if joint not in present:
             problems.append(
                 Problem(
-                    f"`remove` names the turning pair of {' and '.join(sorted(joint))}",
-                    "the parent has no such pair",
-                    "leave it out",
+                    f"`remove` names an unknown turning pair of {' and '.join(sorted(joint))}",
+                    "the parent does not declare it",
+                    "delete this entry",
                     remove.place_of(("revolutes", at)),
                 )
             )

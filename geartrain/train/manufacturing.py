@@ -38,8 +38,8 @@ def _contracts(figure: Figure) -> Figure:
     if not 0 <= figure.value < 0.5:
         raise PydanticCustomError(
             "poisson",
-            "Poisson's ratio {text} is that of no material",
-            {"text": figure.text, "fix": "write a number from 0 to less than 0.5, for metals about 0.3"},
+            "Poisson's ratio {text} is out of range",
+            {"text": figure.text, "fix": "give a number from 0 to less than 0.5, about 0.3 for metals"},
         )
     return figure
 
@@ -48,8 +48,8 @@ def _partly(figure: Figure) -> Figure:
     if not 0 <= figure.value < 1:
         raise PydanticCustomError(
             "spread",
-            "a spread of {text} is no part of a value",
-            {"text": figure.text, "fix": "write a part from 0 to less than 1: 0.3 for 30 % to either side"},
+            "a spread of {text} is out of range",
+            {"text": figure.text, "fix": "give a fraction from 0 to less than 1, such as 0.3 for 30 % to either side"},
         )
     return figure
 
@@ -147,7 +147,7 @@ class _Off(Declared):
         if len(given) != 1:
             raise PydanticCustomError(
                 "error",
-                "an error is one thing, and this gives {given}",
+                "an error needs exactly one key; found: {given}",
                 {"given": " and ".join(given) or "nothing", "fix": "give exactly one of value, normal, uniform"},
             )
         for key in ("normal", "uniform"):
@@ -155,8 +155,8 @@ class _Off(Declared):
             if width is not None and width.value < 0:
                 raise PydanticCustomError(
                     "error",
-                    "{key}: {text} is no width of a distribution",
-                    {"key": key, "text": width.text, "fix": "write it 0 or greater"},
+                    "{key}: {text} is negative",
+                    {"key": key, "text": width.text, "fix": "give the width of the distribution, 0 or more"},
                 )
         return self
 
@@ -251,10 +251,10 @@ class Filing(Declared):
         if self.stroke.value <= 0:
             raise PydanticCustomError(
                 "error",
-                "a stroke of {text} takes nothing",
+                "a stroke of {text} is not above 0",
                 {
                     "text": self.stroke.text,
-                    "fix": "write a length above 0, such as 0.02 mm, or a fraction of the depth",
+                    "fix": "give a length above 0, such as 0.02 mm, or a fraction of the tooth depth",
                 },
             )
         return self

@@ -73,7 +73,9 @@ _JOINT_SCHEMA = {
 def _not_negative(torque: Quantity) -> Quantity:
     if torque.value < 0:
         raise PydanticCustomError(
-            "bearing", "a friction torque is not negative", {"fix": "give its magnitude: it acts against the turning"}
+            "bearing",
+            "a friction torque must not be negative",
+            {"fix": "give its magnitude: it is always opposed to the rotation"},
         )
     return torque
 
@@ -107,8 +109,8 @@ class BearingFriction(Declared):
             what = "sliding {sliding} and static {static} mix a plain number and a torque with a unit"
             fix = "give both with a unit, or both without"
         elif self.static.base < self.sliding.base:
-            what = "a static friction torque of {static} is below the sliding one of {sliding}"
-            fix = "what turns is never harder to move than what rests: give `static` as `sliding` or more"
+            what = "the static friction torque {static} is below the sliding friction torque {sliding}"
+            fix = "give `static` as `sliding` or more: static friction is never less than sliding friction"
         else:
             return self
         raise PydanticCustomError(
@@ -143,8 +145,11 @@ def _no_more_than_all(efficiency: Quantity) -> Quantity:
         meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
         raise PydanticCustomError(
             "efficiency",
-            "an efficiency of {text} makes power out of nothing",
-            {"text": efficiency.text, "fix": f"an efficiency is at most 1: write for example 0.98 or {meant}"},
+            "an efficiency of {text} is above 1",
+            {
+                "text": efficiency.text,
+                "fix": f"write for example 0.98 or {meant}; no pair transmits more power than it receives",
+            },
         )
     return efficiency
 
@@ -170,8 +175,8 @@ class Efficiencies(Declared):
         if self.forward.base <= 0 and self.backward.base <= 0:
             raise PydanticCustomError(
                 "efficiency",
-                "an efficiency of {text} lets no power through in either direction",
-                {"text": self.forward.text, "fix": "an efficiency is above 0 and at most 1, such as 0.98 or 98 %"},
+                "an efficiency of {text} transmits no power in either direction",
+                {"text": self.forward.text, "fix": "give an efficiency above 0 and at most 1, such as 0.98 or 98 %"},
             )
         return self
 
@@ -228,15 +233,17 @@ class Teeth(Declared):
             raise PydanticCustomError(
                 "teeth",
                 "the range {low} to {high} is empty",
-                {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"},
+                {"low": bounds[0], "high": bounds[1], "fix": "write the smaller count first"},
             )
         if self.value is None and self.search is None:
-            raise PydanticCustomError("teeth", "the tooth count has no value", {"fix": "give `value`, or `search`"})
+            raise PydanticCustomError(
+                "teeth", "the tooth count has no value", {"fix": "give `value`, such as `value: 20`, or `search`"}
+            )
         counts = self.allowed
         if self.value is not None and counts and self.value not in counts:
             raise PydanticCustomError(
                 "teeth",
-                "the value {value} lies outside what its evidence allows",
+                "the value {value} is outside its range or choices",
                 {"value": self.value, "fix": "widen the range or choices, or correct the value"},
             )
         if self.weights is not None and len(self.weights) != len(counts):
@@ -321,10 +328,10 @@ def _teeth_kind(raw: object) -> str:
 
 
 HelixAngle = Annotated[
-    Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("give it from the axis")
+    Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("measure it from the axis")
 ]
 Thickness = Annotated[MeasuredLength, above_zero("give a length such as 2 mm")]
-MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3, that of bronze")]
+MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3 (bronze)")]
 
 
 class Wheel(Declared):
@@ -347,7 +354,7 @@ class Wheel(Declared):
     )
     flexible: Boolean = Field(
         False,
-        description="True for the flexible wheel of a strain wave gear, bent radially into its ring by a wave generator",
+        description="True for the flexible wheel of a strain wave gear, bent radially into its ring by a generator",
     )
     kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="Kind of wheel")
     facing: Annotated[Literal[1, -1], BeforeValidator(side)] = Field(
@@ -392,7 +399,7 @@ class Wheel(Declared):
             raise PydanticCustomError(
                 "helix_angle",
                 "a {kind} wheel has a helix angle",
-                {"kind": self.kind, "fix": "leave it out: teeth that lean are known of spur wheels, rings and worms"},
+                {"kind": self.kind, "fix": "remove `helix_angle`: only spur wheels, rings and worms have one"},
             )
         return self
 
@@ -404,7 +411,7 @@ class Wheel(Declared):
                 "a {kind} is flexible",
                 {
                     "kind": "ring" if self.internal else f"{self.kind} wheel",
-                    "fix": "write it at the spur wheel that the wave bends into its ring",
+                    "fix": "write `flexible: true` at the spur wheel that is bent into its ring",
                 },
             )
         return self
@@ -450,7 +457,7 @@ class Link(Declared):
     copies: Annotated[int, Field(le=MOST_COPIES), BeforeValidator(read_count)] = Field(
         1, description="Number of equal links, evenly spaced about the axis of the carrier of this link"
     )
-    inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
+    inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(
         None, description="Moment of inertia about its axis; default from its wheels, if their `density` is given"
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
@@ -459,9 +466,9 @@ class Link(Declared):
     bearing: DeclaredBearing | None = Field(
         None, description="Friction torque of its bearing, opposed to the rotation, or {sliding, static}; default none"
     )
-    drag: Annotated[TorsionalDamping, not_below_zero("it acts against the turning: give its magnitude")] | None = Field(
-        None, description="Coefficient of viscous drag: torque opposed to the rotation per rad/s; default none"
-    )
+    drag: (
+        Annotated[TorsionalDamping, not_below_zero("give its magnitude: drag is always opposed to the rotation")] | None
+    ) = Field(None, description="Coefficient of viscous drag: torque opposed to the rotation per rad/s; default none")
     arbor: ArborSizes | None = Field(
         None, description="Dimensions of its arbor between two bearings, for strength calculations"
     )
@@ -534,8 +541,8 @@ def _positive(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
             "share",
-            "a share of {text} carries nothing",
-            {"text": figure.text, "fix": "a share is above 0; leave it out where it is not known"},
+            "a share of {text} is not above 0",
+            {"text": figure.text, "fix": "give a share above 0, or leave it out if it is unknown"},
         )
     return figure
 
@@ -573,8 +580,8 @@ class GearPair(Declared):
     )
     efficiency: DeclaredEfficiency | None = Field(
         None,
-        description="Basic efficiency with the carrier fixed, at most 1: a number, a percentage, or {forward, backward}; "
-        "default from friction and tooth form",
+        description="Basic efficiency with the carrier fixed, at most 1: a number, a percentage, or {forward, backward}"
+        "; default from friction and tooth form",
     )
     share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
         None, description="Share of a torque, relative to the shares of other pairs with a common wheel; above 0"

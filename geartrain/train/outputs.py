@@ -33,7 +33,9 @@ def _whole(raw: object) -> int:
         return number
     shown = text if len(text) <= 30 else f"{text[:27]}..."
     fix = f"write `names: {text}`" if text in NAMED_SCALES else f"give a whole number from 1 to {_MOST:,}"
-    raise PydanticCustomError("dial", "{shown} is no number of divisions or turns", {"shown": shown, "fix": fix})
+    raise PydanticCustomError(
+        "dial", "{shown} is not a valid number of divisions or turns", {"shown": shown, "fix": fix}
+    )
 
 
 Whole = Annotated[int, BeforeValidator(_whole)]
@@ -108,8 +110,10 @@ class Graduation(Declared):
         names, own = raw["names"], dict(raw)
         if isinstance(names, str):
             if names not in NAMED_SCALES:
-                fix = suggest(names, NAMED_SCALES, otherwise=f"one of {', '.join(NAMED_SCALES)}, or a list of names")
-                raise PydanticCustomError("dial", "there is no scale '{names}'", {"names": names, "fix": fix})
+                fix = suggest(
+                    names, NAMED_SCALES, otherwise=f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
+                )
+                raise PydanticCustomError("dial", "unknown scale '{names}'", {"names": names, "fix": fix})
             cell, parts = NAMED_SCALES[names]
             own.setdefault("divisions", sum(span for _, span in parts))
             if str(own["divisions"]) == str(sum(span for _, span in parts)):
@@ -128,24 +132,24 @@ class Graduation(Declared):
         if given and len(given) < len(spans):
             missing = next(each.name for each in self.names if each.span is None)
             fix = {"name": missing, "fix": "give every name a span, or none"}
-            raise PydanticCustomError("dial", "'{name}' has no span, and other names have", fix)
+            raise PydanticCustomError("dial", "'{name}' has no span, but other names have one", fix)
         if given and sum(given) != self.divisions:
             off = sum(given) - self.divisions
             raise PydanticCustomError(
                 "dial",
-                "the spans of its names make {total}, {off} too {way} for {divisions} divisions",
+                "the spans of its names add up to {total}, {off} too {way} for {divisions} divisions",
                 {
                     "total": sum(given),
                     "off": abs(off),
                     "way": "many" if off > 0 else "few",
                     "divisions": self.divisions,
-                    "fix": "let spans add up to the divisions, or leave `divisions` out",
+                    "fix": "make the spans add up to `divisions`, or leave `divisions` out",
                 },
             )
         for cell in self.glyphs:
             if cell > self.divisions:
-                told = {"cell": cell, "divisions": self.divisions, "fix": "cells are counted from 1"}
-                raise PydanticCustomError("dial", "there is no cell {cell} among {divisions}", told)
+                told = {"cell": cell, "divisions": self.divisions, "fix": f"give a number from 1 to {self.divisions}"}
+                raise PydanticCustomError("dial", "cell {cell} is beyond the {divisions} divisions", told)
         return self
 
     @property
@@ -165,7 +169,7 @@ def _shared(name: str, parts: tuple[tuple[str, int], ...], divisions: object) ->
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
         told = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
-        raise PydanticCustomError("dial", "{name} cannot share {divisions} divisions", told)
+        raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", told)
     return [(part, int(share)) for part, share in shares]
 
 
@@ -226,8 +230,8 @@ def _lasts(period: Quantity) -> Quantity:
     if period.value <= 0:
         raise PydanticCustomError(
             "target",
-            "a period of {text} is none",
-            {"text": period.text, "fix": "give a period above 0; `sense: retrograde` says that it runs backwards"},
+            "a period of {text} is not above 0",
+            {"text": period.text, "fix": "give a period above 0, with `sense: retrograde` for retrograde motion"},
         )
     return period
 
@@ -236,15 +240,15 @@ def _turns(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
             "target",
-            "{text} turns show no period",
-            {"text": figure.text, "fix": "give a number above 0; `sense: retrograde` says that it runs backwards"},
+            "{text} turns is not a number above 0",
+            {"text": figure.text, "fix": "give a number above 0, with `sense: retrograde` for retrograde motion"},
         )
     return figure
 
 
 def _no_tolerance(text: str) -> PydanticCustomError:
-    fix = {"text": text, "fix": "a tolerance is a distance: give 0 or more"}
-    return PydanticCustomError("tolerance", "a tolerance of {text} is met by nothing", fix)
+    fix = {"text": text, "fix": "give the magnitude of the permitted error, 0 or more"}
+    return PydanticCustomError("tolerance", "a tolerance of {text} is negative", fix)
 
 
 def _not_negative(figure: Figure) -> Figure:
@@ -280,8 +284,8 @@ class Target(Declared):
     )
     tolerance: Share | None = Field(
         None,
-        description="Maximum relative error, such as 20 ppm; for a speed of 0 a maximum difference in the train's unit, "
-        "as a plain number. `check` fails if it is exceeded; a target without tolerance is only reported",
+        description="Maximum relative error, such as 20 ppm; for a speed of 0 the maximum difference in the train's "
+        "unit, as a plain number. `check` fails if it is exceeded; a target without tolerance is only reported",
     )
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
@@ -292,7 +296,7 @@ class Target(Declared):
         if len(given) != 1:
             raise PydanticCustomError(
                 "target",
-                "a target is one thing, and this gives {given}",
+                "a target needs exactly one of its keys; found: {given}",
                 {"given": " and ".join(given) or "nothing", "fix": "give exactly one of name, period, speed"},
             )
         return self
@@ -302,8 +306,8 @@ class Target(Declared):
         if self.sense is not None and self.speed is not None:
             raise PydanticCustomError(
                 "target",
-                "the speed {speed} has a sign, and `sense` gives it another",
-                {"speed": self.speed.text, "fix": "leave `sense` out, and write a retrograde speed with a minus"},
+                "the speed {speed} and `sense` are both given",
+                {"speed": self.speed.text, "fix": "leave `sense` out, and write a retrograde speed with a minus sign"},
             )
         return self
 
@@ -317,8 +321,8 @@ class Target(Declared):
         if self.speed is not None and not self.speed.value and tolerance.unit is not None:
             raise PydanticCustomError(
                 "target",
-                "{tolerance} of a speed of 0 is 0",
-                {"tolerance": tolerance.text, "fix": "give the difference allowed, a plain number in the train's unit"},
+                "a relative tolerance of {tolerance} is 0 for a speed of 0",
+                {"tolerance": tolerance.text, "fix": "give the maximum difference, a plain number in the train's unit"},
             )
         return self
 
@@ -385,8 +389,8 @@ class Published(Declared):
         if self.as_ == "input/output" and not self.value.value and exact:
             raise PydanticCustomError(
                 "published",
-                "an input over an output of 0 is no motion",
-                {"fix": "an output that stands still is 0 as `output/input`"},
+                "an input/output ratio of 0 would mean that the input is at rest",
+                {"fix": "write `{value: 0, as: output/input}` for an output at rest"},
             )
         return self
 

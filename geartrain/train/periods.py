@@ -139,16 +139,16 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
     """
     found = _PATTERN.fullmatch(text.strip())
     if found is None:
-        raise ValueError(f"'{text[:40]}' is no date")
+        raise ValueError(f"'{text[:40]}' is not a date")
     year, month, day = (int(found[at]) for at in (1, 2, 3))
     hour, minute, second = (int(found[at] or 0) for at in (4, 5, 6))
     if abs(year) > MOST_YEARS or hour > 23 or minute > 59 or second > 59:
-        raise ValueError(f"'{text}' is no date")
+        raise ValueError(f"'{text}' is not a date")
     part = Fraction(3600 * hour + 60 * minute + second, 86400) if found[4] else Fraction(1, 2)
     chosen = calendar or ("julian" if (year, month, day) < (1582, 10, 15) else "gregorian")
     date = CalendarDate(year, month, day, part, chosen)
     if date_of(julian_day(date), calendar) != date:
-        raise ValueError(f"there is no {date} in the {chosen} calendar{' of its time' if calendar is None else ''}")
+        raise ValueError(f"{date} does not exist in the {chosen} calendar{' of its time' if calendar is None else ''}")
     return date
 
 

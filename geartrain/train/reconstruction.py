@@ -28,12 +28,12 @@ def _number(raw: object) -> object:
     if number is not None and 0 <= number <= MOST_ADDED and str(raw).isascii():
         return number
     fix = f"give a whole number from 0 to {MOST_ADDED}"
-    raise PydanticCustomError("number", "{shown} is no number of parts", {"shown": str(raw)[:30], "fix": fix})
+    raise PydanticCustomError("number", "{shown} is not a valid number of parts", {"shown": str(raw)[:30], "fix": fix})
 
 
 def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
     if bounds[0] > bounds[1]:
-        context = {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"}
+        context = {"low": bounds[0], "high": bounds[1], "fix": "write the smaller count first"}
         raise PydanticCustomError("teeth", "the range {low} to {high} is empty", context)
     return bounds
 
@@ -65,7 +65,9 @@ class AddedParts(Declared):
     def _is_bounded(self) -> AddedParts:
         if self.wheels and self.teeth is None:
             raise PydanticCustomError(
-                "add", "wheels are added whose counts have no bounds", {"fix": "add for example `teeth: [12, 225]`"}
+                "add",
+                "added wheels have no bounds of their tooth counts",
+                {"fix": "add for example `teeth: [12, 225]`"},
             )
         return self
 

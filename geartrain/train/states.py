@@ -38,7 +38,7 @@ GRAVITY = 9.80665
 
 _NEAR = 0.05  # of the length of a pendulum with all of its mass in its bob
 
-DriveTorque = Annotated[Torque, not_below_zero("it acts the way the input turns: give its magnitude")]
+DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in the direction in which the input turns")]
 
 
 class SpringDrive(Declared):
@@ -52,7 +52,7 @@ class SpringDrive(Declared):
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
         description="Torsional stiffness: torque per radian of winding, such as 0.02 N m/rad"
     )
-    turns: Annotated[Figure, not_below_zero("give the turns by which it is wound at the start")] = Field(
+    turns: Annotated[Figure, not_below_zero("give the turns of winding at the start, 0 or more")] = Field(
         description="Turns of winding at the start"
     )
 
@@ -80,7 +80,7 @@ class HandDrive(Declared):
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 5 N m/rad")] | None = Field(
         None, description="Torque per radian by which the crank lags behind the hand, such as 5 N m/rad; default rigid"
     )
-    inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
+    inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(
         None, description="Moment of inertia of arm and crank; default 0"
     )
 
@@ -88,13 +88,13 @@ class HandDrive(Declared):
     def _is_one_thing(self) -> HandDrive:
         if (self.torque is None) == (self.rate is None):
             raise PydanticCustomError(
-                "drive", "a hand gives a torque or keeps a rate", {"fix": "give exactly one of torque, rate"}
+                "drive", "a hand needs either a torque or a rate", {"fix": "give exactly one of torque, rate"}
             )
         if self.torque is not None and self.stiffness is not None:
             raise PydanticCustomError(
                 "drive",
-                "a hand that gives a torque needs no stiffness",
-                {"fix": "`stiffness` says how a hand that keeps a `rate` yields: leave it out, or give `rate`"},
+                "`stiffness` applies only to a hand with a `rate`",
+                {"fix": "leave `stiffness` out, or give `rate` instead of `torque`"},
             )
         return self
 
@@ -141,14 +141,14 @@ class Drive(Declared):
         if len(given) != 1:
             raise PydanticCustomError(
                 "drive",
-                "a drive is one thing, and this gives {given}",
+                "a drive needs exactly one kind; found: {given}",
                 {"given": " and ".join(given) or "nothing", "fix": f"give exactly one of {', '.join(kinds)}"},
             )
         if (self.weight is None) != (self.drum is None):
             raise PydanticCustomError(
                 "drive",
-                "a weight pulls a line on a drum",
-                {"fix": "give `weight`, a mass, and `drum`, the radius at which its line pulls"},
+                "`weight` and `drum` must be given together",
+                {"fix": "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"},
             )
         return self
 
@@ -211,8 +211,8 @@ class Escapement(Declared):
             if abs(self.pendulum.si / length - 1) > _NEAR:
                 raise PydanticCustomError(
                     "escapement",
-                    "a pendulum of that length does not beat so",
-                    {"fix": f"by pi sqrt(l/g) it is {1000 * length:.4g} mm long: give that, or another `beat`"},
+                    "the length of the pendulum does not match the beat",
+                    {"fix": f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"},
                 )
         return self
 
@@ -250,7 +250,7 @@ class Clutch(Declared):
     def _is_one_thing(self) -> Clutch:
         if (self.fixes is None) == (self.locks is None):
             raise PydanticCustomError(
-                "clutch", "a clutch fixes one link or locks two", {"fix": "give exactly one of fixes, locks"}
+                "clutch", "a clutch needs either `fixes` or `locks`", {"fix": "give exactly one of fixes, locks"}
             )
         return self
 
@@ -280,7 +280,7 @@ class State(Declared):
     )
     expect: ExpectedVerdict | None = Field(
         None,
-        description="Expected verdict, which does not count as a failure (`free` for a neutral gear); default the train's",
+        description="Expected verdict, which does not count as a failure (`free` for neutral); default the train's",
     )
     note: str | None = Field(None, description="Remark for readers")
 
@@ -387,8 +387,8 @@ class StateCase(Shown):
         declared = self.declares(*links)
         if self.causes.get(links, links) == links:
             return declared
-        held = f"'{links[0]}' still" if len(links) == 1 else f"'{links[0]}' and '{links[1]}' together"
-        return f"{declared}, which holds {held}"
+        effect = f"fixes '{links[0]}'" if len(links) == 1 else f"locks '{links[0]}' and '{links[1]}' together"
+        return f"{declared}, which {effect}"
 
     def declares(self, *links: str) -> str:
         """Describe the declared brake or lock that fixes one link or locks two, with its clutch.

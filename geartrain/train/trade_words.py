@@ -30,9 +30,9 @@ TRADE_WORDS = (
     TradeWord("carrier", "a platform that goes round with arbors on it", "a turntable or epicyclic platform"),
     TradeWord("planet", "a wheel on a stud that is carried round", "an epicyclic gear"),
     TradeWord("circuit", "a mesh with the pivots between its wheels", "two gears and the axles that hold them apart"),
-    TradeWord("mobility", "how many cranks or weights it takes", "how many things must be turned by hand"),
-    TradeWord("input", "what is turned by hand, weight or spring", "the crank"),
-    TradeWord("output", "what a hand is put on", "a pointer"),
+    TradeWord("mobility", "the number of cranks or weights needed", "the number of cranks to be turned by hand"),
+    TradeWord("input", "the arbor driven by hand, weight or spring", "the crank"),
+    TradeWord("output", "the arbor of a hand", "a pointer"),
     TradeWord("clutch", "two arbors coupled when wanted", "two axles coupled when wanted"),
 )
 """Terms that are explained where a message or page uses them."""

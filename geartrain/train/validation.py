@@ -175,27 +175,27 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
         return Problem(
             f"{_where(loc[:-1])} is too short",
             f"entry {loc[-1] + 1} is missing",
-            "write a longer list",
+            "add the missing entry",
             place(loc[:-1]),
         )
     if kind == "missing":
         return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1]))
     if kind == "union_tag_invalid":
         tag, known = unknown_tag(error)
-        what = f"`{tag}` is '{context['tag']}'"
-        return Problem(what, f"{_where(loc)} comes in kinds", suggest(context["tag"], known), place(loc))
+        what = f"`{tag}` has the unknown value '{context['tag']}'"
+        return Problem(what, f"`{tag}` selects the kind of {_where(loc)}", suggest(context["tag"], known), place(loc))
     if kind == "union_tag_not_found":
         tag = context["discriminator"].strip("'")
-        return Problem(error["msg"], f"{_where(loc)} comes in kinds", f"add `{tag}:`", place(loc))
+        return Problem(f"key '{tag}' is missing", f"it selects the kind of {_where(loc)}", f"add `{tag}:`", place(loc))
     what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     if "fix" in context:
         return Problem(f"{_where(loc)}: {error['msg']}", context.get("why", ""), context["fix"], place(loc))
     shown = repr(error["input"])
-    got = f"it is {shown if len(shown) <= 60 else shown[:57] + '...'}"
+    got = f"the given value is {shown if len(shown) <= 60 else shown[:57] + '...'}"
     if kind in _SHAPES:
         return Problem(f"{_where(loc)} is not {_SHAPES[kind]}", got, f"write {_SHAPES[kind]}", place(loc))
     if kind == "literal_error":
-        return Problem(f"{_where(loc)} is none of the words known here", got, f"use {context['expected']}", place(loc))
+        return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
     return Problem(what, got, "see `geartrain schema`", place(loc))
 
 
@@ -308,12 +308,12 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
         several = len(listed) > 1
         what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
         fix = f"write `{form.format(*names)}`" + (", and the others likewise" if several else "")
-        yield Problem(what, "a pair has its own form", fix, listed[0].place)
+        yield Problem(what, "pairs are not written as bare lists", fix, listed[0].place)
 
 
 def _single_link(axis: str, place: str) -> Problem:
-    why = "its links are a list that begins with the one that carries the others"
-    return Problem(f"axis '{axis}' joins nothing", why, f"write for example `{axis}: [frame, arbor]`", place)
+    why = "its list begins with the link that carries the others"
+    return Problem(f"axis '{axis}' has fewer than two links", why, f"write for example `{axis}: [frame, arbor]`", place)
 
 
 def _joints(joints: YamlNode) -> Iterator[YamlNode]:
@@ -330,8 +330,8 @@ def _wheels(gear: YamlNode) -> list[str]:
 
 
 def _no_pair(gear: YamlNode) -> Problem:
-    why = "a pair in short is two wheels with a tilde between them"
-    return Problem(f"'{gear.value}' is no gear pair", why, "write for example `sun ~ planet`", gear.place)
+    why = "the short form of a pair is two wheels with a tilde between them"
+    return Problem(f"'{gear.value}' is not a gear pair", why, "write for example `sun ~ planet`", gear.place)
 
 
 def _pair(gear: YamlNode) -> YamlNode:

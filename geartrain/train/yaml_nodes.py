@@ -89,8 +89,8 @@ def parse_yaml(text: str, name: str) -> YamlNode:
 
 
 def _too_deep(place: str) -> Problem:
-    why = f"a declaration needs fewer than {MOST_DEPTH} levels"
-    return Problem("nested too deeply", why, "check the brackets", place)
+    why = f"at most {MOST_DEPTH} levels are allowed"
+    return Problem("the values are nested too deeply", why, "check the brackets", place)
 
 
 def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
@@ -101,7 +101,9 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
         return _too_deep(place)
     lines = text.splitlines()
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
-        return Problem("there is a tab here", "YAML is indented with spaces only", "replace the tab by spaces", place)
+        return Problem(
+            "the line contains a tab", "YAML is indented with spaces only", "replace the tab by spaces", place
+        )
     return Problem(
         "the YAML cannot be read here",
         why,
@@ -127,7 +129,9 @@ class _Builder:
         self.values += 1
         if self.values > MOST_VALUES:
             why = f"a file has at most {MOST_VALUES} values"
-            raise DeclarationError(Problem("the file is too large", why, "build the train in Python", self.name))
+            raise DeclarationError(
+                Problem("the file is too large", why, "build the train in Python with `GearTrain.declare`", self.name)
+            )
         if len(self.problems) > MOST_TOLD + 1:
             raise DeclarationError(self.problems)
         place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
@@ -159,11 +163,11 @@ class _Builder:
     def _alias(self, anchor: str | None, place: str) -> YamlNode:
         target = self.anchors.get(anchor or "")
         if target is None or id(target) in self.unfinished:
-            what = f"alias '*{anchor}' " + ("contains itself" if target else "points at no anchor")
+            what = f"alias '*{anchor}' " + ("contains itself" if target else "has no anchor")
             raise DeclarationError(
                 Problem(
                     what,
-                    "an alias repeats a finished value",
+                    "an alias repeats a value that is complete before it",
                     f"write the value out, or set '&{anchor}' before",
                     place,
                 )
@@ -173,8 +177,8 @@ class _Builder:
         if self.expanded > MOST_EXPANDED:
             raise DeclarationError(
                 Problem(
-                    "the aliases expand without bound",
-                    f"written out they make more than {MOST_EXPANDED} values",
+                    "the aliases expand to too many values",
+                    f"written out they are more than {MOST_EXPANDED} values",
                     "write the values out",
                     place,
                 )
@@ -227,7 +231,12 @@ class _Builder:
             raise DeclarationError(self.problems)
         if self.root is None or self.root.value is None:
             raise DeclarationError(
-                Problem("the declaration is empty", "nothing is declared", "begin with `links:`", self.name)
+                Problem(
+                    "the declaration is empty",
+                    "a declaration has at least the key `links`",
+                    "begin with `links:`",
+                    self.name,
+                )
             )
         if not isinstance(self.root.value, dict):
             raise DeclarationError(

@@ -201,7 +201,7 @@ def test_a_ring_is_shifted_against_its_mate() -> None:
     text = RING.format(planet=sized(20, "1 mm"), ring=60, more=places(A="0 mm", B=f"{distance_of(0.8, 40):.6f} mm"))
     text = text.replace("{teeth: 60", "{teeth: 60, module: 1 mm")
     assert found(text) == [("P1", "note")]
-    assert "that of 'r' less that of 'p', which `pair` names first, must be 0.8" in words(text)
+    assert "the shift of 'r' minus that of 'p', which `pair` names first, must be 0.8" in words(text)
     assert found(f"{text}\ntooth_form: {{form: involute, shift: [0, 0.8]}}") in ([], [("P1", "note")])
 
 
@@ -302,7 +302,7 @@ def test_three_axes_keep_the_triangle_inequality() -> None:
 @pytest.mark.parametrize("ring", [3, 16, 20])
 def test_a_ring_is_larger_than_its_planet(ring: int) -> None:
     assert found(RING.format(planet=20, ring=ring, more="")) == [("R1", "error")]
-    assert f"ring 'r' {ring} does not hold 'p' 20" in words(RING.format(planet=20, ring=ring, more=""))
+    assert f"ring 'r' {ring} is too small for 'p' 20" in words(RING.format(planet=20, ring=ring, more=""))
 
 
 @pytest.mark.parametrize(
@@ -416,7 +416,7 @@ def test_axes_pass_each_other_at_the_sum_of_pitch_radii(first: str, second: str,
 
 def test_the_distance_that_skew_axes_need_is_told() -> None:
     told = words(pair(SCREW, WORM_WHEEL, PASS.replace("9 mm, 7 mm", "9 mm, 40 mm")))
-    assert "pass each other at 40 mm, and the pair needs 52.1346 mm" in told
+    assert "pass each other at 40 mm, but the pair needs 52.1346 mm" in told
 
 
 # --------------------------------------------------------------------------------------------------------------- G1, G2
@@ -490,7 +490,7 @@ def test_bevels_of_one_axis_need_opposite_sides_whichever_way_it_points(way: int
 def test_a_wheel_that_meshes_nothing_is_noted() -> None:
     spare = pair().replace("a20: 20}", "a20: 20, spare: 33}")
     assert found(spare) == [("W1", "note")]
-    assert "wheel 'spare' 33 meshes nothing" in words(spare)
+    assert "wheel 'spare' 33 is not in mesh" in words(spare)
     assert found(spare.replace("33", "{teeth: 33, note: survives without a mate}")) == []
     assert found(spare + "escapement: {link: a, teeth: 33, beat: 1 s}") == []
     assert found(spare + "escapement: {link: a, teeth: 30, beat: 1 s}") == [("W1", "note")]

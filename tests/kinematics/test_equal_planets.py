@@ -112,8 +112,8 @@ def test_neighbours_of_the_textbook_planetary(number: int) -> None:
     assert found(train) == expected.get(number, [])
     if number == 5:
         assert "1/84 turn" in words(train)
-        assert "2, 3, 4 or 6 would stand evenly" in words(train)
-        assert "places 16 and 17 of these steps apart (4 times 17)" in words(train)
+        assert "use 2, 3, 4 or 6 planets, which can be evenly spaced" in words(train)
+        assert "space them by 16 and 17 of these steps (4 times 17)" in words(train)
     if number == 7:
         assert "overlap by 3.554 mm" in words(train)
         assert "at most 6" in words(train)
@@ -285,7 +285,7 @@ def test_planets_that_mesh_clear_those_of_the_next_set() -> None:
             ),
         )
         seen.add(gap < 0)
-        assert (f"of the next of {number} equal sets overlap" in words(load(text))) == (gap < 0), (
+        assert (f"of the next of {number} equal sets collide" in words(load(text))) == (gap < 0), (
             number,
             sun,
             p,

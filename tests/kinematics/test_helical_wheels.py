@@ -110,7 +110,7 @@ def test_the_sense_on_skew_axes_is_that_of_the_surfaces() -> None:
             wheels = helical(20, abs(one), hands[0]), helical(40, abs(other), hands[1])
             expected = rolled((radians(one), radians(other)), first, second, place)
             if expected is None:
-                with pytest.raises(GearTrainError, match="do not lie along each other"):
+                with pytest.raises(GearTrainError, match="are not aligned in mesh"):
                     train(*wheels, axes=axes(first, second, place)).solve()
             else:
                 speed = train(*wheels, axes=axes(first, second, place)).solve().speeds["b"]
@@ -133,7 +133,7 @@ def test_without_places_the_hands_may_decide() -> None:
     ("first", "second", "words"),
     [
         (helical(20, 15, "right"), helical(40, 20, "left"), "lean by 15 and 20 deg"),
-        (helical(20, 15, "right"), helical(40, 15, "right"), "a right hand in mesh with a right hand"),
+        (helical(20, 15, "right"), helical(40, 15, "right"), "a right-hand wheel meshes with a right-hand wheel"),
         (helical(20, 15, "right"), helical(60, 15, "left", internal=True), "of a ring and its wheel lean the same way"),
         (helical(20, 15), {"teeth": 40}, "lean by 15 and 0 deg"),
     ],
@@ -272,7 +272,7 @@ def test_a_straight_wheel_slides_along_a_helical_one() -> None:
 @pytest.mark.parametrize("mate", [helical(60, 12), helical(60, 11.31, "right")])
 def test_the_wheel_of_a_worm_lies_along_its_thread(mate: dict[str, Any]) -> None:
     placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
-    with pytest.raises(GearTrainError, match="do not lie along each other"):
+    with pytest.raises(GearTrainError, match="are not aligned in mesh"):
         train(helical(5, 78.69, "left", kind="worm"), mate, axes=placed).solve()
 
 

@@ -803,8 +803,8 @@ def test_what_is_answered_can_be_read_and_written() -> None:
         "phase closure: 2 of 2 loops miss",
         "  p1 - s - p0 - r - p1 misses by 1/3 pitch at p1~r (angles recognised)",
         "  p2 - s - p0 - r - p2 misses by 1/3 pitch at p2~r (angles recognised)",
-        "  put in one after the other, the last meshes are off by up to 0.333333 pitch",
-        "  spread over all meshes, errors are up to 0.166667 pitch",
+        "  assembled one after the other, the last meshes are off by up to 0.333333 pitch",
+        "  distributed over all meshes, errors are up to 0.166667 pitch",
     ]
     told = json.loads(json.dumps(closure.to_dict()))
     assert told["verdict"] == "misses"
@@ -815,7 +815,7 @@ def test_what_is_answered_can_be_read_and_written() -> None:
 
 
 def test_tooth_numbers_must_be_chosen_and_regular_gears_must_be_regular() -> None:
-    with pytest.raises(GearTrainError, match="no tooth number for 5"):
+    with pytest.raises(GearTrainError, match="no tooth count for 5"):
         spherical_phasing(icosidodecahedron(), {"3": 12})
     config = cuboctahedron()
     wrong = Configuration(config.names, config.axes, config.meshes, config.kinds, (7,) * len(config.names))

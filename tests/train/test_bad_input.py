@@ -105,7 +105,7 @@ MISTAKES = {
     "a missing anchor": (changed("p: 20", "p: *twenty"), 3, ["twenty"]),
     "an alias within itself": (changed("  frame: {}", "  frame: &f {wheels: *f}"), 2, ["contains itself"]),
     "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["the YAML cannot be read here"]),
-    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["there is a tab here"]),
+    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["the line contains a tab"]),
 }  # fmt: skip
 
 
@@ -266,7 +266,7 @@ def test_only_regular_files_are_read(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe.yaml"
     os.mkfifo(pipe)
     for path in (pipe, Path("/dev/zero"), Path("/dev/null")):
-        with pytest.raises(GearTrainError, match="this is no regular file"):
+        with pytest.raises(GearTrainError, match="this is not a regular file"):
             load(path)
 
 

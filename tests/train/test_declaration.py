@@ -311,7 +311,7 @@ def test_a_count_is_no_target() -> None:
 def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
     name = next(row.name for row in period_table().values() if row.kind == "speed")
     text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: %s}}\noutputs: {{b: {{targets: [{name}]}}}}")
-    assert "the train's unit is no year" in refusal(text % "1 d")
+    assert "the train's unit is not a year" in refusal(text % "1 d")
     assert load(text % "year_julian").solve().outputs["b"].targets[0].speed == period_table()[name].value
 
 

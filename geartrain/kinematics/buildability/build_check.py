@@ -39,10 +39,10 @@ if TYPE_CHECKING:
 
 _MATES = ({"spur"}, {"bevel"}, {"contrate", "spur"}, {"worm", "spur"})
 _NEEDS = {
-    "bevel": "cones roll on each other where their axes meet",
-    "contrate": "the teeth of a contrate wheel point along its axis, across that of its mate",
-    "worm": "a worm's axis passes that of its wheel at a distance",
-    "helical": "crossed helical wheels touch between axes that pass each other at a distance",
+    "bevel": "pitch cones roll on each other only if their axes intersect",
+    "contrate": "a contrate wheel has teeth parallel to its axis, and its mate is on a crossing axis",
+    "worm": "the axes of a worm and its wheel pass each other at a distance",
+    "helical": "crossed helical wheels need axes that pass each other at a distance",
 }
 
 
@@ -79,7 +79,7 @@ def _strange_mates(pair: PitchPair) -> Problem:
 def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
     return Problem(
         f"bevels '{one}' and '{other}' of one axis meet '{shared}' from the same side",
-        "their cones have one apex and one axis, so that both would be in one place",
+        "their pitch cones have the same apex and axis, so both would be in the same place",
         f"give the one on the negative side of the axis `facing: -1`, such as '{other}'",
         train.place("links", train.wheels[other][0], "wheels", other),
     )
@@ -89,12 +89,12 @@ def _side_by_side(pair: PitchPair, shape: str, declared: bool) -> Problem:
     first, second = pair.axes
     if declared:
         what = f"{shape} pair '{pair.name}' on parallel axes '{first}' and '{second}'"
-        fix = f"correct the directions under `axes`, or drop `kind: {shape}`"
+        fix = f"correct the directions under `axes`, or remove `kind: {shape}`"
     else:
         what = f"{shape} pair '{pair.name}' has no declared directions of axes"
-        fix = f"declare the directions of '{first}' and '{second}' under `axes`, or drop `kind: {shape}`"
+        fix = f"declare the directions of '{first}' and '{second}' under `axes`, or remove `kind: {shape}`"
     why = _NEEDS[shape] + (
-        "" if declared else ", and axes without a direction count as parallel: its wheels are drawn as spur wheels"
+        "" if declared else ", and axes without a direction count as parallel, so its wheels are drawn as spur wheels"
     )
     return Problem(what, why, fix, pair.place)
 
@@ -105,13 +105,13 @@ def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | No
     if shape == "spur":
         return Problem(
             f"pair '{pair.name}': spur wheels on axes '{first}' and '{second}' that are not parallel",
-            "spur teeth are parallel to their axes, and touch along their width only where axes are parallel",
+            "spur teeth touch along their width only if the axes are parallel",
             "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
             pair.place,
         )
     if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
-    far = f"pass each other at {offset * 1000:.6g} mm" if offset else "meet"
+    far = f"pass each other at {offset * 1000:.6g} mm" if offset else "intersect"
     fix = "move one of the axes" + (", or declare one wheel `kind: worm`" if offset else ", or declare both `bevel`")
     return Problem(
         f"{shape} pair '{pair.name}': the axes '{first}' and '{second}' {far}", _NEEDS[shape], fix, pair.place
@@ -163,10 +163,10 @@ def _triangle(
     sums = " + ".join(measure(found[at][1]) for at in order[:2])
     names = ", ".join(f"'{axis}'" for axis in axes)
     problem = Problem(
-        f"axes {names} have no place: {sums} is less than {measure(long)}",
-        f"pairs {', '.join(repr(pairs[at].name) for at in order)} give their distances, and two sides of a triangle "
-        "are together longer than the third",
-        "change a tooth count or a module, or take one of the pairs away",
+        f"axes {names} cannot be placed: {sums} is less than {measure(long)}",
+        f"pairs {', '.join(repr(pairs[at].name) for at in order)} give their distances, which violate the triangle "
+        "inequality",
+        "change a tooth count or a module, or remove one of the pairs",
         last.place,
     )
     yield BuildFinding("P3", "note" if lack <= room else "error", problem)
@@ -191,11 +191,11 @@ def _across(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
     joints = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
     between = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     if lock:
-        why = f"no clutch joins links of two axes: as one body they would close the joints {joints}"
-        fix = "lock links that have their axis in common, or join the two by a pair of equal wheels"
+        why = f"a clutch can only join coaxial links, and this one would have to block the joints {joints}"
+        fix = "lock coaxial links, or join the two by a pair of equal wheels"
     else:
-        why = f"a brake on the frame holds what turns about an axis of the frame: it would close the joints {joints}"
-        fix = f"hold {' or '.join(repr(link) for link in between)} too, or in its place" if between else "hold another"
+        why = f"a brake acts on links that turn about an axis of the frame, and would have to block the joints {joints}"
+        fix = f"fix {' or '.join(repr(link) for link in between)} too, or instead" if between else "fix another link"
     what = f"{case.says(*rigid.links)} across the axes {axes}"
     return Problem(what, why, fix, train.place(*rigid_place(train, case, rigid.links)))
 
@@ -217,9 +217,9 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
         if escapement is not None and escapement.has_wheel(link, wheel.count):
             continue
         problem = Problem(
-            f"wheel '{name}' {wheel.count or ''}".rstrip() + " meshes nothing",
+            f"wheel '{name}' {wheel.count or ''}".rstrip() + " is not in mesh",
             "no pair under `gears` names it",
-            "add its pair, say in its `note` what it is for, or take it away",
+            "add its gear pair, give its purpose in its `note`, or remove it",
             train.place("links", link, "wheels", name),
         )
         yield BuildFinding("W1", "note", problem)
@@ -253,9 +253,9 @@ def check_shared_wheels(
                 "P2",
                 "error",
                 Problem(
-                    f"pairs '{one.name}' and '{other.name}' need two distances of their axes: {first:.6g} and "
+                    f"pairs '{one.name}' and '{other.name}' need different distances of their axes: {first:.6g} and "
                     f"{second:.6g} modules",
-                    f"the teeth of '{wheel}' have one size in both, and two axes have one distance",
+                    f"the teeth of '{wheel}' have the same size in both, and two axes have only one distance",
                     "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with one "
                     f"radius of '{wheel}'",
                     other.place,
@@ -289,9 +289,9 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
     sides = " and ".join(f"'{wheel}' {radius:.6g}" for wheel, radius in zip(pair.wheels, radii, strict=True))
     what = (
         f"pair '{pair.name}': axes '{first}' and '{second}' pass each other at {sum(radii) + off:.6g} mm, "
-        f"and the pair needs {sum(radii):.6g} mm"
+        f"but the pair needs {sum(radii):.6g} mm"
     )
-    why = f"the pitch radii are {sides} mm, and touch on the common perpendicular"
+    why = f"the pitch radii are {sides} mm, and their sum is the distance of the axes"
     fix = f"move an axis by {abs(off):.6g} mm, or change a module, a tooth count or the helix angles"
     return BuildFinding("K4", "note" if abs(off) <= SLACK * module else "error", Problem(what, why, fix, pair.place))
 

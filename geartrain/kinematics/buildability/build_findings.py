@@ -22,10 +22,10 @@ class BuildFinding(Result):
     Examples
     --------
     >>> from geartrain.errors import Problem
-    >>> problem = Problem("ring 16 does not hold planet 20", "a < 0", "swap them", "t.yaml:7")
+    >>> problem = Problem("ring 16 is too small for planet 20", "a < 0", "swap them", "t.yaml:7")
     >>> found = BuildFinding("R1", "error", problem)
     >>> print(found)
-    t.yaml:7: ring 16 does not hold planet 20; a < 0; swap them [R1]
+    t.yaml:7: ring 16 is too small for planet 20; a < 0; swap them [R1]
     >>> found.is_error
     True
     """

@@ -211,7 +211,9 @@ class TrainAssembly:
 
     @cached_property
     def kin(self) -> Mapping[str, int]:
-        """Group number of each wheel. Wheels that are connected by meshes, except those of worms, must share a module."""
+        """Group number of each wheel. Wheels that are connected by meshes, except those of worms, must share a
+        module.
+        """
         worms = {wheel for wheel, (_, kind) in self.train.wheels.items() if kind.kind == "worm"}
         pairs = [circuit.wheels for circuit in self.circuits if circuit.kind == "gear"]
         groups = joined_groups(self.train.wheels, [pair for pair in pairs if worms.isdisjoint(pair)])
@@ -288,7 +290,9 @@ def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class PlanetContact:
-    """A mesh of a planet: its own count, the count of its mate, and the sense of the pair (1 external, -1 with a ring)."""
+    """A mesh of a planet: its own count, the count of its mate, and the sense of the pair (1 external, -1 with a
+    ring).
+    """
 
     own: CountRef
     mate: CountRef
@@ -529,8 +533,8 @@ class _EqualPlanets:
             f"planet '{self.firsts[at]}' does not mesh where it is placed: its teeth are off by {worst:.3g} of a pitch"
         )
         why = (
-            f"seen from '{self.one.carrier}' it stands {360 * ((turns[at] - turns[0]) % 1):.6g} deg from "
-            f"'{self.firsts[0]}', and such planets go in every {self._degrees}"
+            f"relative to '{self.one.carrier}' it is {360 * ((turns[at] - turns[0]) % 1):.6g} deg from "
+            f"'{self.firsts[0]}', but such planets mesh only at multiples of {self._degrees}"
         )
         moved = [
             f"'{link}' {360 * (round(miss) / self.step % 1):.6g} deg"
@@ -548,16 +552,12 @@ class _EqualPlanets:
         fits = self.number * steps <= self.step
         whole, rest = divmod(self.step, self.number)
         even = [count for count in range(2, self._most() + 1) if self.step % count == 0]
-        what = f"{self.number} equal planets {self.names} on '{self.one.carrier}' cannot stand evenly"
-        why = f"they go in every {self._degrees}, and {self.step} is no multiple of {self.number}"
+        what = f"{self.number} equal planets {self.names} on '{self.one.carrier}' cannot be evenly spaced"
+        why = f"they mesh only at multiples of {self._degrees}, and {self.step} is not a multiple of {self.number}"
         if not fits:
-            why += "; other places leave them no room"
-        others = f"{_listed(even)} would stand evenly" if even else "change a tooth count"
-        spread = (
-            f"give them places {whole} and {whole + 1} of these steps apart ({rest} times {whole + 1}), or "
-            if fits
-            else ""
-        )
+            why += "; other positions leave no clearance"
+        others = f"use {_listed(even)} planets, which can be evenly spaced" if even else "change a tooth count"
+        spread = f"space them by {whole} and {whole + 1} of these steps ({rest} times {whole + 1}), or " if fits else ""
         return BuildFinding(
             rule,
             "note" if fits or rule == "A2" else "error",
@@ -570,7 +570,7 @@ class _EqualPlanets:
 
     @staticmethod
     def _fix(rule: str, fix: str) -> str:
-        return fix if rule == "A1" else f"{fix}; or join the wheels of each planet at an angle of its own"
+        return fix if rule == "A1" else f"{fix}; or join the wheels of each planet at a different angle"
 
     # ------------------------------------------------------------------------------------------------------------ room
 
@@ -587,22 +587,24 @@ class _EqualPlanets:
                 gap = self._passing(planet, other, mesh)
                 if gap is not None and gap < 0:
                     wheels = planet.own(mesh), other.own(mesh)
-                    what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets overlap"
-                    why = f"their tips would be {-gap:.4g} modules in each other"
-                    yield self._near(wheels, gap, what, why, "take fewer planets, or change their tooth counts")
+                    what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets collide"
+                    why = f"their tip circles overlap by {-gap:.4g} modules"
+                    yield self._near(wheels, gap, what, why, "use fewer planets, or change their tooth counts")
 
     def _crowded(self, wheel: str, gap: float) -> BuildFinding:
         module = self._module(wheel)
         far = f"{abs(gap):.4g} modules" if module is None else f"{abs(gap) * module:.4g} mm"
         grave = gap <= 0
-        what = f"the tips of {self.number} planets '{wheel}' " + (f"overlap by {far}" if grave else f"leave only {far}")
-        why = "neighbours stand 2 a sin(pi/n) apart, less than their tip diameter" + (
-            "" if grave else f" and {_CLEAR:g} modules"
+        what = f"the tips of {self.number} planets '{wheel}' " + (
+            f"overlap by {far}" if grave else f"have a clearance of only {far}"
+        )
+        why = "neighbours are 2 a sin(pi/n) apart, less than their tip diameter" + (
+            "" if grave else f" plus {_CLEAR:g} modules"
         )
         if self.points is not None:
-            why = why.replace("2 a sin(pi/n) apart", "where they are placed")
+            why = why.replace("2 a sin(pi/n) apart, less", "placed at a distance less")
         most = self._most() if self.points is not None else min(self._most(), self.number - 1)
-        return self._near((wheel, wheel), gap, what, why, f"take at most {most}, or smaller planets")
+        return self._near((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
     def _near(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
         """Return a finding on tip clearance: an error if tips overlap even with the shortest undeclared teeth, else a
@@ -612,7 +614,7 @@ class _EqualPlanets:
         fits = _FULL + gap / free if free else 0.0
         if gap <= 0 and fits >= _STUB:
             what += f" unless their addenda are at most {floor(1000 * fits) / 1000:g}"
-            fix = f"declare a `tooth_form` with such an `addendum`, {fix}"
+            fix = f"declare a `tooth_form` with such an `addendum`, or {fix}"
         level: BuildLevel = "error" if gap <= 0 and fits < _STUB else "note"
         return BuildFinding("A3", level, Problem(what, why, fix, self.place))
 
@@ -653,7 +655,9 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _reach(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis (modules of the wheel); None if unknown."""
+        """Return twice the distance of a planet's axis from the central axis (modules of the wheel); None if
+        unknown.
+        """
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None

@@ -100,24 +100,22 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
         # a bent wheel's teeth go in and out along the radius, and clear the ring's on its short side
         judged = pair.form is None and not pair.declared[1 - pair.ring].flexible
         if ring <= planet:
-            why = (
-                f"the distance of their axes would be ({ring} - {planet})/2 modules, and a ring is larger than its mate"
-            )
-            fix = f"make the other wheel the ring, or write a ring of at least {minimum_ring(planet)}"
-            what = f"pair '{pair.name}': ring '{name}' {ring} does not hold '{mate}' {planet}"
+            why = f"the distance of their axes would be ({ring} - {planet})/2 modules, which must be positive"
+            fix = f"make the other wheel the ring, or use a ring of at least {minimum_ring(planet)} teeth"
+            what = f"pair '{pair.name}': ring '{name}' {ring} is too small for '{mate}' {planet}"
             yield BuildFinding("R1", "error", Problem(what, why, fix, pair.place))
         elif judged and 33 < ring < minimum_ring(planet):
-            what = f"pair '{pair.name}': tips of '{mate}' {planet} run into tips of the ring '{name}' {ring}"
-            why = "standard teeth of 20 degrees cross outside the mesh (trochoid interference)"
+            what = f"pair '{pair.name}': tips of '{mate}' {planet} collide with tips of the ring '{name}' {ring}"
+            why = "standard teeth of 20 degrees collide outside the mesh (trochoid interference)"
             fix = (
-                f"declare a tooth form with shorter addenda or a larger angle, or write a ring of "
-                f"{minimum_ring(planet)}"
+                "declare a tooth form with shorter addenda or a larger pressure angle, or use a ring of at least "
+                f"{minimum_ring(planet)} teeth"
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
         elif judged and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
-            what = f"pair '{pair.name}': '{mate}' {planet} must be pushed into the ring '{name}' {ring} along its axis"
-            why = "across it tips of standard teeth run into each other (trimming interference)"
-            fix = f"leave a way in from the side, or write a ring of {_radial_ring(planet)}"
+            what = f"pair '{pair.name}': '{mate}' {planet} can only be inserted axially into the ring '{name}' {ring}"
+            why = "in radial assembly the tips of standard teeth collide (trimming interference)"
+            fix = f"leave space for axial assembly, or use a ring of at least {_radial_ring(planet)} teeth"
             yield BuildFinding("R3", "note", Problem(what, why, fix, pair.place))
 
 
@@ -236,7 +234,9 @@ class PitchPair:
 
 
 def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
-    """Return the distance (modules) without backlash: that of the pitch circles, except for profile-shifted involutes."""
+    """Return the distance (modules) without backlash: that of the pitch circles, except for profile-shifted
+    involutes.
+    """
     from geartrain.teeth.involute import Involute
 
     if not isinstance(form, Involute) or not any(figure.value for figure in form.shift):
@@ -304,7 +304,9 @@ class PitchDistances:
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats multiples of the root quantity of a pair's distance: in mm, else in modules."""
+        """Return a function that formats multiples of the root quantity of a pair's distance: in mm, else in
+        modules.
+        """
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
         return lambda size: _modules(size * module) if known is None else _mm(size * known)
@@ -331,8 +333,8 @@ class PitchDistances:
             "M1",
             "error",
             Problem(
-                f"pair '{pair.name}': two modules meet",
-                f"{sides[0]} and {sides[1]}, and teeth of two pitches do not fit each other",
+                f"pair '{pair.name}' has two modules",
+                f"{sides[0]} and {sides[1]}, and teeth of different pitches cannot mesh",
                 "give wheels that mesh the same `module`",
                 pair.place,
             ),
@@ -409,7 +411,7 @@ class PitchDistances:
         module = self.module(pair.wheels[0]) or Fraction(1)
         first, second = (f"'{wheel}' {count}" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
         what = (
-            f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart by {by}, "
+            f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart according to {by}, "
             f"and {first} and {second} of module {_mm(module)} need {_mm(wanted * module)}"
         )
         move, shift = f"move an axis by {_mm(abs(off) * module)}", f", or {shifts}" if shifts else ""
@@ -421,7 +423,7 @@ class PitchDistances:
         )
         fits = found / wanted * module
         fix = f"{move}, " + (
-            f"or drop the module: the distance asks for {_mm(fits)}"
+            f"or remove the module: the distance requires {_mm(fits)}"
             if rule == "M2"
             else f"or give both wheels module {_mm(fits)}"
         )
@@ -454,16 +456,16 @@ class PitchDistances:
         wants = [self._length(each, module) for each in (other.distance * scale, pair.distance)]
         shared = set(pair.wheels) & set(other.wheels)
         what = (
-            f"pairs '{other.name}' and '{pair.name}' need two distances of axes {_named(pair.axis_pair)}: "
+            f"pairs '{other.name}' and '{pair.name}' need different distances of axes {_named(pair.axis_pair)}: "
             f"{wants[0]} and {wants[1]}"
         )
         if not grave:
-            why = f"two axes have one distance, and teeth off the standard must bridge {self._length(off, module)}"
+            why = f"two axes have only one distance, and the teeth must compensate for {self._length(off, module)}"
             return Problem(what, why, _BRIDGE, pair.place)
-        why = f"two axes have one distance, and these differ by {self._length(off, module)}"
+        why = f"two axes have only one distance, and these differ by {self._length(off, module)}"
         teeth = 2 * off
         fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
-        fix += ", or give each its own pinion with a module of its own" if shared else ", or give one another module"
+        fix += ", or give each pair its own pinion and module" if shared else ", or give one pair another module"
         return Problem(what, why, fix, pair.place)
 
     @staticmethod
@@ -473,7 +475,7 @@ class PitchDistances:
 
 _MOST = 50  # pairs between two axes that a further one is held against
 _SHIFTS = (-1.0, 2.0)  # sums of shifts (modules) that full teeth of 20 degrees bear, from 20 and 40 teeth on nearly
-_BRIDGE = "shift profiles, give the pairs modules of their own, or change a tooth count"
+_BRIDGE = "shift profiles, give the pairs different modules, or change a tooth count"
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
@@ -499,7 +501,7 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     first, second, what = total / 2, total / 2, "the sum of the shifts"
     if pair.ring is not None:
         ring, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
-        first, second, what = 0.0, total, f"that of '{ring}' less that of '{mate}', which `pair` names first,"
+        first, second, what = 0.0, total, f"the shift of '{ring}' minus that of '{mate}', which `pair` names first,"
     key = f"shift: [{first:.4g}, {second:.4g}]"
     key = key if pair.form is not None else f"tooth_form: {{form: involute, {key}}}"
     return f"declare `{key}`: {what} must be {total:.4g}"
@@ -511,11 +513,11 @@ def _effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
     """
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:
-        return f"they stand {_mm(abs(off) * module)} nearer than teeth without play allow"
+        return f"they are {_mm(abs(off) * module)} closer than teeth without backlash allow"
     if tight:
-        return "teeth cut to the standard jam there"
+        return "standard teeth jam at this distance"
     angle = getattr(pair.form, "rack_angle", None) or PRESSURE
-    return f"teeth cut to the standard have {_mm(2 * abs(off) * module * Fraction(tan(angle)))} more play there"
+    return f"standard teeth have {_mm(2 * abs(off) * module * Fraction(tan(angle)))} more backlash at this distance"
 
 
 def _named(axes: Sequence[str]) -> str:

@@ -192,7 +192,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
 def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
     return Problem(
         f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
-        "a pin moves in its slot or hole in one plane, and these turn in two",
+        "a pin and its slot or hole must move in the same plane",
         "declare parallel directions in `axes`, or join the links by bevel wheels",
         train.place("couplings", at),
     )
@@ -202,8 +202,8 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     name = next(name for name, wheel in zip(pair, wheels, strict=True) if wheel.count is None)
     return Problem(
         f"wheel '{name}' has no tooth count yet",
-        "only `search` is declared, and a train is solved with numbers",
-        "add a `value` beside `search`",
+        "only `search` is declared, and speeds need a definite count",
+        "add a `value` besides `search`",
         train.place("links", train.wheels[name][0], "wheels", name),
     )
 
@@ -227,7 +227,11 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     if not size:
         return None
     if passing_distance(axes, labels):
-        raise RangeError(Problem("its axes do not meet", "they pass each other", "correct the positions of its axes"))
+        raise RangeError(
+            Problem(
+                "its axes do not intersect", "axes of bevel wheels must intersect", "correct the positions of its axes"
+            )
+        )
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
     return atan2(size, facing * dot(u, v))  # not acos, which loses half the digits near 0 and pi
 

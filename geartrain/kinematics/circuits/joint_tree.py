@@ -115,9 +115,9 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
 def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, at: int) -> Problem:
     return Problem(
         f"axis label '{axis}' names two axes",
-        f"one is borne by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
+        f"one is carried by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
         "joints of one label are coaxial",
-        "give the second axis a label of its own",
+        "give the second axis a different label",
         train.place("revolutes", at),
     )
 
@@ -155,14 +155,14 @@ def check_parallel(first: Wheel, second: Wheel) -> None:
     """
     angles = tuple(0.0 if wheel.helix_angle is None else wheel.helix_angle.si for wheel in (first, second))
     if abs(angles[0] - angles[1]) > _SAME:
-        told = " and ".join(f"{degrees(angle):.6g}" for angle in angles)
-        what = f"teeth that lean by {told} deg on parallel axes"
+        angles_text = " and ".join(f"{degrees(angle):.6g}" for angle in angles)
+        what = f"helix angles of {angles_text} deg on parallel axes do not match"
         fix = "give both wheels the same `helix_angle`, or `axes` that cross"
-        raise GearTrainError(Problem(what, "they would touch at their corners only", fix))
+        raise GearTrainError(Problem(what, "the teeth would touch only at their corners", fix))
     ring = first.internal or second.internal
     if first.hand and second.hand and (first.hand == second.hand) != ring:
-        what = f"a {first.hand} hand in mesh with a {second.hand} hand"
-        why = "teeth of a ring and its wheel lean the same way" if ring else "on parallel axes teeth lean opposite ways"
+        what = f"a {first.hand}-hand wheel meshes with a {second.hand}-hand wheel"
+        why = "a ring and its mate have the same hand" if ring else "wheels on parallel axes have opposite hands"
         raise GearTrainError(Problem(what, why, f"make one of them {'right' if first.hand == 'left' else 'left'}"))
 
 
@@ -197,7 +197,10 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
         raise GearTrainError(_not_along(wheels, angle, side))
     if len({sense for sense, _ in fits}) == 1:
         return fits[0][0], ""
-    note = "sense by convention (as if the second axis passed over the first): positions of the axes do not fix it"
+    note = (
+        "sense of rotation by convention (as if the second axis passed over the first): "
+        "positions of the axes do not determine it"
+    )
     return fits[0][0], note
 
 
@@ -232,9 +235,9 @@ def _not_along(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
     hands = [f"{degrees(abs(wheel.helix)):.6g} deg {wheel.hand or 'right'}" for wheel in wheels]
     over = " about the way from the second to the first" if side else ""
     return Problem(
-        f"teeth of {hands[0]} and {hands[1]} do not lie along each other",
-        f"axes that cross at {degrees(angle) * (side or 1):.6g} deg{over} ask for helix angles with that sum, right "
-        "hands counted above 0",
+        f"teeth of {hands[0]} and {hands[1]} are not aligned in mesh",
+        f"axes that cross at {degrees(angle) * (side or 1):.6g} deg{over} need helix angles with that sum, right "
+        "hands positive",
         "change a `helix_angle` or a `hand`, or the axes",
     )
 
@@ -286,7 +289,9 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links separated from the frame by non-parallel joints, whose speed is a sum of joint speeds, not a rotation."""
+        """Links separated from the frame by non-parallel joints, whose speed is a sum of joint speeds, not a
+        rotation.
+        """
         if self.plain:
             return frozenset()
         sums: set[str] = set()
@@ -307,14 +312,18 @@ class Axes:
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """Return True if both axes have positions and are collinear; axes without positions count as different lines."""
+        """Return True if both axes have positions and are collinear; axes without positions count as different
+        lines.
+        """
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the screw of a rotation about an axis: direction, and velocity of the origin; None without a position."""
+        """Return the screw of a rotation about an axis: direction, and velocity of the origin; None without a
+        position.
+        """
         here = self.positions.get(label)
         if here is None:
             return None
@@ -358,7 +367,7 @@ class Axes:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not side_by_side and (wheel_i.internal or wheel_j.internal):
             what = "a ring on an axis that is not parallel to its mate's"
-            raise GearTrainError(Problem(what, "a ring meshes about a parallel axis", "use a bevel pair"))
+            raise GearTrainError(Problem(what, "a ring and its mate have parallel axes", "use a bevel pair"))
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
         if wheel_i.internal or wheel_j.internal:
@@ -383,7 +392,10 @@ class Axes:
         flip = self.sign(worm) * self.sign(wheel)
         if turn:
             return z_i, (-1 if turn > 0 else 1) * flip * z_j, ""
-        note = "sense by convention (a right-hand worm reverses): axes and positions of worm and wheel do not fix it"
+        note = (
+            "sense of rotation by convention (a right-hand worm reverses): "
+            "axes and positions of worm and wheel do not determine it"
+        )
         return z_i, hand * flip * z_j, note
 
 
@@ -460,7 +472,9 @@ class JointLines:
         self.frame, self._tree, self._axes = tree.frame, tree, Axes(train, tree)
 
     def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """Return the joints between two links, one for each line, with each link attached to the carrier of its axis."""
+        """Return the joints between two links, one for each line, with each link attached to the carrier of its
+        axis.
+        """
         parent, top = self._tree.parent, self._tree.top
         up, down = ways_to_common_ancestor(a, b, top.get)
         steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
@@ -552,7 +566,7 @@ def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterato
     for link in sums.intersection(case.inputs):
         yield Problem(
             f"the input '{link}' has no speed about one axis",
-            "the axes between it and the frame are not parallel, and the sum of joint speeds over them is no rotation",
+            "the axes between it and the frame are not parallel, and the sum of its joint speeds is not a rotation",
             "drive a link whose axes up to the frame are parallel",
             train.place(*case.loc, link),
         )
@@ -562,9 +576,9 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
     links = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     return Problem(
         f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which makes a linkage",
-        f"a ring of {len(rigid.joints)} turning pairs may move, with a ratio that varies as it turns; a gear train "
-        "has none such",
-        f"hold or lock a link on the way ({', '.join(links)}), or lock links that have their axis in common",
+        f"a closed chain of {len(rigid.joints)} turning pairs may move with a varying ratio, which a gear train "
+        "cannot have",
+        f"fix or lock a link in between ({', '.join(links)}), or lock coaxial links",
         train.place(*rigid_place(train, case, rigid.links)),
     )
 

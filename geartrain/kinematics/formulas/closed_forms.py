@@ -198,7 +198,7 @@ class ClosedForm(Result):
         try:
             import sympy
         except ImportError:
-            raise MissingExtraError("sympy", "sympy", "an expression to reckon on with") from None
+            raise MissingExtraError("sympy", "sympy", "an expression for symbolic calculation") from None
         symbols = [sympy.Symbol(f"z_{wheel}", positive=True, integer=True) for wheel in self.formula.wheels]
 
         def summed(terms: Iterable[Term]) -> Any:

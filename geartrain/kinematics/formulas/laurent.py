@@ -117,7 +117,9 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the lowest exponent of every variable, which are those of the largest monomial that divides all terms."""
+        """Return the lowest exponent of every variable, which are those of the largest monomial that divides all
+        terms.
+        """
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
     def shifted(self, by: Exponents) -> Laurent:

@@ -328,7 +328,7 @@ class SymbolicEquations:
                 add_into(row, self._seen_from(node), self._number(-1))
                 yield row, f"'{parts.links[subject]}' is driven in more than one way"
             else:  # a component that is held on its carrier, whatever the counts
-                yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' holds its wheels"
+                yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' locks its wheels"
 
     def _held(self, case: StateCase) -> Iterator[tuple[Row, str]]:
         index = self.parts.index
@@ -539,19 +539,21 @@ def _check_wheels(train: Train, wheels: Mapping[str, object]) -> None:
     for name in wheels:
         if name not in train.wheels:
             fix = suggest(name, train.wheels)
-            raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
+            raise QuestionError(
+                Problem(f"'{train.name}' has no wheel '{name}'", "only declared wheels have tooth counts", fix)
+            )
 
 
 def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
     for name, count in counts.items():
         if not 0 < count <= MOST_TEETH or count != int(count):
-            fix = "a tooth count is a whole number from 1 to 10^12"
-            raise QuestionError(Problem(f"{count} is not a tooth count", f"wheel '{name}' is to have it", fix))
+            fix = "give a whole number from 1 to 10^12"
+            raise QuestionError(Problem(f"{count} is not a tooth count", f"it is given for wheel '{name}'", fix))
 
 
 def _too_coupled(train: Train) -> Problem:
     return Problem(
         f"'{train.name}' is too coupled for formulas",
-        "so many speeds depend on each other that, written out, they would have millions of terms",
-        "free fewer wheels, or ask for fewer outputs",
+        "its formulas would have millions of terms, because many speeds depend on each other",
+        "free fewer wheels, or request fewer outputs",
     )

@@ -36,9 +36,9 @@ class RemovalBound(Result):
     def __str__(self) -> str:
         many = len(self.loops)
         if many == 1:
-            return "a loop that does not close needs one"
-        apart = "share no mesh" if self.sharing == 1 else "have each mesh in at most two of them"
-        return f"{many} loops that do not close {apart}"
+            return "a loop that does not close requires one removal"
+        loops = f"{many} loops that do not close"
+        return f"{loops} share no mesh" if self.sharing == 1 else f"each mesh is in at most two of {loops}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,16 +87,18 @@ class MeshRemoval(Result):
     def _why(self) -> str:
         proof = ", and ".join(map(str, self.proofs)) if sum(p.at_least for p in self.proofs) == self.at_least else ""
         if not self.minimum:
-            because = f", for {proof}" if proof else ""
-            return f"none of them can stay, but a smaller set may do; at least {self.at_least} must go{because}"
+            because = f", because {proof}" if proof else ""
+            return (
+                f"none of them is superfluous, but a smaller set may exist; at least {self.at_least} must go{because}"
+            )
         exact = {
-            "one": "one mesh is the least",
-            "matching": "the shortest way to pair the odd regions of the mesh graph, which is planar",
-            "search": "all smaller sets are ruled out by branch and bound",
-            "loops": "so many loops share no mesh",
-            "greedy": "no smaller set does",
+            "one": "at least one mesh must go",
+            "matching": "minimum-weight matching of the odd faces of the mesh graph, which is planar",
+            "search": "branch and bound excludes all smaller sets",
+            "loops": "the same number of loops share no mesh",
+            "greedy": "a smaller set does not exist",
         }
-        return f"no fewer will do: {proof or exact[self.method]}"
+        return f"this is the minimum: {proof or exact[self.method]}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,11 +129,11 @@ class LockedSubgraph(Result):
     def __str__(self) -> str:
         loop = self.loop
         if loop.product == -1:
-            why = "its reversing meshes are odd in number, so each wheel would turn against itself"
+            why = "it has an odd number of reversing meshes, so each wheel would have to turn both ways"
         elif loop.product < 0:
-            why = "each wheel would turn against itself, and at another speed"
+            why = "each wheel would have to turn both ways, at different speeds"
         else:
-            why = f"each wheel would turn at two speeds, {abridged_text(loop.product)} of each other"
+            why = f"each wheel would have to turn at two speeds with the ratio {abridged_text(loop.product)}"
         return f"{loop} does not close: {why}"
 
 
@@ -190,18 +192,17 @@ class Gridlock(Result):
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"
             if len(self.jams) > 1 or self.held:
-                yield f"this one turns again: {jam.release}"
+                yield f"to free this part, {jam.release}"
         if len(self.jams) > most:
-            yield f"gridlock: {len(self.jams) - most} more parts of the train are locked by loops of their own"
+            yield f"gridlock: {len(self.jams) - most} more parts of the train are locked by other loops"
         if self.held:
-            stand = "stands" if len(self.held) == 1 else "stand"
-            closing = "" if self.jams else ", each loop of which closes"
-            by = f"held by meshes about several carriers together{closing}"
-            yield f"gridlock: {abridged_names(self.held)} {stand} still, {by}"
+            closing = "" if self.jams else ", although each loop closes"
+            by = f"locked by meshes of several carriers together{closing}"
+            yield f"gridlock: {abridged_names(self.held)} cannot move, {by}"
         if self.release is not None:
             yield f"to free the train, {self.release}"
         elif not self.moves:
-            yield "no set of meshes is known to free it: pins in slots hold it, or there are too many meshes to try"
+            yield "no set of meshes was found to free it: pins in slots lock it, or there are too many meshes to try"
 
 
 def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:

@@ -188,7 +188,9 @@ def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
 
 
 def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
-    """Return the meshes that are inconsistent with earlier ones in a forest with gains (Kruskal); firm ones come first."""
+    """Return the meshes that are inconsistent with earlier ones in a forest with gains (Kruskal); firm ones come
+    first.
+    """
     up = list(range(network.size))
     gain: list[Gain] = [1] * network.size  # speed over that of the node above
     refused = []
@@ -507,7 +509,9 @@ def _bound(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
 
 
 def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
-    """Return loops that prove a matching to be smallest, if any are found: odd faces, or loops without a common mesh."""
+    """Return loops that prove a matching to be smallest, if any are found: odd faces, or loops without a common
+    mesh.
+    """
     apart: list[GainLoop] = []
     used: set[int] = set()
     for loop in sorted(odd, key=len):

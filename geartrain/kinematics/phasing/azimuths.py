@@ -39,7 +39,9 @@ class UnplacedPair:
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """Gear pairs with known positions. All arrays have one row for each pair and one column for each of its two wheels."""
+    """Gear pairs with known positions. All arrays have one row for each pair and one column for each of its two
+    wheels.
+    """
 
     circuits: tuple[Circuit, ...]
     """Circuits of the pairs. Each wheel on the frame is a separate link here, because its mounting angle is free."""
@@ -84,7 +86,9 @@ class PitchPoints:
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """Constant c as an integer multiple of 1/`scale`, with azimuths relative to the first contact of each family."""
+        """Constant c as an integer multiple of 1/`scale`, with azimuths relative to the first contact of each
+        family.
+        """
         scale, found = self.scale, []
         for circuit, (p, q) in zip(self.circuits, self.part, strict=True):
             here, there = p.numerator * (scale // p.denominator), q.numerator * (scale // q.denominator)
@@ -234,9 +238,9 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
     wheels = [train.wheels[name][1] for name in circuit.wheels]
     kinds = {wheel.kind for wheel in wheels}
     if "worm" in kinds:
-        return "a worm is set by shifting it along its axis"
+        return "the phase of a worm is set by shifting it along its axis"
     if not parallel(first.way, second.way) and any(wheel.is_helical for wheel in wheels):
-        return "helical wheels on skew axes are set by shifting one along its axis"
+        return "the phase of helical wheels on skew axes is set by shifting one along its axis"
     if parallel(first.way, second.way):
         if kinds != {"spur"}:
             return "a bevel pair on parallel axes has no pitch point"
@@ -250,7 +254,7 @@ def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Con
         return "the positions of its axes are not declared"
     way = across_whole(minus(second.place, first.place), first.sense)
     if not any(way):
-        return "its axes are one"
+        return "its axes coincide"
     # across_whole lengthens by the square of the sense
     length = _norm(way) / dot(first.sense, first.sense)  # a Fraction: positions may have hundreds of digits
     rounded = _turns(float((first.error + second.error) / length))
@@ -266,7 +270,7 @@ def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Con
         reach = _norm(minus(second.place, first.place))
         slack = first.error + second.error + reach * Fraction(first.unsure + second.unsure)
         if abs(apart) > slack * _norm(first.way) * _norm(second.way):
-            return "its axes do not meet"
+            return "its axes do not intersect"
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
     sine = float(_norm(cross(n, m)) / (_norm(n) * _norm(m)))
     rounded = _turns((first.unsure + second.unsure) / sine)

@@ -276,7 +276,7 @@ class LoopPhase(Result):
         if self.kind == "closes":
             return f"{name} closes{self._doubt}"
         if self.kind == "unclear":
-            return f"{name} cannot be told: positions are known to {self.slack:.2g} pitch only"
+            return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
         words = f"{name} misses by {_shown(self.miss)} pitch at {self.meshes[-1]}{self._doubt}"
         if self.retime:
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
@@ -329,7 +329,9 @@ def _pull(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) ->
 
 
 def _inside(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return the signed and weighted azimuths of both contacts of each gear, summed: the angle inside the loop (turns)."""
+    """Return the signed and weighted azimuths of both contacts of each gear, summed: the angle inside the loop
+    (turns).
+    """
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -541,39 +543,39 @@ class MeshPhasing(Result):
         count = len(self.problem.conditions)
         loops = f"{count} loop{'s' if count != 1 else ''}"
         if self.kind == "open":
-            yield "phase closure: no loop whose teeth would have to meet" + (" is judged" if self.unjudged else "")
+            yield "phase closure: no loop " + ("can be checked" if self.unjudged else "with a phase condition")
         elif self.kind == "misses":
             yield f"phase closure: {len(self.missing)} of {loops} miss{'es' if len(self.missing) == 1 else ''}"
         elif self.kind == "closes":
             near = f"to {max(one.slack for one in self.problem.conditions):.1g} pitch"
-            ways = {"exact": "exactly", "recognised": "exactly, with the angles that rounded positions mean"}
+            ways = {"exact": "exactly", "recognised": "exactly, with angles inferred from rounded positions"}
             yield f"phase closure: {loops} close{'s' if count == 1 else ''}, {ways.get(self.how, near)}"
         else:
-            yield f"phase closure: not all of {loops} can be told, for positions are too rough"
+            yield f"phase closure: not all of {loops} can be decided, because positions are too inaccurate"
         shown = self.missing or [at for at, one in enumerate(self.problem.conditions) if one.kind == "unclear"]
         yield from (f"  {self.loops[at].text}" for at in shown[:_SHOWN])
         if len(shown) > _SHOWN:
             yield f"  and {len(shown) - _SHOWN} more"
         if self.missing:
-            yield f"  put in one after the other, the last meshes are off by up to {self.last:.6g} pitch"
-            yield f"  spread over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash}"
+            yield f"  assembled one after the other, the last meshes are off by up to {self.last:.6g} pitch"
+            yield f"  distributed over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash}"
         if self.unjudged:
-            goes = "loop goes" if self.unjudged == 1 else "loops go"
-            yield f"  {self.unjudged} {goes} through pairs without a known place, not judged:"
+            passes = "loop passes" if self.unjudged == 1 else "loops pass"
+            yield f"  {self.unjudged} {passes} through pairs with unknown position, not checked:"
             yield from (f"    {one.name}: {one.why}" for one in self.left_out[:_SHOWN])
         if self.rigid:
-            yield f"  {self.rigid} loop{'s' if self.rigid > 1 else ''} cannot turn, not asked for phases"
+            yield f"  {self.rigid} loop{'s' if self.rigid > 1 else ''} cannot turn, without phase condition"
         if not self.problem.complete:
-            yield "  loops were judged one by one: what they must only fulfil together was not looked for"
+            yield "  loops were checked one by one, without conditions on several loops together"
 
     @property
     def _backlash(self) -> str:
         if not self.backlashes:
             return ""
         words = {
-            True: "which the play takes up",
-            False: "which the play does not take up",
-            None: "and not all play is known",
+            True: "which the backlash absorbs",
+            False: "which the backlash does not absorb",
+            None: "and not all backlash is known",
         }
         return f", {words[self.fits]}"
 
@@ -718,8 +720,14 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
     counts = {**configuration.teeth, **(teeth or {})}
     missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in counts]
     if missing:
-        what = f"no tooth number for {', '.join(missing)}"
-        raise QuestionError(Trouble(what, "phases count teeth", "give `teeth` for every kind, or ask for the rule"))
+        what = f"no tooth count for {', '.join(missing)}"
+        raise QuestionError(
+            Trouble(
+                what,
+                "phases depend on tooth counts",
+                "give `teeth` for every kind, or use `spherical_divisibility_rule`",
+            )
+        )
     return _closure(configuration, [counts[kind] for kind in configuration.kinds])
 
 
@@ -771,7 +779,7 @@ def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> P
             parts = configuration.regular[gear]
             step = (turn - first.setdefault(gear, turn)) * parts
             if abs(step - round(step)) > _OFF * parts:
-                what = f"'{configuration.names[gear]}' has contacts that are no multiples of 1/{parts} turn apart"
+                what = f"'{configuration.names[gear]}' has contacts that are not multiples of 1/{parts} turn apart"
                 raise QuestionError(Trouble(what, "it is declared regular", "declare it with `regular` 0"))
             found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
             key.append(gear if parts else (len(keys), gear))

@@ -105,7 +105,7 @@ def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
     stuck = _stuck(reduced, case)
     if stuck:
         return Verdict("locked", f"input '{stuck[0]}' is locked to the frame by the circuits", prescriptions=given)
-    return Verdict("contradictory", f"{', '.join(given)} cannot hold with the circuits", prescriptions=given)
+    return Verdict("contradictory", f"{', '.join(given)} contradict the circuits", prescriptions=given)
 
 
 def _stuck(reduced: ReducedSystem, case: StateCase) -> list[str]:
@@ -180,7 +180,7 @@ def _name(
     said = ", ".join(dict.fromkeys(stated.text for stated, _ in used))
     text = f"{said} contradict each other: {terms}"
     if loops:
-        text += f", for {shut}"
+        text += f", because {shut}"
     return Verdict("contradictory", text, prescriptions=prescriptions, loops=loops)
 
 
@@ -206,7 +206,7 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
     if loops:
         text = f"mobility 0: {loops[0]} does not close; every link is locked"
     elif held:
-        text = f"mobility 0: {', '.join(held)}; every link stands still"
+        text = f"mobility 0: {', '.join(held)}; no link can move"
     else:
         text = "mobility 0: every link is locked"
     links = tuple(link for link in parts.links if parts.index[link] != parts.frame)
@@ -506,7 +506,7 @@ def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) ->
     loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
     text = f"every speed follows from {', '.join(case.inputs)}"
     if loops:
-        text += f"; {loops[0]} does not close and holds its links on '{loops[0].carrier}'"
+        text += f"; {loops[0]} does not close and locks its links to '{loops[0].carrier}'"
     return Verdict("determined", text, loops=loops)
 
 

@@ -50,8 +50,8 @@ _LOST = 44  # bits that a sum may lose before what is left of it is taken for th
 _BUDGET = 4_000_000  # operations of the elimination
 _TOO_DENSE = Problem(
     "speeds leave the range of float64 in a train that is coupled too densely",
-    "their sizes take too long to find",
-    "use the exact method, or ask for one output",
+    "their orders of magnitude take too long to compute",
+    "use the exact method, or request a single output",
 )
 
 
@@ -185,7 +185,7 @@ class FloatSpeeds(FrozenFields, Shown):
             return speed
         what = f"the speed of '{link}' is {speed}, beyond the range of float64"
         fix = f"read `speeds` times 2 to the power of `exponents`, or `decimal('{link}')`"
-        raise RangeError(Problem(what, "a float holds 1e-308 to 1e308", fix))
+        raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", fix))
 
     def number(self, link: str, case: int = 0) -> Real:
         """Return the speed of a link, as a float if it is within the range.
@@ -381,11 +381,11 @@ def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
     links, rows = independent_rows(system.links, system.equations, system.redundant)
     if len(rows) > len(links):
         what = "the prescribed speeds contradict each other"
-        raise RangeError(Problem(what, "no speeds satisfy all equations", "ask for the verdict"))
+        raise RangeError(Problem(what, "no speeds satisfy all equations", "read the verdict of `solve()`"))
     if len(rows) < len(links):
         what = f"{len(rows)} independent equations for {len(links)} moving links"
         why = "a train that is free, locked or contradictory has no float solution"
-        raise RangeError(Problem(what, why, "ask for the exact verdict first"))
+        raise RangeError(Problem(what, why, "read the verdict of `solve()` first"))
     return PaddedRows(links, rows), rows
 
 
@@ -469,7 +469,9 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
 
 
 def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
-    """Return |A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v with a bound below the limit."""
+    """Return |A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v with a bound below the
+    limit.
+    """
     for _ in range(_ITERATIONS):
         condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
         if (condition <= limit).all():
@@ -497,7 +499,7 @@ def is_regular(system: WillisSystem) -> bool:
 def _out_of_range(label: str) -> Problem:
     return Problem(
         f"a speed leaves the range of float64 near '{label}'",
-        "ratios beyond 1e308 would come out as 0 or infinity",
+        "ratios beyond 1e308 would become 0 or infinity",
         "use the exact method",
     )
 

@@ -14,7 +14,7 @@ from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, finite
 
 MOST_NAMES = 12
-_MAIN = 3  # links in the line of an answer
+_MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:

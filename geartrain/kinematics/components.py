@@ -74,7 +74,7 @@ class Components:
         carrier = self.index[chord.carrier]
         up, down = [self.node(self.index[link], carrier) for link in (chord.i, chord.j)]
         left, right = ways_to_common_ancestor(up, down, self._above)
-        # walk: common ancestor -> ... -> i, over the chord to j, and back up to the ancestor
+        # closed walk: common ancestor -> ... -> i, over the chord to j, and back to the ancestor
         walk = left[::-1] + right[:-1]
         pairs = [self.node_circuit[node] for node in left[-2::-1]] + [circuit]
         pairs += [self.node_circuit[node] for node in right[:-1]]
@@ -145,13 +145,15 @@ def find_components(
             here = queue.popleft()
             entered = reached[here]
             for at, there, a, b in edges[here]:
-                if at == entered:  # by circuit, not by node: a second mesh with the same wheel closes a loop
+                if (
+                    at == entered
+                ):  # compare circuits, not nodes, because a second mesh between the same nodes closes a loop
                     continue
                 if group[there] < 0:
                     group[there], reached[there] = this, at
                     ratios.follow(there, here, a, b)
                     queue.append(there)
-                elif at != reached[there] and here < there:  # each chord is looked at from one side
+                elif at != reached[there] and here < there:  # each chord is tested from one side only
                     agrees = ratios.vanishes(((here, a), (there, -b)))
                     (closing if agrees else breaking).append(at)
     return Components(
@@ -266,11 +268,11 @@ def reduce_components(parts: Components) -> ReducedSystem:
             add_into(row, shell.seen_from(node), -1)
             equations.append(row)
             origin.append(("share", link, node))
-    still: set[int] = set()  # components that are stopped already
+    still: set[int] = set()  # components that are already locked
     for kind, chords in (("loop", parts.breaking), ("hold", parts.holding)):
         for circuit in chords:
             group = parts.group_of(parts.circuits[circuit])
-            if group not in still:  # a component that stands still cannot be stopped again
+            if group not in still:  # a second equation for a locked component would be redundant
                 still.add(group)
                 equations.append({group: Fraction(1)})
                 origin.append((kind, circuit, -1))
@@ -303,7 +305,7 @@ def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[
     users: dict[str, set[int]] = {}
     members: list[tuple[str, ...]] = []
     for at, circuit in enumerate(circuits):
-        # only links whose coefficient is not 0: such a link alone can always meet its row
+        # only links with a non-zero coefficient: such a link can always satisfy its row
         links = tuple(link for link, _ in circuit.terms)
         members.append(links)
         for link in links:

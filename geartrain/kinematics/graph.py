@@ -174,7 +174,7 @@ def to_graphml(graph: Graph) -> str:
     """
     import networkx as nx
 
-    return printable("\n".join(nx.generate_graphml(_plain(graph))))  # XML has no control characters at all
+    return printable("\n".join(nx.generate_graphml(_plain(graph))))  # XML does not allow control characters
 
 
 def to_json(graph: Graph) -> str:

@@ -14,7 +14,7 @@ from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
 
-DAYS_PER_CENTURY = 36525  # Julian century
+DAYS_PER_CENTURY = 36525  # days in a Julian century
 SpeedValue = Fraction | float | LongFloat
 Relative = Callable[[str, str], SpeedValue | None]
 """Function that returns the speed of a link relative to another, about the axis of the first; None if undetermined."""
@@ -287,7 +287,7 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
     if expect is None or speed is None:
         return None if expect is None else False
     exact = Fraction(speed)
-    # an exact expectation is no float: floats agree with it within what they are good for, and more than rounding
+    # floats are compared with an exact expectation to nine digits, well above their rounding errors
     slack = Fraction(1, 10**9) * max(Fraction(1), abs(exact))
     return (not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= slack) or expect.holds(exact)
 
@@ -333,7 +333,7 @@ def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
         goal,
         error,
         as_plain_product(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
-        # of a goal that turns backwards, more speed is a smaller number: a gain is positive in both senses
+        # a faster retrograde output has a smaller (more negative) speed; a gain is positive in both senses
         as_plain_product(-ahead if goal.speed < 0 else ahead, 360),
         None if tolerance is None else magnitude(error) <= tolerance,
     )
@@ -406,5 +406,5 @@ def _shift(result: OutputResult, relative: Relative) -> float | None:
         return None
     if speed == result.speed:
         return 0.0
-    # in Fractions where the answer is exact: of floats so near to each other few digits would be left
+    # exact if the answer is exact: in floats cancellation would leave few digits
     return as_plain_product(speed / result.speed - 1, 10**6) if result.speed else None

@@ -74,14 +74,14 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
         if carrier == parts.frame:
             continue
         nodes = [node for node, own in enumerate(parts.node_group) if own == group]
-        if len(nodes) < 2:  # the slot of a follower, held by its pin
+        if len(nodes) < 2:  # slot of a follower
             continue
         relative = {parts.links[parts.node_link[node]]: parts.relative(node) for node in nodes}
         name = parts.links[carrier]
         axis = tree.axis(name)
         coaxial = {link: x for link, x in relative.items() if link == train.frame or tree.axis(link) == axis}
         members = coaxial if len(coaxial) > 1 else relative
-        # exact, so that of two members at the same distance the first always counts as 1
+        # exact, so that the first of two members at the same distance is reliably scaled to 1
         scale = max(members.values(), key=abs)
         found.append(Lever(name, {name: Fraction(0)} | {link: x / scale for link, x in members.items()}))
     return found

@@ -248,7 +248,7 @@ class _Unfolding:
 
     def _link(self, part: Link, at: int) -> Link:
         wheels = {_named(name, at): wheel for name, wheel in part.wheels.items()}
-        # at what angle the teeth of others stand follows from where they stand
+        # the angles of the teeth of copies follow from their positions
         return part.changed(copies=1, wheels=FrozenDict(wheels), angle=None)
 
     def _joint(self, joint: Revolute, at: int) -> Revolute:

@@ -79,7 +79,7 @@ def _intermittent(train: Train, wheel: str, position: int) -> Problem:
 Method = Literal["auto", "exact", "sparse", "floats"]
 """Method of solution; "floats" is an older name of "sparse"."""
 
-_CONDITIONED = 400  # links up to which each has its condition number; beyond, those of the outputs
+_CONDITIONED = 400  # maximum number of links for which all condition numbers are computed; else only those of outputs
 
 
 @final
@@ -265,11 +265,11 @@ class TrainKinematics(Shown):
         if solution is None or in_floats:
             try:
                 return self._answer_in_floats(part, case, wanted, solution)
-            except RangeError:  # no digit of some speed is known in floats
+            except RangeError:  # a speed has no correct digit in floats
                 if in_floats:
                     raise
             solution = solve(part, case, self.signs, None)
-        if not case.exact:  # radians beside turns are no fractions, and none are shown
+        if not case.exact:  # ratios of radians to turns are irrational
             return self._rounded(part, case, wanted, solution)
         verdict, speeds = solution.verdict, solution.speeds
         return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
@@ -368,7 +368,7 @@ class TrainKinematics(Shown):
 
     def _part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
         declared = self.declaration
-        # inputs of all states: components are walked once, and serve every state
+        # inputs of all states, because the components are computed once for all states
         first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
         return SolvedPart(links, declared.frame, circuits, first)
 
@@ -397,7 +397,7 @@ class TrainKinematics(Shown):
         system = self._system(part, case)
         if solution is None:
             solution = self._without_speeds(part, case, system)
-        if not solution.verdict:  # no square system to factorise
+        if not solution.verdict:  # the system is not square
             return self._rounded(part, case, wanted, solution)
         found = solve_floats(system, condition_of=self._conditioned(part, case, wanted))
         powers = found.exponents.values[:, 0].tolist()
@@ -515,7 +515,7 @@ class TrainKinematics(Shown):
         if not known:
             return verdict
         if not any(case.inputs.values()) and (whole := self._verdict(case)).kind == "locked":
-            return whole  # nothing is driven, and nothing could be
+            return whole  # no input is driven, and none could be
         follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, because it is fixed"
         seen = f"{wanted[0]} relative to {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
         return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)

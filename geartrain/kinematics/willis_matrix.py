@@ -24,7 +24,7 @@ from geartrain.numerics.results import Shown
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-_GIVEN = -1  # the column of what is prescribed
+_GIVEN = -1  # column of prescribed speeds
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -56,7 +56,7 @@ def relative_speed(
     own, other = speed_of(of), speed_of(base)
     if own is None or other is None:
         return None
-    return own - other * axis_sense(of, base, signs) if other else own  # mostly seen from what stands still
+    return own - other * axis_sense(of, base, signs) if other else own  # usually relative to a link at rest
 
 
 @dataclass(frozen=True, slots=True)

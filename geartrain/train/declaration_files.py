@@ -26,7 +26,7 @@ from geartrain.train.yaml_nodes import MOST_DEPTH, MOST_VALUES, YamlNode, as_yam
 # ------------------------------------------------------------------------------------------------------------ json text
 
 
-# other characters are escaped, or refused, in different ways by JSON and YAML
+# JSON and YAML escape or refuse other characters in different ways
 _PLAIN = re.compile(r"[\n\r -\[\]-~]*")
 
 
@@ -44,7 +44,7 @@ class JsonMarks:
     def _node(self) -> YamlNode:
         try:
             return parse_yaml(self.text, self.name)
-        except DeclarationError:  # it is JSON, but for example a key is longer than YAML allows
+        except DeclarationError:  # valid JSON that is not valid YAML, for example with a very long key
             return YamlNode({}, self.name)
 
 
@@ -54,7 +54,7 @@ def parse_json(text: str) -> dict[str, Any] | None:
     Duplicate keys, nan, infinity, deep nesting and too many values also return None, so that the YAML parser
     reports them with line numbers.
     """
-    values = sum(map(text.count, ",:{}[]{["))  # at least as many as the parser's events
+    values = sum(map(text.count, ",:{}[]{["))  # upper bound on the number of parser events
     if values >= MOST_VALUES or not _PLAIN.fullmatch(text):
         return None
     try:
@@ -193,7 +193,7 @@ def _read_json(path: Path) -> Train | None:
     data = parse_json(text)
     if data is None or "extends" in data or "remove" in data or has_short_forms(data):
         return None
-    with suppress(DeclarationError):  # it is raised again by the YAML parser's nodes, which have places
+    with suppress(DeclarationError):  # the YAML parser raises it again with line numbers
         return declare({"name": path.stem, **data}, JsonMarks(text, str(path)))
     return None
 
@@ -213,7 +213,9 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
 
     def declared(text: str) -> dict[str, Any]:
         data = _build(parse_yaml(text, str(path)), path.parent, (path.resolve(),), path.stem).model_dump()
-        return data | {"revolutes": sorted(map(str, data["revolutes"]))}  # by axis, they stand in another order
+        return data | {
+            "revolutes": sorted(map(str, data["revolutes"]))
+        }  # short forms group the turning pairs by axis, so their order changes
 
     text = _read(path)
     before = declared(text)

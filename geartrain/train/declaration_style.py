@@ -160,7 +160,7 @@ def _short_joints(written: _Written) -> list[str] | None:
     for node, (first, other) in zip(written.items, pairs, strict=True):
         links, entries = axes.setdefault(written.source(_parts(node)["axis"]), ([first], []))
         if links[0] != first:
-            return None  # a chain of joints: no link carries all others
+            return None  # a chain of joints, in which no link carries all others
         links.append(other)
         entries.append(written.entry("", node))
     merged = [

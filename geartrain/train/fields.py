@@ -63,7 +63,7 @@ class Declared(BaseModel):
             copy = type(self).model_validate(given | update)
         except ValidationError as error:
             raise DeclarationError(map(_refused, error.errors(include_url=False))) from None
-        if self.__pydantic_private__ is not None:  # where it was written
+        if self.__pydantic_private__ is not None:  # line numbers
             copy.__pydantic_private__ = dict(self.__pydantic_private__)
         return copy
 
@@ -80,7 +80,7 @@ def _refused(error: Mapping[str, Any]) -> Problem:
 def read_count(raw: object) -> int:
     """Read a tooth count: an integer from 1 to 10^12."""
     try:
-        # True is an int of Python's; a text of thousands of digits would take minutes to read
+        # True is an int in Python; converting thousands of digits would take minutes
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
     except ValueError:
         number = None
@@ -203,7 +203,7 @@ def _read_tooth_form(raw: Any) -> Any:
     name = keys.get("form") if isinstance(keys, dict) else getattr(keys, "form", None)
     known = isinstance(name, str) and name in TOOTH_FORMS
     form = _form_reader(*([name] if known else TOOTH_FORMS)).validate_python(keys)
-    # of a union, pydantic builds the members' validators only; writing a form needs its serializer
+    # pydantic builds only the validators of a union's members; writing a form needs its serializer
     type(form).model_rebuild()
     return form
 

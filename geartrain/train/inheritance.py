@@ -56,7 +56,7 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
 
     merged = merge_parent(node_from_data(declared, marks=place), written_out(node_from_data(changes)))
     kept = {key: getattr(declared, key) for key in _OWN if key in declared.model_fields_set}
-    new = {key: value for key, value in merged.plain().items() if key != "remove"}  # it is done
+    new = {key: value for key, value in merged.plain().items() if key != "remove"}  # already applied
     return declare(kept | new, merged.place_of)
 
 
@@ -95,7 +95,7 @@ def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
 
 def _entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
     """Merge two entries of the same kind; short forms are expanded first."""
-    if kind == "clutches":  # one of `fixes` and `locks`: laid over each other they would be both
+    if kind == "clutches":  # exactly one of `fixes` and `locks`: merging could give both
         return new
     old, new = _long(old, kind), _long(new, kind)
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):

@@ -31,7 +31,7 @@ from geartrain.train.fields import Declared, also, short_for
 if TYPE_CHECKING:
     pass
 
-_VICKERS = 9.80665e6  # Pa in one HV, which is kgf/mm2
+_VICKERS = 9.80665e6  # Pa per HV: 1 HV is 1 kgf/mm2
 
 
 def _contracts(figure: Figure) -> Figure:

@@ -303,7 +303,7 @@ class Teeth(Declared):
 # ------------------------------------------------------------------------------------------------------------ mechanism
 
 
-MOST_COPIES = 360  # more planets have room on no carrier
+MOST_COPIES = 360  # no carrier has space for more planets
 
 
 class Source(Declared):
@@ -500,7 +500,9 @@ class Axis(Declared):
     @property
     def way(self) -> Vector:
         """Unit vector of the direction."""
-        top = max(abs(part.value) for part in self.direction)  # the float of a huge number would overflow
+        top = max(
+            abs(part.value) for part in self.direction
+        )  # scaled first, because a huge number would overflow as a float
         x, y, z = (float(part.value / top) for part in self.direction)
         return unit((x, y, z))
 

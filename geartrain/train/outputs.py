@@ -212,7 +212,7 @@ class Dial(Graduation):
         return also({"type": "null"}, handler(schema))
 
 
-_BEHIND = ("back", "rear", "behind")  # words for the far side; a dial that looks elsewhere looks to the front
+_BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face the front
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:

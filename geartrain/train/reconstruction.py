@@ -21,7 +21,7 @@ NEW_ARBOR = "new"
 def _number(raw: object) -> object:
     """Read a whole number from 0 to 1000."""
     try:
-        # True is an int of Python's; a text of thousands of digits would take minutes to read
+        # True is an int in Python; converting thousands of digits would take minutes
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
     except ValueError:
         number = None

@@ -215,7 +215,7 @@ def _no_wheel(train: Train, name: str, at: int) -> Problem:
 
 def _links(train: Train) -> Iterator[Problem]:
     links: Collection[str] = train.links
-    if train.reconstruct is not None:  # evidence need not say that there is a frame
+    if train.reconstruct is not None:  # evidence need not declare the frame
         links = {train.frame, *links}
     if train.frame not in links and "frame" not in train.model_fields_set:
         yield Problem(

@@ -36,7 +36,7 @@ from geartrain.train.outputs import Output
 GRAVITY = 9.80665
 """Standard gravity [m/s^2]."""
 
-_NEAR = 0.05  # of the length of a pendulum with all of its mass in its bob
+_NEAR = 0.05  # relative tolerance of the length of a simple pendulum, for rods with mass
 
 DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in the direction in which the input turns")]
 

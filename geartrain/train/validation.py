@@ -70,7 +70,7 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
         data, marks = node.plain(), marks or node.place_of
     place = marks or dotted
     head = _head(data)
-    if head is not None:  # a large file may be wrong a million times: its beginning tells
+    if head is not None:  # a large file may have a million errors, so its beginning is checked first
         _refuse_many(head, place)
     try:
         train = Train.model_validate(data)
@@ -296,7 +296,7 @@ def _check_short_forms(
     wrong = [gear for gear in short_gears if len(names := _wheels(gear)) != 2 or not all(names)]
     if short_joints is not None and single:
         lists += [_single_link(axis, short_joints.keys.get(axis, short_joints.place)) for axis in single]
-    if lists or wrong:  # only the problems that are shown are put into words
+    if lists or wrong:  # texts are composed only for the problems that are shown
         raise DeclarationError(first_problems(chain(lists, map(_no_pair, wrong)), len(lists) + len(wrong)))
 
 

@@ -17,7 +17,7 @@ from pydantic import BaseModel
 from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Marks, Problem, dotted
 
 MOST_DEPTH = 32
-MOST_VALUES = 3_000_000  # some 200,000 links; the parser needs a quarter of a kilobyte for each
+MOST_VALUES = 3_000_000  # about 200,000 links; the parser needs 0.25 kB for each value
 MOST_EXPANDED = 1_000_000
 _NULLS = {"", "~", "null", "Null", "NULL"}
 _TAGS = {f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "bool", "null", "seq", "map")}
@@ -97,7 +97,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     mark = error.problem_mark or error.context_mark
     place = f"{name}:{mark.line + 1}" if mark else name
     why = " ".join(part for part in (error.context, error.problem) if part)
-    if "nesting depth" in why:  # libyaml 0.2.6 and newer look ahead, and refuse a thousand brackets themselves
+    if "nesting depth" in why:  # libyaml 0.2.6 and newer refuse deep nesting themselves
         return _too_deep(place)
     lines = text.splitlines()
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
@@ -172,7 +172,7 @@ class _Builder:
                     place,
                 )
             )
-        # an alias of aliases doubles at each step ("billion laughs"): what counts is the size written out
+        # aliases of aliases grow exponentially ("billion laughs"), so the expanded size is counted
         self.expanded += target.size
         if self.expanded > MOST_EXPANDED:
             raise DeclarationError(
@@ -297,6 +297,6 @@ def _line(value: Any) -> str:
         return "[" + ", ".join(map(_line, value)) + "]"
     if isinstance(value, int | float) and not isinstance(value, bool):
         return repr(value)
-    # within a list, so that commas and brackets of a text are quoted
+    # dumped as a list entry, so that texts with commas and brackets are quoted
     text: str = yaml.safe_dump([value], default_flow_style=True, width=float("inf"), allow_unicode=True)
     return text.removesuffix("\n").removeprefix("[").removesuffix("]")

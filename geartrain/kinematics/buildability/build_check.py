@@ -121,7 +121,7 @@ def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | No
 # ------------------------------------------------------------------------------------------------------- axis triangles
 
 
-_EQUAL = Fraction(1, 10**6)  # of the longest side: three axes may stand in one plane
+_EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because three axes may be coplanar
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
@@ -134,7 +134,7 @@ def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
     for (first, second), pair in sides.items():
         fewer, more = sorted((near[first], near[second]), key=len)
         for third in fewer:
-            # each triangle once, from its last two labels in order
+            # each triangle once: its third label is the first in order
             if third in more and third < first:
                 yield from _triangle(sizes, (third, first, second), (pair, near[third][first], near[third][second]))
 
@@ -150,7 +150,7 @@ def _triangle(
     lack = long - short - middle
     if lack <= _EQUAL * long:
         return
-    # how far each pair may stand from its design, in the same length
+    # permitted deviation of each pair from its design distance, in the same unit of length
     room = sum(
         (
             abs(pair.bounds[1] - pair.distance) / pair.distance * size[1]
@@ -228,7 +228,7 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
 # -------------------------------------------------------------------------------------------------------- shared wheels
 
 
-_SAME = 1e-6  # of a distance: declared lengths and radii have some six digits
+_SAME = 1e-6  # relative tolerance of distances: declared lengths and radii have about six digits
 
 
 def check_shared_wheels(
@@ -266,7 +266,7 @@ def check_shared_wheels(
 # ------------------------------------------------------------------------------------------------------- skew distances
 
 
-_EQUAL_SKEW = 1e-6  # of the distance: positions are rounded as they are written
+_EQUAL_SKEW = 1e-6  # relative tolerance of distances: written positions are rounded
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
@@ -307,7 +307,7 @@ def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
     """Yield all findings that follow from the declaration, rule by rule (docs/buildability.md)."""
-    yield from check_mates(train)  # first: a wheel that a child adds without a pair changes no speed of its parent
+    yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)
     yield from check_rings(pairs)

@@ -253,7 +253,7 @@ class TrainAssembly:
         among = [mesh for mesh in self._meshes_of(carrier) if set(mesh.links) <= set(links)]
         if len(among) != len(links) - 1:
             return PlanetSet(carrier, None, tuple(links))
-        # equal sets start at the planet whose central wheels come first, so that they are connected alike
+        # start at the planet whose central wheels come first, so that equal sets have isomorphic trees
         start = min(links, key=lambda link: (self._mates(carrier, link) or ["\uffff"], links.index(link)))
         return PlanetSet(carrier, self._planet(carrier, start, None, among), tuple(links))
 
@@ -367,7 +367,7 @@ def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
     """
     found: list[Any] = []
     left = _left(arm, kind, found)
-    # what any two conditions on one angle allow, all of them allow: they stand at whole multiples of one step
+    # pairwise compatible conditions are compatible together, because their solutions are multiples of one step
     found += (_number(one, other, kind.gcd(one[0], other[0])) for one, other in combinations(left, 2))
     return found
 
@@ -384,7 +384,7 @@ def _left(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple
             continue
         D, b = _joined(further, kind, found)
         own, mate = kind.count(contact.own), kind.count(contact.mate)
-        # z phi of the planet farther out is known up to multiples of gcd(z, D)/D
+        # z phi of the child planet is known up to multiples of gcd(z, D)/D
         common = kind.gcd(mate, D)
         left.append((D // common * own, kind.reduced(-contact.sense * kind.reduced(mate // common) * b)))
     return left
@@ -452,12 +452,12 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
     return A * A, B * B, -c * Q, -s * sines, -tips * tips
 
 
-_MISS, _LITTLE = 0.1, 0.01  # pitches: more than any play takes up; less than any play
+_MISS, _LITTLE = 0.1, 0.01  # phase errors (pitches): more than any backlash absorbs; less than any backlash
 ON_ECCENTRIC = 0.25
 """Maximum distance of a wheel's axis from that of its carrier [radius of the wheel] for a wheel on an eccentric."""
-_CLEAR = 0.2  # modules that neighbours should leave each other
-_FULL = 1.0  # addendum (modules) of teeth that are not declared
-_STUB = _FULL - float(SHIFT)  # the lowest that these may have
+_CLEAR = 0.2  # recommended clearance of neighbours (modules)
+_FULL = 1.0  # addendum (modules) of undeclared teeth
+_STUB = _FULL - float(SHIFT)  # smallest addendum of undeclared teeth
 
 
 def check_planets(
@@ -498,7 +498,7 @@ class _EqualPlanets:
     ) -> None:
         assert one.planets is not None
         self.train, self.one, self.planet, self.sizes, self.outlines = train, one, one.planets, sizes, outlines
-        self.tips: dict[str, float] = {}  # of declared teeth; the outermost, where the pairs of a wheel require several
+        self.tips: dict[str, float] = {}  # declared tip radii; the largest, if a wheel has different ones in its pairs
         for wheel, tip in (each for outline in outlines.values() for each in outline.tips.items()):
             self.tips[wheel] = max(tip, self.tips.get(wheel, 0.0))
         self.firsts = [self.planet.link, *(copy.planets.link for copy in copies if copy.planets is not None)]
@@ -579,7 +579,7 @@ class _EqualPlanets:
         for planet in self.planet.walk():
             for mesh in _once(planet):
                 if self._is_on_eccentric(planet, mesh):
-                    continue  # such discs stand beside each other along the axis
+                    continue  # discs on eccentrics are next to each other along the axis
                 gap = self._gap(planet, mesh, self.number)
                 if gap is not None and gap < _CLEAR:
                     yield self._crowded(planet.own(mesh), gap)

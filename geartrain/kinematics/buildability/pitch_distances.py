@@ -53,7 +53,7 @@ def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     if a <= 0:
         return -inf
     out = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1)
-    if out > 1:  # a planet whose tips never reach the ring's tip circle has nothing to pass
+    if out > 1:  # the planet's tips never reach the ring's tip circle
         return inf
     if r2 <= r1 - a or 2 * r2 < z2 * cos(pressure):
         return -inf
@@ -85,7 +85,7 @@ def _involute(angle: float) -> float:
 
 def minimum_ring(planet: int) -> int:
     """Return the tooth count of the smallest ring without trochoid interference with a planet of standard teeth."""
-    # a ring of fewer than 34 teeth has its tip circle within its base circle
+    # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
     return next(z for z in count(first) if tip_room(planet, z, PRESSURE, 1.0, 1.0) > 0)
 
@@ -97,7 +97,7 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
             continue
         ring, planet = pair.counts[pair.ring], pair.counts[1 - pair.ring]
         name, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
-        # a bent wheel's teeth go in and out along the radius, and clear the ring's on its short side
+        # the teeth of a flexible wheel engage radially, and clear the ring's at its minor axis
         judged = pair.form is None and not pair.declared[1 - pair.ring].flexible
         if ring <= planet:
             why = f"the distance of their axes would be ({ring} - {planet})/2 modules, which must be positive"
@@ -132,8 +132,8 @@ SHIFT = Fraction(1, 2)
 
 _FREE = Fraction(
     1, 40
-)  # of a distance: what wheels of no declared size may differ by, as if cut at pitches of their own
-_LOOSE = Fraction(1, 20)  # of a distance: teeth that run at any distance and have sizes of their own
+)  # relative difference of distance of wheels without declared size, as if cut with different pitches
+_LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their own sizes that run at any distance
 
 
 class PairOutline(NamedTuple):
@@ -198,7 +198,7 @@ class PitchPair:
         It is divided by the cosine of the helix angle for helical teeth.
         """
         first, second = (Fraction(wheel.count or 0, 2) for wheel in self.declared)
-        if self.declared[0].is_helical:  # a module is that of the section across the teeth
+        if self.declared[0].is_helical:  # the declared module of helical wheels is the normal module
             first, second = (half * Fraction(self.declared[0].slant) for half in (first, second))
         if self.ring is None:
             return first + second
@@ -249,7 +249,7 @@ def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
     try:
         wheels, slant = WheelPair(*counts, internal=pair.ring is not None, helix=abs(lean)), pair.declared[0].slant
         return Fraction(unplaced.involutes(wheels).distance * slant)
-    except GearTrainError:  # there are no such teeth, as is said of them
+    except GearTrainError:  # invalid teeth are reported by their own check
         return pair.touching
 
 
@@ -280,7 +280,7 @@ def pitch_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> tuple[
     return tuple(found)
 
 
-_EQUAL = Fraction(1, 10**6)  # of a distance: positions are rounded as they are written
+_EQUAL = Fraction(1, 10**6)  # relative tolerance of distances: written positions are rounded
 _MM = ("mm",)
 Node = tuple[str, ...]
 
@@ -473,8 +473,8 @@ class PitchDistances:
         return _modules(modules) if module is None else _mm(modules * module)
 
 
-_MOST = 50  # pairs between two axes that a further one is held against
-_SHIFTS = (-1.0, 2.0)  # sums of shifts (modules) that full teeth of 20 degrees bear, from 20 and 40 teeth on nearly
+_MOST = 50  # pairs between two axes with which a further one is compared; bounds the cost for many coaxial pairs
+_SHIFTS = (-1.0, 2.0)  # range of the sum of shifts (modules) for full-depth teeth of 20 degrees, about 20 and 40 teeth
 _BRIDGE = "shift profiles, give the pairs different modules, or change a tooth count"
 
 

@@ -79,7 +79,7 @@ class Circuit(NamedTuple):
         """
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
-        # b is 0 for a follower, and a + b for a pin that turns its slot: the third link then has no part in it
+        # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
@@ -113,7 +113,9 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             problems.append(_no_count(train, gear.pair, (wheel_i, wheel_j)))
             continue
         straight = wheel_i.helix_angle is None and wheel_j.helix_angle is None
-        if axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur":  # nearly all: no direction is looked at
+        if (
+            axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur"
+        ):  # fast path for nearly all pairs, without directions
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
             circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
             continue
@@ -208,7 +210,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     )
 
 
-_MEET = 1e-3  # of the distance of two declared points: nearer axes meet, for positions are rounded
+_MEET = 1e-3  # relative to the distance of two declared points: closer axes intersect, because positions are rounded
 
 
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
@@ -233,7 +235,7 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
             )
         )
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
-    return atan2(size, facing * dot(u, v))  # not acos, which loses half the digits near 0 and pi
+    return atan2(size, facing * dot(u, v))  # acos would lose half the digits near 0 and pi
 
 
 def bevels_on_one_side(

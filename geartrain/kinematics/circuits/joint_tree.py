@@ -83,7 +83,7 @@ def find_tree(train: Train) -> Tree:
     while queue:
         link = queue.popleft()
         for other, axis, at in joints[link]:
-            # by pair, not by link: two pairs that join the same two links close a cycle
+            # compare pairs, not links, because two pairs between the same links close a cycle
             if at in used:
                 continue
             used.add(at)
@@ -144,7 +144,7 @@ def _loose(train: Train, link: str) -> Problem:
 # -------------------------------------------------------------------------------------------------------- helical pairs
 
 
-_SAME = 1e-6  # rad: angles as near as this are equal, for they are rounded as written
+_SAME = 1e-6  # rad: tolerance of angles, because written angles are rounded
 
 
 def check_parallel(first: Wheel, second: Wheel) -> None:
@@ -264,7 +264,7 @@ class Axes:
         lines = {label: _line(direction) for label, direction in {"": _Z, **self.directions}.items()}
         for label, line in lines.items():
             first.setdefault(line, (len(first), self.direction(label)))
-        # of each axis, the number of its line, and whether it points as the first declared one along it
+        # for each axis the number of its direction class, and its sense relative to the first axis of the class
         self._lines = {label: first[line][0] for label, line in lines.items()}
         self._senses = {
             label: 1 if dot(first[line][1], self.direction(label)) > 0 else -1 for label, line in lines.items()
@@ -381,13 +381,13 @@ class Axes:
         hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
         label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
-        self.helix_angles((label_i, label_j), (wheel_i, wheel_j))  # raises where the teeth do not lie along the thread
+        self.helix_angles((label_i, label_j), (wheel_i, wheel_j))  # raises if the teeth are not aligned with the thread
         here, there = self.positions.get(worm), self.positions.get(wheel)
         turn = Fraction(0)
         if here is not None and there is not None:
             arm, centre = _vector(here), _vector(there)
             reach = minus(arm, centre)
-            # the worm's thread drives the wheel's teeth against the direction in which it would screw itself
+            # the thread drives the wheel's teeth opposite to the direction in which the worm would advance
             turn = -hand * dot(self.direction(worm), cross(self.direction(wheel), reach))
         flip = self.sign(worm) * self.sign(wheel)
         if turn:
@@ -494,7 +494,7 @@ class JointLines:
 
     def rigid(self, labels: Sequence[str]) -> bool:
         """Return whether a closed chain of turning pairs with these axes cannot move."""
-        # up to three different lines have independent screws in every pose; of more only the rank in this pose tells
+        # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._alike(one, other) for one, other in combinations(labels, 2)):
             return True
         screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]

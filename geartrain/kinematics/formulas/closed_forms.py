@@ -72,7 +72,7 @@ def _positive(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
     terms = p.sorted_terms()
     value = whole(terms, point) or terms[0].coefficient
     found = terms if value > 0 else (-p).sorted_terms()
-    return tuple(sorted(found, key=lambda term: term.coefficient < 0))  # what is added stands first
+    return tuple(sorted(found, key=lambda term: term.coefficient < 0))  # positive terms first
 
 
 def _parted(p: Laurent) -> Iterator[Laurent]:

@@ -185,7 +185,7 @@ def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
                 work += len(value) * len(entry)
                 if work > MOST_PRODUCTS:
                     raise TooLongError
-                # the columns used before that stand right of this one: as many swaps
+                # sign of the permutation: number of used columns to the right
                 step = -(value * entry) if (used >> (column + 1)).bit_count() & 1 else value * entry
                 mask = used | 1 << column
                 found[mask] = found[mask] + step if mask in found else step
@@ -203,7 +203,9 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
     rest = dict(p.shifted(_minus(low_p)).terms)
     divisor = q.shifted(_minus(low_q)).terms
     lead = max(divisor)
-    queue = [_minus(exponents) for exponents in rest]  # a heap gives its least: the highest powers
+    queue = [
+        _minus(exponents) for exponents in rest
+    ]  # negated, because the heap returns the smallest and the highest powers are needed
     heapify(queue)
     found: dict[Exponents, Fraction] = {}
     while queue:
@@ -244,7 +246,7 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     for whole, other in ((p, q), (q, p)):
         if len(whole) <= len(other) and divide(other, whole) is not None:
             return whole
-    # in the variable of least degree Euclid's algorithm takes the fewest steps
+    # Euclid's algorithm needs the fewest steps in the variable of lowest degree
     return _remainders(p, q, min(shared, key=lambda at: min(_degree(p, at), _degree(q, at))))
 
 
@@ -309,11 +311,11 @@ def _may_share(p: Laurent, q: Laurent, at: int) -> bool:
     prime.
     """
     draw = random.Random(len(p) * 1000 + len(q))
-    # at a random point the degree of the common divisor may come out too large, never too small
+    # at a random point the degree of the common divisor may be too high, never too low
     point = [draw.randrange(1, PRIME) for _ in range(p.width)]
     left, right = (_image(each, at, point) for each in (p, q))
     if len(left) <= _degree(p, at) and len(right) <= _degree(q, at):
-        return True  # both leading coefficients vanish by accident: nothing is known
+        return True  # both leading coefficients vanish by coincidence, so nothing is known
     while right:
         left, right = right, _remainder(left, right)
     return len(left) > 1

@@ -84,10 +84,10 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
 
     Raises `TooLongError` if too many unknowns depend on each other for their functions to be useful.
     """
-    # always the same point, so that a question has one answer
+    # fixed seed, so that results are reproducible
     draw = random.Random(width)
-    # a polynomial that is not 0 vanishes at a random point with a chance below its degree over the prime, 2^61 - 1
-    # (Schwartz and Zippel)
+    # a non-zero polynomial vanishes at a random point with a probability of at most degree / (2^61 - 1)
+    # (Schwartz-Zippel lemma)
     point = [draw.randrange(1, PRIME) for _ in range(width)]
     pivots, core, conditions = _divide_out(rows)
     chosen, span = _independent(core, point)
@@ -178,7 +178,7 @@ def _solve_core(
         ]
         *replaced, whole = minors(matrix, width)
         for column, index in inside.items():
-            # Cramer's rule: the right side stands last, and moves over the columns after the one it replaces
+            # Cramer's rule: the right-hand side is the last column, and moves past the columns after the replaced one
             odd = (size - 1 - index) & 1
             values[column] = SymbolicValue(-replaced[index] if odd else replaced[index], used | {number})
         determinants.append(whole)
@@ -327,7 +327,7 @@ class SymbolicEquations:
                 row = self._form(subject)
                 add_into(row, self._seen_from(node), self._number(-1))
                 yield row, f"'{parts.links[subject]}' is driven in more than one way"
-            else:  # a component that is held on its carrier, whatever the counts
+            else:  # a component that is locked to its carrier for all counts
                 yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' locks its wheels"
 
     def _held(self, case: StateCase) -> Iterator[tuple[Row, str]]:
@@ -413,7 +413,7 @@ def find_formulas(
     (case,) = close_joints(train, tree, [train.case(state)])
     if inputs is not None:
         case = replace(case, inputs={link: Fraction(speed) for link, speed in inputs.items()})
-    # rings last, as sums and products of counts are written
+    # rings last, as usual in formulas
     wheels = tuple(
         sorted((name for name in train.wheels if name in free), key=lambda name: train.wheels[name][1].internal)
     )
@@ -440,7 +440,7 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
         changed = wheel.model_copy(update={"teeth": _with_value(wheel, int(count))})
         links[link] = links[link].model_copy(update={"wheels": {**links[link].wheels, name: changed}})
     copied = train.model_copy(update={"links": links})
-    copied.__dict__.pop("wheels", None)  # a copy takes along what was found on the first one
+    copied.__dict__.pop("wheels", None)  # the copy contains the cached property of the original
     return copied
 
 
@@ -459,7 +459,7 @@ def _equations(
 ) -> SymbolicEquations:
     """Return the equations that affect the outputs. Free wheels are represented by distinct large random counts."""
     stand_in = with_counts(train, {name: free[name][0] for name in wheels})
-    # large and random: no two free wheels are alike, so that no loop closes by accident
+    # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
     circuits = [circuit.with_counts(sizes) for circuit in find_circuits(stand_in, tree)]

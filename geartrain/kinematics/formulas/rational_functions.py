@@ -95,7 +95,7 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
-        # multiples of one list are the same list once divided by their common divisor and sign
+        # canonical form: divide by the common divisor and the sign of the first non-zero entry
         size = math.gcd(*steps)
         if size:
             size = size if next(step for step in steps if step) > 0 else -size
@@ -208,7 +208,7 @@ class Formula:
 
         counts   tooth count by wheel, at least of all `wheels`
         """
-        point = [int(counts[wheel]) for wheel in self.wheels]  # numpy's would overflow
+        point = [int(counts[wheel]) for wheel in self.wheels]  # Python integers, because numpy's would overflow
         bottom = whole(self.denominator, point)
         return Fraction(whole(self.numerator, point), bottom) if bottom else None
 
@@ -229,7 +229,7 @@ class Formula:
 
         value, error = self._bounded(columns)
         with np.errstate(all="ignore"):
-            # the exact value is at least |value| - error in size
+            # |exact| is at least |value| - error
             found = np.where(error > 0, error / (np.abs(value) - error), 0.0)
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
@@ -291,7 +291,7 @@ def make_formula(
     cancelled = grouping.back(common, len(wheels))
     if not common.is_constant:
         quotients = [grouping.back(_over(each, common), len(wheels)) for each in (top, bottom)]
-        grouping = find_grouping(quotients)  # what is left may fall into fewer classes
+        grouping = find_grouping(quotients)  # the quotients may have fewer classes
         top, bottom = grouping.rewritten
     return _formula(label, wheels, grouping, top, bottom), cancelled
 

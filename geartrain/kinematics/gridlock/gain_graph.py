@@ -22,7 +22,9 @@ GainLoop = list[tuple[int, int]]
 
 def inverse(gain: Gain) -> Gain:
     """Return the inverse gain; signs stay integers, which are fast."""
-    return gain if gain == 1 or gain == -1 else 1 / Fraction(gain)  # a float never: products must close exactly
+    return (
+        gain if gain == 1 or gain == -1 else 1 / Fraction(gain)
+    )  # never a float, because products are compared with 1 exactly
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,7 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Se
         gone[mesh] = 1
     size, at, ends, gains = network.size, network.at, network.ends, network.gains
     parent, entry = [-1] * size, [-1] * size
-    speeds: list[Gain] = [0] * size  # 0: not reached
+    speeds: list[Gain] = [0] * size  # 0 means not reached
     order: list[int] = []
     done = 0
     for root in (*roots, *range(size)):
@@ -126,7 +128,7 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Se
                     speeds[there] = speeds[here] * network.gain(mesh, here) if mesh in gains else speeds[here]
                     parent[there], entry[there] = here, mesh
                     order.append(there)
-                    gone[mesh] = 1  # in the tree
+                    gone[mesh] = 1  # tree edge
     breaking: dict[int, Gain] = {}
     chords = []
     for mesh, (first, second) in enumerate(ends):
@@ -157,7 +159,7 @@ def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
     chord = next(iter(found.breaking))
     path = tree_path(*network.ends[chord], found.above)
     anchors = _anchors(found, path)
-    # each chord covers a stretch of the path: +1 where it begins, -1 where it ends, and sums tell how many are open
+    # each chord covers an interval of the path: +1 at its start, -1 at its end; prefix sums count covering chords
     opened, agreed, amounts = [0] * (len(path) + 1), [0] * (len(path) + 1), set()
     for mesh, amount in found.breaking.items():
         low, high = (anchors[end] for end in network.ends[mesh])
@@ -182,7 +184,7 @@ def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
     anchors = [-1] * len(found.order)
     for at, node in enumerate(path):
         anchors[node] = at
-    # the node of the path nearest the root: what hangs on no node of the path comes over this one
+    # the node of the path nearest the root, through which all nodes outside its subtrees are reached
     top = next(at for at, node in enumerate(path) if found.parent[node] not in path[max(0, at - 1) : at + 2])
     for node in found.order:
         if anchors[node] < 0:
@@ -240,7 +242,7 @@ def shortest_loop(
         loop = _loop_through(network, without, start, len(best) if best else 2 * network.size + 1)
         if loop is not None and (best is None or len(loop) < len(best)):
             best = loop
-            if len(best) == 2:  # none is shorter
+            if len(best) == 2:  # the shortest possible loop
                 break
     return best
 
@@ -253,10 +255,10 @@ def _loop_through(network: GainGraph, without: Collection[int], start: int, belo
     best: tuple[int, int, int] | None = None
     queue = [start]
     for here in queue:
-        if 2 * depth[here] + 1 >= below:  # what closes from here on is as long as the best at least
+        if 2 * depth[here] + 1 >= below:  # loops found from here on are not shorter than the best
             break
         for mesh in network.at[here]:
-            # by mesh, not by node: two meshes between the same nodes make a loop
+            # compare meshes, not nodes, because two meshes between the same nodes form a loop
             if mesh in without or (here in came and mesh == came[here][1]):
                 continue
             there = network.other(mesh, here)

@@ -20,8 +20,8 @@ from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000
 """Maximum number of meshes for the search over several carriers; each trial solves the train."""
-_ONE_BY_ONE = 200  # meshes up to which each is tried alone
-_TRIALS = 3000  # sets that are tried at most
+_ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
+_TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
@@ -44,7 +44,7 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
         return Gridlock()
     jams = tuple(_jam(parts, jammed) for jammed in find_locked_networks(parts))
     gone = {mesh for jam in jams for mesh in jam.release.meshes}
-    ordinary = all(carrier == parts.frame for carrier in parts.group_carrier)  # nothing then couples components
+    ordinary = all(carrier == parts.frame for carrier in parts.group_carrier)  # then components are not coupled
     held = () if ordinary else _held(part, gone)
     if held:
         return Gridlock(jams, held, _coupled(part, gone, sum(jam.release.at_least for jam in jams)))
@@ -163,12 +163,14 @@ def _varied(part: SolvedPart) -> SolvedPart:
     """Return the train with another ratio for every link and carrier; the ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
-        # long and random: that a link then stands still by accident is next to impossible (Schwartz-Zippel)
-        return Random(f"{link} {carrier}").randrange(10**6, 10**7)  # by name, so that it stays when meshes go
+        # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma)
+        return Random(f"{link} {carrier}").randrange(
+            10**6, 10**7
+        )  # seeded by name, so that it does not change when meshes are removed
 
     circuits = [
         circuit._replace(
-            # each link's speed about the carrier times a factor of its own: products round loops stay as they are
+            # each link's relative speed is multiplied by its own factor, which cancels in the product around a loop
             a=circuit.a * factor(circuit.j, circuit.carrier),
             b=circuit.b * factor(circuit.i, circuit.carrier),
         )
@@ -199,7 +201,7 @@ def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemo
     if singles:
         return MeshRemoval((singles[0],), "one", 1, tuple(singles))
     needed = _needed(part, sorted(gears, key=lambda name: name not in gone))
-    # each mesh was tried alone, and none of them frees the train
+    # no single mesh frees the train
     minimum = max(minimum, 2) if len(gears) <= _ONE_BY_ONE else minimum
     if sum(comb(len(gears), size) for size in range(minimum, len(needed))) > _TRIALS:
         return MeshRemoval(tuple(needed), "greedy", minimum)

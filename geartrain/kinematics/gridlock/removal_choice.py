@@ -85,7 +85,7 @@ class _Search:
         if self.budget < 0:
             raise OverBudgetError
         loops = disjoint_loops(self.network, gone, kept)
-        # each of these loops costs a mesh of its own, so nothing below this branch is smaller than the best
+        # each of these disjoint loops requires one removal, so this branch cannot improve the best set
         if loops is None or len(gone) + len(loops) >= self.most:
             return
         if not loops:
@@ -96,7 +96,7 @@ class _Search:
             if mesh in kept or mesh in self.network.firm:
                 continue
             self._branch([*gone, mesh], kept)
-            # all sets with this mesh are tried: in what follows it stays, so that no set is tried twice
+            # all sets with this mesh have been tried; it is kept in what follows, so that no set is tried twice
             kept.add(mesh)
             passed.append(mesh)
         kept.difference_update(passed)
@@ -140,7 +140,7 @@ def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict
             seen.add(meshes)
             for step in meshes:
                 times[step] = times.get(step, 0) + 1
-    # short loops first, for more of them fit beside each other; then by number, the same on every run
+    # short loops first, because more of them can be disjoint; then by number, for reproducible results
     for meshes_of in sorted(seen, key=lambda some: (len(some), sorted(some))):
         if taken.isdisjoint(meshes_of - network.firm):
             taken |= meshes_of - network.firm
@@ -192,7 +192,7 @@ def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
     first.
     """
     up = list(range(network.size))
-    gain: list[Gain] = [1] * network.size  # speed over that of the node above
+    gain: list[Gain] = [1] * network.size  # speed over that of the parent node
     refused = []
     for mesh in (*network.firm, *(mesh for mesh in order if mesh not in network.firm)):
         first, second = network.ends[mesh]
@@ -226,11 +226,11 @@ def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
         requested: dict[Gain, int] = {}
         for mesh in network.at[here]:
             there = network.other(mesh, here)
-            # a firm mesh outvotes all others together
+            # a firm mesh has more weight than all others together
             value = speed[there] * network.gain(mesh, there)
             requested[value] = requested.get(value, 0) + (len(network.ends) if mesh in network.firm else 1)
         best = max(requested, key=lambda value: requested[value])
-        # only strictly more votes move a node: the sum of votes that are met grows each time, and the loop ends
+        # only a strict majority moves a node: the number of consistent meshes grows each time, so the loop ends
         if requested[best] > requested.get(speed[here], 0):
             speed[here] = best
             queue += [network.other(mesh, here) for mesh in network.at[here]]
@@ -269,7 +269,7 @@ def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None
     if not planar or not isinstance(drawing, nx.PlanarEmbedding):
         return None
     faces = _faces(drawing)
-    # each region's boundary multiplies to -1 or 1; a loop fails if it encloses an odd number of those with -1
+    # the boundary of each face has the product -1 or 1; a loop is inconsistent if it encloses an odd number of -1
     odd = [at for at, face in enumerate(faces) if _fails(bundles, face)]
     if len(odd) > most_odd:
         return None
@@ -363,7 +363,7 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
     for pair, surplus in bundles.items():
         one, two = side[pair], side[pair[1], pair[0]]
         if one != two:
-            dual[one].append((two, abs(surplus), pair))  # crossing a bundle costs the meshes that would go
+            dual[one].append((two, abs(surplus), pair))  # weight: number of meshes to remove when the bundle is crossed
             dual[two].append((one, abs(surplus), pair))
     ways = {start: _ways(dual, start) for start in odd}
     graph: nx.Graph[int] = nx.Graph()
@@ -372,7 +372,7 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
     )
     join: set[Pair] = set()
     for one, two in nx.min_weight_matching(graph):
-        # ways that share a bundle cancel there: the join is their symmetric difference
+        # paths that share a bundle cancel there: the join is their symmetric difference
         came = ways[one][1]
         while two != one:
             two, pair = came[two]
@@ -407,9 +407,9 @@ SMALL = 20
 """Number of meshes of a block up to which branch and bound always finds a smallest set."""
 LARGE = 10_000
 """Number of meshes of a component above which only a single mesh or a greedy set is searched."""
-_MEDIUM = 300  # nodes, or meshes, up to which a loop is looked for from everywhere: that costs their square
+_MEDIUM = 300  # nodes or meshes up to which loops are searched from every node, at quadratic cost
 _SEARCHED = 100  # meshes of a block up to which branch and bound is tried
-_BRANCHES = 20_000  # times meshes: a second or two
+_BRANCHES = 20_000  # branches times meshes, one or two seconds
 
 
 class LoopPacking(NamedTuple):
@@ -460,10 +460,12 @@ def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
         starts: Sequence[int] = range(network.size)
         best = None
     else:
-        # the loop shown is an example: of very many chords the first are enough to find a short one
+        # the loop is only an example, so the first chords are enough to find a short one
         chords = list(found.breaking)[:200]
         best = min((found.loop(chord, network.ends[chord]) for chord in chords), key=len)
-        starts = [node for node, _ in best[: 1 + 5000 // len(best)]]  # a way round each of them costs its length
+        starts = [
+            node for node, _ in best[: 1 + 5000 // len(best)]
+        ]  # bounds the cost, which is proportional to the length of the loop for each start
     loop = shortest_loop(network, (), starts)
     return loop if loop is not None and (best is None or len(loop) <= len(best)) else best or []
 
@@ -476,7 +478,7 @@ def _choose_in_block(block: GainGraph) -> RemovalChoice:
         return RemovalChoice(
             sorted(singles)[:1], "one", 1, sorted(singles), [LoopPacking([open_loop(block, found)], 1)]
         )
-    plain = GainGraph(block.size, block.ends, found.breaking, block.firm)  # speeds in units of the walk's
+    plain = GainGraph(block.size, block.ends, found.breaking, block.firm)  # speeds in the units of the search
     small = len(block.ends) - len(block.firm) <= SMALL
     if not small and all(gain == -1 for gain in found.breaking.values()):
         join = planar_removal(plain)
@@ -489,7 +491,7 @@ def _choose_in_block(block: GainGraph) -> RemovalChoice:
     if bound.at_least == len(meshes) or len(block.ends) > _SEARCHED:
         return _greedy(meshes, bound)
     try:
-        # a small block has at most 2**SMALL sets of meshes, far within 10**9: its search always ends
+        # a small block has at most 2**SMALL sets of meshes, far below 10**9, so its search always ends
         better = minimal_removal(plain, len(meshes), 10**9 if small else _BRANCHES // len(block.ends))
     except OverBudgetError:
         return _greedy(meshes, bound)

@@ -66,14 +66,14 @@ class PitchPoints:
     @cached_property
     def constant(self) -> Floats:
         """Constant c of equation (1) of docs/closure.md, in pitches from 0 to 1: a theta_i + b theta_j = c (mod 1)."""
-        # whole pitches go before the sum, where they would eat digits; 1/2, for a tooth meets a gap
+        # integer pitches are removed before the sum, to keep digits; 1/2 because a tooth meets a gap
         whole: Floats = np.mod(np.mod(self.teeth * self.azimuth, 1.0).sum(axis=1) + 0.5, 1.0)
         return whole
 
     @cached_property
     def doubt(self) -> Floats:
         """Maximum error of `constant` (pitches)."""
-        # a pitch is 1 / z turn: what is unsure of an azimuth counts z times
+        # a pitch is 1/z turn, so the error of an azimuth counts z times
         doubt: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
         return doubt
 
@@ -81,7 +81,7 @@ class PitchPoints:
     def scale(self) -> int:
         """Common denominator of all exact fractions of a turn, and of one half."""
         found = {part.denominator for parts in self.part for part in parts}
-        # as objects: a common denominator of many parts may pass 64 bits
+        # dtype object, because the common denominator may exceed 64 bits
         return int(np.lcm.reduce(np.array([2, *found], dtype=object)))
 
     @cached_property
@@ -112,10 +112,10 @@ def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[
     return [(number[i], number[j]) for i, j in keys], number
 
 
-MOUNT = "\0"  # stands between the frame's name and that of a wheel mounted on it
+MOUNT = "\0"  # separates the frame's name from that of a wheel mounted on it
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
 _DECIMAL = re.compile(r"[.eE]")
-_COMPARED = 8  # families of a wheel that a new contact is compared with
+_COMPARED = 8  # families of a wheel with which a new contact is compared
 _Z: IntegerVector = (0, 0, 1)
 
 
@@ -255,11 +255,11 @@ def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Con
     way = across_whole(minus(second.place, first.place), first.sense)
     if not any(way):
         return "its axes coincide"
-    # across_whole lengthens by the square of the sense
-    length = _norm(way) / dot(first.sense, first.sense)  # a Fraction: positions may have hundreds of digits
+    # across_whole scales by the square of the length of `sense`
+    length = _norm(way) / dot(first.sense, first.sense)  # exact, because positions may have hundreds of digits
     rounded = _turns(float((first.error + second.error) / length))
     back = minus((0, 0, 0), way)
-    # 4 roundings of an arctangent of exact whole numbers
+    # four roundings in the arctangent of exact integers
     return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
 
 
@@ -274,7 +274,7 @@ def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Con
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
     sine = float(_norm(cross(n, m)) / (_norm(n) * _norm(m)))
     rounded = _turns((first.unsure + second.unsure) / sine)
-    # the smaller the angle between the axes, the more of a direction across one is rounding
+    # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
     return across_whole(m, first.way), across_whole(n, second.way), rounded, 16 * EPS / sine
 
 
@@ -284,7 +284,9 @@ def _norm(vector: IntegerVector) -> Fraction:
 
 
 def _turns(sine: float) -> float:
-    return math.asin(sine) / math.tau if sine < 1 else 0.5  # rounding as large as the distance: anywhere
+    return (
+        math.asin(sine) / math.tau if sine < 1 else 0.5
+    )  # rounding as large as the distance: the direction is unknown
 
 
 def _azimuths(
@@ -311,7 +313,7 @@ def _azimuths(
 def _frame(sense: IntegerVector) -> tuple[list[float], list[float]]:
     n = np.array(_floats(sense))
     n /= np.linalg.norm(n)
-    # x, unless what is left of it across n would be mostly rounding
+    # x, unless its component normal to n would be mostly rounding error
     start = np.array([1.0, 0.0, 0.0]) if abs(n[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     first = start - (start @ n) * n
     first /= np.linalg.norm(first)
@@ -322,7 +324,7 @@ def _floats(vector: IntegerVector) -> tuple[float, float, float]:
     """Convert a direction to floats; components of hundreds of digits are scaled first."""
     x, y, z = vector
     top = max(abs(x), abs(y), abs(z))
-    if top.bit_length() < 300:  # and so are squares and products within float64
+    if top.bit_length() < 300:  # squares and products are within float64
         return float(x), float(y), float(z)
     return float(Fraction(x, top)), float(Fraction(y, top)), float(Fraction(z, top))
 
@@ -347,7 +349,9 @@ def _families(
         found.append([])
         for link, way, turn in zip((circuit.i, circuit.j), ways[at], turns[at], strict=True):
             known = heads.setdefault((link, circuit.carrier), [])
-            for number, head, zero, other in known[-_COMPARED:]:  # a hub of thousands of mates stays linear
+            for number, head, zero, other in known[
+                -_COMPARED:
+            ]:  # keeps the cost linear for a hub with thousands of mates
                 part = rational_angle(head, way, (turn - zero) % 1)
                 if part is None and rounded[at] + rounded[other]:
                     slack = rounded[at] + rounded[other] + blurred[at] + blurred[other]

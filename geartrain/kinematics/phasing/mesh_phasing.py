@@ -73,7 +73,9 @@ class DivisibilityRule(Result):
     def text(self) -> str:
         """Rule in words, such as `3 divides za and 5 divides zb`."""
         kinds = [kind for _, terms in self.conditions for kind in terms]
-        short = all(kind[:1].isdigit() or len(kind) <= 2 for kind in kinds)  # z5, z4a and ze, else z[sun]
+        short = all(
+            kind[:1].isdigit() or len(kind) <= 2 for kind in kinds
+        )  # short names are written like z5, z4a and ze, others like z[sun]
         sums = (f"{modulus} divides {_sum(terms, short)}" for modulus, terms in self.conditions)
         return " and ".join(sums) or "always"
 
@@ -118,7 +120,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
     alone: dict[str, int] = {}
     mixed: list[tuple[int, Row]] = []
     for power in _prime_powers(scale):
-        # the part for p of a form: a multiple that is 1 modulo the power of p and 0 modulo the rest
+        # p-part of a form: the multiple that is 1 modulo the power of p and 0 modulo the cofactor (Chinese remainders)
         lifted = [[value * pow(scale // power, -1, power) % power for value in row] for row in whole]
         for modulus, row in (_plain(row, power) for row in _needed(lifted, power)):
             terms = {kind: value for kind, value in zip(kinds, row, strict=True) if value}
@@ -144,7 +146,7 @@ def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
 def _prime_powers(number: int) -> Iterable[int]:
     prime = 2
     while number > 1:
-        # trial division: what has no divisor up to its root is prime
+        # trial division up to the square root; the remaining cofactor is prime
         if prime * prime > number:
             prime = number
         power = 1
@@ -189,7 +191,7 @@ def _triangle(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
         for row in active:
             times = row[column] // common
             rest.append([(a - times * b) % power for a, b in zip(row, pivot, strict=True)])
-        # a multiple that clears the column may say something about the others
+        # a multiple that is 0 in this column may still constrain the other columns
         rest.append([value * (power // common) % power for value in pivot])
         active = [row for row in rest if any(row)]
         found.append(pivot)
@@ -201,7 +203,7 @@ def _plain(row: Sequence[int], power: int) -> tuple[int, list[int]]:
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
-    # only how the condition reads depends on the unit: past 1000 of them none is looked at
+    # the unit affects only the notation, so at most 1000 are tried
     units = [unit for unit in range(1, min(modulus, 1000) + 1) if math.gcd(unit, modulus) == 1]
     return modulus, min((_centred(row, unit, modulus) for unit in units), key=_size)
 
@@ -356,7 +358,7 @@ def _shown(value: Fraction | float) -> str:
 # --------------------------------------------------------------------------------------------------------- mesh phasing
 
 
-_SHOWN = 10  # loops named in a text
+_SHOWN = 10  # maximum number of loops listed in a text
 
 
 @dataclass(frozen=True)
@@ -519,7 +521,7 @@ class MeshPhasing(Result):
         errors = self.errors
         if any(abs(error) > self.backlashes[name] / 2 for name, error in errors.items() if name in self.backlashes):
             return False
-        # less than 1e-9 pitch is rounding, and needs no play
+        # errors below 1e-9 pitch are rounding errors, and need no backlash
         off = [name for name, error in errors.items() if abs(error) > 1e-9]
         return True if all(name in self.backlashes for name in off) else None
 
@@ -616,8 +618,8 @@ def _name(link: str) -> str:
     return link.rpartition(MOUNT)[2]
 
 
-_FRAME = MOUNT  # no gear on a sphere has this name
-_OFF = 1e-6  # turns: contacts declared regular stand nearer than this to where they should
+_FRAME = MOUNT  # cannot be the name of a gear
+_OFF = 1e-6  # tolerance (turns) of the positions of contacts declared as regular
 
 
 class SphericalGears(Protocol):
@@ -786,7 +788,7 @@ def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> P
         part.append((found[0], found[1]))
         keys.append((key[0], key[1]))
     family, _ = contact_families(keys)
-    # the smaller the angle between the axes, the more of a direction across one is rounding
+    # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
     slack = 16 * EPS / sine[:, None] * np.ones(2)
     return PitchPoints(circuits, azimuth, slack, family, part)
 
@@ -797,7 +799,7 @@ def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats
 
     The azimuth is measured from the direction normal to the axis and to the coordinate axis farthest from it.
     """
-    # farthest from the axis, so that the vector product is never near 0
+    # coordinate axis farthest from the axis, so that the cross product is never near 0
     minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
     first = np.cross(axes, minimum)
     first /= np.linalg.norm(first, axis=1)[:, None]

@@ -42,8 +42,8 @@ class PhaseCycle(NamedTuple):
         return dict(zip(self.meshes, self.weights, strict=True))
 
 
-_LENGTHS = (4, 6, 8, 12, math.inf)  # meshes of a loop: short ones are looked for first
-_PASSES = 8  # over those that wait: a loop taken makes others shorter
+_LENGTHS = (4, 6, 8, 12, math.inf)  # maximum number of meshes of a loop; short loops are searched first
+_PASSES = 8  # passes over the remaining chords: a chord that is taken shortens other loops
 
 _Edges = dict[int, list[tuple[int, int]]]
 
@@ -63,7 +63,7 @@ def find_cycle_basis(
         if mesh >= 0 and parts.node_group[node] in groups:
             _join(edges, mesh, node, parts.node_parent[node])
     depth = node_depths(parts)
-    # those near the root first: their loops are short, and shorten those of others
+    # chords near the root first: their loops are short, and shorten others
     waiting = sorted(parts.closing, key=lambda at: depth[ends[at][0]] + depth[ends[at][1]])
     found: list[PhaseCycle] = []
     for most in _LENGTHS:
@@ -79,7 +79,7 @@ def find_cycle_basis(
                 found.append(PhaseCycle(tuple(nodes), tuple(meshes), cycle_weights(circuits, ends, nodes, meshes)))
                 _join(edges, chord, i, j)
             progress = len(later) < len(waiting)
-            waiting = later[::-1]  # what one pass could not reach may follow from the other end
+            waiting = later[::-1]  # reversed, because chords left over by one pass may be reachable from the other end
             if not progress or not waiting:
                 break
     return found
@@ -110,7 +110,9 @@ def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[i
     fronts = [[start], [goal]]
     length = 0
     while (length := length + 1) <= most:
-        side = 0 if len(fronts[0]) <= len(fronts[1]) else 1  # the smaller front grows: far fewer nodes are looked at
+        side = (
+            0 if len(fronts[0]) <= len(fronts[1]) else 1
+        )  # the smaller front is expanded, which visits far fewer nodes
         fresh = []
         own, other = came[side], came[1 - side]
         for node in fronts[side]:
@@ -144,7 +146,7 @@ def cycle_weights(
     weights: list[Fraction | int] = [1]
     for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
         came, goes = mesh_coefficient(circuits, ends, before, node), mesh_coefficient(circuits, ends, mesh, node)
-        # one wheel in both meshes, by far the most: no Fraction is made
+        # one wheel in both meshes, the usual case: no Fraction is needed
         if abs(came) == abs(goes):
             weights.append(-weights[-1] if came == goes else weights[-1])
         else:
@@ -161,7 +163,7 @@ def mesh_coefficient(circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]
 # ----------------------------------------------------------------------------------------------------- carrier coupling
 
 
-_BUDGET = 10**7  # operations; past it, trains of coupled planetaries are judged loop by loop
+_BUDGET = 10**7  # operations of elimination; beyond, trains of coupled planetaries are checked loop by loop
 
 Number = Fraction | float
 Left = Callable[[int, Sequence[Number]], Number]
@@ -234,7 +236,7 @@ def find_carrier_coupling(
     rows = []
     for condition in echelon.conditions:
         origins = {-column - 1: reduced.origin[-column - 1] for column in condition}
-        if all(kind == "share" for kind, _, _ in origins.values()):  # a train that cannot turn is asked for no more
+        if all(kind == "share" for kind, _, _ in origins.values()):  # rigid loops have no phase condition
             total: dict[int, Fraction] = {}
             for at, (_, link, node) in origins.items():
                 factor = condition[-at - 1]
@@ -269,11 +271,11 @@ def _follow(
 PhaseKind = Literal["closes", "misses", "unclear", "open"]
 ResidueKnowledge = Literal["exact", "recognised", "numeric"]
 
-_UNCLEAR = 0.05  # pitch: a residue known no better than this, and within it, tells nothing
-_MOST = 20_000  # entries of loops with unequal weights that are still looked at together
-_ROUNDS = 20  # of choosing teeth anew, where a round is cheap
-_FEW = 3  # where it is not
-_SAME = 1e-6  # pitch: errors that are alike, so that every tooth stays in its gap
+_UNCLEAR = 0.05  # pitch: a residue within a larger error than this is undecided
+_MOST = 20_000  # maximum number of matrix entries for which loops with unequal weights are combined
+_ROUNDS = 20  # rounds of reassigning teeth, if a round is fast
+_FEW = 3  # rounds if it is slow
+_SAME = 1e-6  # pitch: tolerance at which no tooth changes its gap
 
 
 @dataclass(frozen=True)
@@ -394,9 +396,9 @@ class PhaseSystem:
         for mesh, weight in row.items():
             slack += abs(weight) * self._doubt[mesh]
         if families is None:
-            # fsum rounds once: the order of the meshes changes no digit
+            # fsum rounds once, so the result does not depend on the order of the meshes
             total = math.fsum(self._times(weight, self._constant[mesh]) for mesh, weight in row.items())
-            # above -1/2, up to 1/2, as `centred_residue` has it: `round` would take halves to even numbers
+            # in (-1/2, 1/2] like `centred_residue`; `round` would round halves to even integers
             return PhaseCondition(cycle, row, total - math.ceil(total - 0.5), slack, False)
         scale, exact = contacts.scale, contacts.exact_constant
         parts = sum(weight * exact[mesh] for mesh, weight in row.items()) % scale
@@ -417,7 +419,9 @@ class PhaseSystem:
     def _times(weight: int, constant: float) -> float:
         if abs(weight) == 1:
             return weight * constant
-        return float(Fraction(weight) * Fraction(constant) % 1)  # a long weight would eat the digits of the fraction
+        return float(
+            Fraction(weight) * Fraction(constant) % 1
+        )  # exact, because a large weight would cancel the digits of the fraction
 
     def _families(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> list[int] | None:
         """Return the families of all contacts if they cancel at every node; None if the residue is known in floats
@@ -451,7 +455,7 @@ class PhaseSystem:
         for row, column in zip(basis, dual, strict=True):
             total = sum((weight * Fraction(self._constant[mesh]) for mesh, weight in row.items()), Fraction(0))
             residue = self._condition(None, row).residue
-            # whole but for the rounding of the constants
+            # an integer except for the rounding of the constants
             whole = round(total - Fraction(residue))
             for mesh, factor in column.items():
                 found[mesh] = found.get(mesh, 0) - whole * factor
@@ -514,7 +518,7 @@ class PhaseSystem:
     def _requested(self, factors: Floats) -> Floats:
         """Return the factors with rows of 0 for meshes that close rigid loops, which have no phase condition."""
         found = factors.copy()
-        found[list(self.parts.breaking)] = 0.0  # their loops are asked for no phase
+        found[list(self.parts.breaking)] = 0.0  # rigid loops have no phase condition
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
@@ -524,7 +528,7 @@ class PhaseSystem:
         return self._errors(self._by_links, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
-        # whole pitches go before the sum, where they would eat the digits of the fraction
+        # integer pitches are removed before the sum, to keep the digits of the fraction
         off: Floats = self.contacts.constant - np.mod(rows.factors * angles[rows.columns], 1.0).sum(axis=1)
         off -= np.ceil(off - 0.5)
         off[list(self.parts.breaking)] = 0.0

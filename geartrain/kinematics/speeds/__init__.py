@@ -30,7 +30,7 @@ __all__ = [
     "solve_floats",
 ]
 
-# the float path brings numpy and scipy
+# imported on first use: floats need numpy and scipy
 __getattr__ = lazy_names(
     __name__,
     {

@@ -59,7 +59,7 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
         forms = eliminate(rows[:held], budget).forms(budget)
         for row, stated in zip(rows[held:], statements[held - structural :], strict=True):
             resolved = resolve_form(row, forms)
-            # no unknown is left: the circuits and brakes alone say that this speed is 0
+            # no unknown is left: circuits and brakes imply that this speed is 0
             if stated.speed and not any(column >= 0 for column in resolved):
                 return _name(reduced, case, _uses(resolved), statements)
         echelon = eliminate(rows, budget)
@@ -220,7 +220,9 @@ def free_verdict(
     index = reduced.components.index
     rows: list[LinearForm] = []
     fixes: list[str] = []
-    for link in sorted(undetermined, key=lambda name: index[name] not in reduced.own):  # carriers make good inputs
+    for link in sorted(
+        undetermined, key=lambda name: index[name] not in reduced.own
+    ):  # carriers first, as suitable inputs
         row = resolve_form(reduced.form(index[link]), forms)
         loose = {column: value for column, value in row.items() if column >= 0}
         if eliminate([*rows, loose]).rank > len(rows):
@@ -281,18 +283,18 @@ def propagate(
             users[link].append(at)
     waiting = [len(row) for row in rows]
     speeds = FactoredRatios(len(links))
-    bottom = speeds.bottom  # 0: not known yet
+    bottom = speeds.bottom  # denominators; 0 means unknown
     speeds.set_root(index[frame], 0)
     known = []
     for name, speed in _prescribed(case, signs):
         at = index[name]
         if bottom[at]:
-            return None  # prescribed twice, or the frame: whether that agrees is for the diagnosis
+            return None  # prescribed twice, or the frame; the diagnosis decides whether that is consistent
         speeds.set_root(at, speed.numerator, speed.denominator)
         known.append(at)
     for row in rows:
         if len(row) == 1 and not bottom[row[0][0]]:
-            speeds.set_root(row[0][0], 0)  # alone in its row: it stands still
+            speeds.set_root(row[0][0], 0)  # a row with one link: its speed is 0
             known.append(row[0][0])
     used = bytearray(len(rows))
     for here in known:
@@ -349,7 +351,7 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 # --------------------------------------------------------------------------------------------------------- exact speeds
 
 
-_GIVEN = -1  # the column in which prescribed numbers stand
+_GIVEN = -1  # column of prescribed speeds
 
 EXACT_BUDGET = 400_000
 """Coefficient operations after which exact elimination is replaced by floats; about one second."""
@@ -361,7 +363,7 @@ Fill-in makes numbers long: in grids and random networks of differentials, this 
 corresponds to about 400,000 of `EXACT_BUDGET`.
 """
 
-_FEW = 100  # equations up to which the prediction would cost as much as it saves
+_FEW = 100  # for fewer equations the prediction costs as much as it saves
 
 
 @dataclass(frozen=True, slots=True)
@@ -555,7 +557,7 @@ class _ReadOff(Mapping[str, Fraction]):
         node = parts.nodes_of[link][0]
         carrier = parts.node_carrier[node]
         unknown = self._known[parts.node_group[node]] or zero
-        # mostly 1 or 0, and fractions may be long: no product is made that changes nothing
+        # usually 1 or 0: trivial products are avoided, because fractions may be long
         speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown if unknown else zero
         carried = zero if carrier == parts.frame else self._known[self._reduced.own[carrier]]
         return speed + carried if carried else speed
@@ -582,7 +584,7 @@ def _read_off(
         if at == parts.frame or all(known[unknown] is not None for unknown in reduced.unknowns_of(at)):
             speeds.take(name)
             continue
-        speed = _value(resolve_form(reduced.form(at), forms))  # free parts may still cancel
+        speed = _value(resolve_form(reduced.form(at), forms))  # free unknowns may cancel
         if speed is None:
             undetermined.append(name)
         else:

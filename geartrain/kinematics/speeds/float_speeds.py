@@ -45,9 +45,11 @@ if TYPE_CHECKING:
 # -------------------------------------------------------------------------------------------------------------- scaling
 
 
-_GIVEN = -1  # the column of what is prescribed
-_LOST = 44  # bits that a sum may lose before what is left of it is taken for the rounding of a 0
-_BUDGET = 4_000_000  # operations of the elimination
+_GIVEN = -1  # column of prescribed speeds
+_LOST = (
+    44  # bits of cancellation beyond which a sum counts as 0; 9 bits less than float64 has, for accumulated rounding
+)
+_BUDGET = 4_000_000  # operations of the elimination, about a minute
 _TOO_DENSE = Problem(
     "speeds leave the range of float64 in a train that is coupled too densely",
     "their orders of magnitude take too long to compute",
@@ -96,13 +98,13 @@ def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], li
     for column, form in solved.items():
         speed: Any = form.get(_GIVEN)
         if speed and len(form) == 1:
-            # in logarithms: the speed itself may be beyond float64
+            # logarithms, because the speed itself may be beyond float64
             found[column] = log2(abs(speed.mantissa)) + speed.exponent
     for line, right in zip(lines, given, strict=True):
-        if len(line) == 1 and not right:  # held still
+        if len(line) == 1 and not right:  # fixed link
             found[next(iter(line))] = 0.0
     _spread(lines, found)
-    # whole powers, so that scaling by them rounds nothing
+    # integer exponents, so that scaling is exact
     return [round(found.get(column, 0.0)) for column in range(len(links))]
 
 
@@ -133,13 +135,16 @@ def _spread(lines: Sequence[Mapping[int, int]], found: dict[int, float]) -> None
 # --------------------------------------------------------------------------------------------------------- float speeds
 
 
-_INVERTED, _ABREAST = 400, 64  # links up to which the inverse is made, and columns of it at a time
-_DRAWN = 12  # sets of signs beyond
-_STEPS = 8  # of refinement; where they converge at all, each at least halves the error
+_INVERTED, _ABREAST = (
+    400,
+    64,
+)  # maximum number of links for which the inverse is computed, and columns computed together
+_DRAWN = 12  # random sets of signs for more links
+_STEPS = 8  # maximum refinement steps; each at least halves the error if they converge
 _ITERATIONS = 4  # power iterations that bound a condition number
-_KNOWN = 1 / (8 * UNIT_ROUNDOFF)  # 1 / (4 eps): condition beyond which the factors hold no digit of the inverse
-_REGULAR = 2.0**40  # condition up to which factors prove that their matrix is regular; beyond, it is in doubt
-_ORDINARY = 400  # powers of two up to which speeds are solved as they are
+_KNOWN = 1 / (8 * UNIT_ROUNDOFF)  # 1 / (4 eps): beyond this condition number no digit of the inverse is correct
+_REGULAR = 2.0**40  # condition number up to which the factors prove that the matrix is regular
+_ORDINARY = 400  # exponents of two up to which speeds are solved unscaled: squares stay within float64
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,7 +219,7 @@ class FloatSpeeds(FrozenFields, Shown):
         return f"{self.number(link, case):.{digits}g}"
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what leaves the range is scaled, or refused below
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # overflow is scaled or refused below
 def solve_floats(
     system: WillisSystem,
     inputs: Mapping[str, Sequence[float]] | None = None,
@@ -297,16 +302,16 @@ def _solve(
         x = _refined(lu, matrix, x, right, remainder)
     rest = matrix.residual(x, right, remainder)
     _check_range(matrix, x, rest, rows)
-    left = lu.solve(rest)  # what is still off, itself refined once below
+    left = lu.solve(rest)  # remaining error, refined once below
     more = lu.solve(matrix.residual(left, rest, np.zeros_like(rest)))
-    # what is left, the rounding of x itself, and what residuals in twice the precision and the last solution may hide
+    # rounding errors of the residuals in twice the precision and of the last solution, and dropped entries
     terms = matrix.size(x)
     hidden = 16 * UNIT_ROUNDOFF**2 * terms + 16 * UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
     reach, spread = np.hsplit(_reach(lu, np.hstack([hidden, terms])), 2)
     _check_digits(lu, matrix, np.abs(x), spread)
     estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + reach
     residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
-    # the factors are kept for as long as nobody has read the conditions, and not where none were asked for
+    # the factors are kept in memory until the condition numbers are read, and only if these were requested
     condition = LazyMapping(partial(matrix.condition, lu, way.condition_of, x[:, 0])) if way.condition_of else {}
     return _Solved(x, estimate, residual, condition)
 
@@ -321,7 +326,7 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
         x = x + step
         matrix.prescribe(x, right)
         moved = np.max(np.divide(np.abs(step), np.abs(x), out=np.zeros_like(x), where=x != 0), initial=0.0)
-        # steps shrink by a constant factor: what is left after this one is about moved times moved / last
+        # steps shrink by a constant factor, so the remaining error is about moved * moved / last
         if not UNIT_ROUNDOFF * last < moved**2 <= (last / 2) ** 2:
             break
         last = moved
@@ -338,7 +343,7 @@ def _solve_far(
     found = _solve(near, rows, moved, way)
     powers = exponents[:, None]
     held = _held(found.x, powers) & _held(found.estimate, powers)
-    # numpy's ldexp takes C ints: powers that float64 cannot hold stay beside the number
+    # numpy's ldexp takes C ints; exponents beyond float64 are kept separately
     folded = np.where(held, powers, 0).astype(np.intc)
     there = found._replace(x=np.ldexp(found.x, folded), estimate=np.ldexp(found.estimate, folded))
     return there, np.where(held, 0, powers)
@@ -366,7 +371,7 @@ def _reach(lu: Any, error: Floats) -> Floats:
             units[columns, np.arange(len(columns))] = 1.0
             found += np.abs(lu.solve(units)) @ error[columns]
         return found
-    draw = np.random.default_rng(size)  # seeded: the same train has the same estimate on every run
+    draw = np.random.default_rng(size)  # fixed seed, so that estimates are reproducible
     for case in range(cases):
         signs = draw.choice([-1.0, 1.0], (size, _DRAWN)) * draw.uniform(0.5, 1.5, (size, _DRAWN))
         found[:, case] = 4 * np.sqrt((lu.solve(signs * error[:, case, None]) ** 2).mean(axis=1))
@@ -432,13 +437,13 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
     """
     with np.errstate(invalid="ignore", over="ignore"):
         size = matrix.size(x)
-        # rows near the end of float64 whose terms do not cancel: subnormal numbers have lost their digits
+        # rows near the lower limit of float64 with large residuals: subnormal numbers have lost digits
         lost = (size < 1e-250) & (np.abs(rest) > 1e-8 * size)
-        # an overflow, or factors that broke down; not `>`, so that nan counts as wrong
+        # overflow or breakdown of the factors; negated `<=`, so that nan counts as wrong
         wrong = ~(
             np.abs(rest) <= 1e-6 * np.maximum(size, np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())
         )
-    # what sank to 0 was below 5e-324, and what it meshes with below 5e-312: such a neighbour gives it away
+    # a speed that underflowed to 0 was below 5e-324, so its neighbours are below 5e-312
     sunk = ((x != 0) & (np.abs(x) < 1e-280))[matrix.columns].any(axis=1) & (matrix.coefficients != 0).any(axis=1)[
         :, None
     ]

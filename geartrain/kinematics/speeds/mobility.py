@@ -120,7 +120,7 @@ def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None
         echelon = eliminate_within(reduced.equations, budget)
     except TooDenseError:
         certain = False
-        # a prime can only lower a rank; that two do so at once is an accident of 1e-36
+        # reduction modulo a prime can only lower a rank; for both primes the probability is about 1e-36
         rank = max(rank_modulo(reduced.equations, PRIME), rank_modulo(reduced.equations, (1 << 61) - 31))
     else:
         rank = echelon.rank

@@ -15,8 +15,8 @@ from geartrain.numerics.rounding_bounds import two_product, two_sum
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-_ABREAST = 64  # right-hand sides that are solved at a time
-_LOW = 1e-200  # entries of a scaled row below this are dropped
+_ABREAST = 64  # right-hand sides solved together, which bounds memory
+_LOW = 1e-200  # smaller entries of a scaled row are dropped: their products would underflow
 
 
 class PaddedRows:
@@ -42,7 +42,7 @@ class PaddedRows:
         """
         sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
         shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
-        # 2**-2000 is 0 in float64 whatever it multiplies; clipped so that it fits a C int
+        # clipped to fit a C int; times 2**-2000 every float64 underflows to 0
         moved = np.clip(exponents[self.columns] - shifts[:, None], -2000, 2000).astype(np.intc)
         near = copy(self)
         near.coefficients = np.ldexp(self.coefficients, moved)
@@ -94,7 +94,7 @@ class PaddedRows:
         total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
         return total
 
-    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition past float64 is infinite
+    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition number beyond float64 is infinite
     def condition(self, lu: Any, links: Sequence[str], x: Floats) -> dict[str, float]:
         """Return cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, by one transposed solve
         each.

@@ -121,7 +121,7 @@ def test_one_declared_module_is_held_against_the_distance_of_the_axes() -> None:
     assert found(text) == [("M2", "error")]
     assert "40 mm apart" in words(text)
     assert "need 30 mm" in words(text)
-    assert "asks for 1.33333 mm" in words(text)
+    assert "requires 1.33333 mm" in words(text)
     assert found(pair(sized(20, "1 mm"), more=places(A="0 mm", B="30 mm"))) == []
     assert found(pair(more=places(A="0 mm", B="40 mm"))) == []
 
@@ -218,7 +218,7 @@ def test_more_distance_is_more_backlash_of_involutes() -> None:
     text = pair(
         sized(20, "1 mm"), sized(40, "1 mm"), more=places(A="0 mm", B="30.05 mm") + "\ntooth_form: {form: involute}"
     )
-    assert "0.036397 mm more play" in words(text)
+    assert "0.036397 mm more backlash" in words(text)
 
 
 def test_shifted_involutes_are_held_against_their_own_distance() -> None:
@@ -434,7 +434,7 @@ def test_locks_join_links_of_one_axis() -> None:
 def test_brakes_hold_what_turns_about_an_axis_of_the_frame() -> None:
     assert found(planetary(more="fixed: [carrier]")) == []
     assert found(planetary(more="fixed: [planet]")) == [("G2", "error")]
-    assert "hold 'carrier'" in words(planetary(more="fixed: [planet]"))
+    assert "fix 'carrier'" in words(planetary(more="fixed: [planet]"))
     assert found(planetary(more="fixed: [planet, carrier]")) == []  # its axis stands still then
 
 

@@ -126,16 +126,16 @@ def test_without_places_the_hands_may_decide() -> None:
     assert not told.circuits[0].note
     open_ = train(helical(20, 45), helical(40, 45), axes=axes([1, 0, 0], [0, 1, 0], None))
     assert open_.solve().speeds["b"] == Fraction(-1, 2)
-    assert "sense by convention" in open_.circuits[0].note
+    assert "sense of rotation by convention" in open_.circuits[0].note
 
 
 @pytest.mark.parametrize(
     ("first", "second", "words"),
     [
-        (helical(20, 15, "right"), helical(40, 20, "left"), "lean by 15 and 20 deg"),
+        (helical(20, 15, "right"), helical(40, 20, "left"), "helix angles of 15 and 20 deg"),
         (helical(20, 15, "right"), helical(40, 15, "right"), "a right-hand wheel meshes with a right-hand wheel"),
-        (helical(20, 15, "right"), helical(60, 15, "left", internal=True), "of a ring and its wheel lean the same way"),
-        (helical(20, 15), {"teeth": 40}, "lean by 15 and 0 deg"),
+        (helical(20, 15, "right"), helical(60, 15, "left", internal=True), "a ring and its mate have the same hand"),
+        (helical(20, 15), {"teeth": 40}, "helix angles of 15 and 0 deg"),
     ],
 )
 def test_teeth_that_do_not_lean_alike_are_refused(first: dict[str, Any], second: dict[str, Any], words: str) -> None:

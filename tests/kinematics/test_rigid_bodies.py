@@ -98,7 +98,7 @@ def test_two_shafts_on_different_axes_that_are_locked_together_stand(axes: str) 
     assert (verdict.kind, verdict.prescriptions) == ("locked", ("'a' and 'b' are locked together", "a = 1"))
     assert "'a' and 'b' are locked together, which fixes 'a'" in verdict.text
     assert load(text).solve().verdict.kind == "locked"
-    assert "close the joints a - frame, frame - b" in load(text).build_findings[0].problem.why
+    assert "block the joints a - frame, frame - b" in load(text).build_findings[0].problem.why
 
 
 def test_two_shafts_on_one_axis_that_are_locked_together_turn_as_one() -> None:
@@ -137,7 +137,7 @@ def test_what_is_held_already_does_not_count_as_an_axis() -> None:
 
 @pytest.mark.parametrize("more", [{"fixed": ["comet"]}, {"locks": [["planet", "far"]]}])
 def test_four_axes_in_a_ring_are_a_linkage_and_refused(more: dict[str, Any]) -> None:
-    with pytest.raises(GearTrainError, match="a ring of 4 turning pairs may move") as refused:
+    with pytest.raises(GearTrainError, match="a closed chain of 4 turning pairs may move") as refused:
         nested(**more)
     (problem,) = refused.value.problems
     assert problem.place == f"{next(iter(more))}[0]"

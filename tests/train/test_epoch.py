@@ -56,7 +56,7 @@ def test_the_epoch_of_the_saros_dial_is_a_full_moon() -> None:
         ("unit: {per: 1 d}\nepoch: {date: 2000-01-01, source: T}", "no source 'T'"),
         ("unit: {per: 1 d}\nepoch: {day: 2000-01-01}", "day"),
         ("epoch: 2000-01-01", "the epoch needs a unit of time"),
-        ("unit: {per: 18 ft}\nepoch: 2000-01-01", "18 ft is no time"),
+        ("unit: {per: 18 ft}\nepoch: 2000-01-01", "18 ft is not a time"),
     ],
 )
 def test_what_cannot_be_a_date_is_refused_with_its_line(more: str, said: str) -> None:

@@ -126,7 +126,7 @@ MISTAKES = {
     "no such word": (
         changed("  add:", "  use: all\n  add:"),
         12,
-        ["none of the words", "'wheels', 'arbors' or 'some'"],
+        ["not one of the allowed values", "'wheels', 'arbors' or 'some'"],
     ),
     "no such wheel": (changed("  add:", "  apart: [[p, x]]\n  add:"), 12, ["no wheel 'x'"]),
     "a mesh that is none": (

@@ -207,7 +207,7 @@ def test_a_turning_pair_is_removed_by_its_two_links(child: Child) -> None:
         ("{gears: [secnd]}", "did you mean 'second'"),
         ("{wheels: [zz]}", "`remove` names the unknown 'zz'"),
         ("{outputs: [nothing]}", "`remove` names the unknown 'nothing'"),
-        ("{revolutes: [[a, b]]}", "the turning pair of a and b"),
+        ("{revolutes: [[a, b]]}", "an unknown turning pair of a and b"),
         ("{couplings: [pin]}", "`remove` names the unknown 'pin'"),
         ("{states: [s]}", "`remove` names the unknown 's'"),
         ("{colours: [red]}", "colours"),
@@ -259,7 +259,7 @@ def test_states_and_clutches_merge_by_name(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("nowhere.yaml", "no such file"), ("planetry", "did you mean 'planetary'"), ("''", "names nothing")],
+    [("nowhere.yaml", "no such file"), ("planetry", "did you mean 'planetary'"), ("''", "`extends` is empty")],
 )
 def test_a_parent_that_is_missing_is_refused(tmp_path: Path, name: str, said: str) -> None:
     path = tmp_path / "orphan.yaml"

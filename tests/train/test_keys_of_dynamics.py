@@ -152,7 +152,7 @@ SLIPS = {
     "stiffness: 0 N/m": "0 N/m is not above 0",
     "density: 8.7": "'8.7' has no unit",
     "drive: {}": "a drive needs exactly one kind; found: nothing",
-    "drive: {rate: 1, torque: 2 N m}": "this gives rate and torque",
+    "drive: {rate: 1, torque: 2 N m}": "found: rate and torque",
     "drive: {weight: 4 kg}": "`weight` and `drum` must be given together",
     "drive: {torque: -2 N m}": "-2 N m is below 0",
     "drive: {wieght: 4 kg}": "did you mean 'weight'",
@@ -163,7 +163,7 @@ SLIPS = {
     "escapement: {link: frame, teeth: 30, beat: 1 s}": "which does not turn",
     "links: {a: {inertia: -1 kg m2}}": "-1 kg m2 is below 0",
     "escapement: {link: a, teeth: 30, beat: 1}": "'1' has no unit",
-    "escapement: {link: a, teeth: 30, beat: 1 s, pendulum: 1.1 m}": "it is 993.6 mm long",
+    "escapement: {link: a, teeth: 30, beat: 1 s, pendulum: 1.1 m}": "give 993.6 mm",
 }
 
 

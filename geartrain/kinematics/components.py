@@ -73,7 +73,7 @@ class Components:
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]
         up, down = [self.node(self.index[link], carrier) for link in (chord.i, chord.j)]
-        left, right = ways_to_common_ancestor(up, down, self._above)
+        left, right = ways_to_common_ancestor(up, down, self._predecessor)
         # closed walk: common ancestor -> ... -> i, over the chord to j, and back to the ancestor
         walk = left[::-1] + right[:-1]
         pairs = [self.node_circuit[node] for node in left[-2::-1]] + [circuit]
@@ -96,14 +96,14 @@ class Components:
         first, second = (self.relative(self.node(self.index[link], carrier)) for link in (chord.i, chord.j))
         return chord.gain * first / second
 
-    def _above(self, node: int) -> int | None:
+    def _predecessor(self, node: int) -> int | None:
         above = self.node_parent[node]
         return above if above >= 0 else None
 
     def path(self, nodes: Iterable[int]) -> list[int]:
         """Return the circuits on the search-tree paths between nodes of one component, which relate their speeds."""
         wanted = list(nodes)
-        chains = [chain_to_root(node, self._above) for node in wanted]
+        chains = [chain_to_root(node, self._predecessor) for node in wanted]
         common = set(chains[0]).intersection(*chains[1:]) if chains else set()
         used = {self.node_circuit[node]: None for chain in chains for node in chain if node not in common}
         return [circuit for circuit in used if circuit >= 0]
@@ -133,7 +133,7 @@ def find_components(
     group_carrier: list[int] = []
     closing: list[int] = []
     breaking: list[int] = []
-    for root in _starts(nodes_of, [index[link] for link in first if link in index], count):
+    for root in _search_order(nodes_of, [index[link] for link in first if link in index], count):
         if group[root] >= 0:
             continue
         this = len(group_carrier)
@@ -198,7 +198,7 @@ def _nodes(
     return node_link, node_carrier, edges, holding
 
 
-def _starts(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
+def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
     for link in first:
         yield from nodes_of.get(link, ())
     yield from range(count)

@@ -276,7 +276,7 @@ def judge_outputs(
             ratio,
             _expect_holds(output, speed),
             _published_holds(output, speed, ratio),
-            tuple(_against(train, target, speed) for target in output.targets if speed is not None),
+            tuple(_compare_with_target(train, target, speed) for target in output.targets if speed is not None),
             not is_rotation(of, base),
         )
 
@@ -324,7 +324,7 @@ def goal_of(train: Train, target: Target) -> RatioGoal:
     return RatioGoal(label, -speed if target.sense == "retrograde" else speed, True, target.sense)
 
 
-def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
+def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
     goal = goal_of(train, target)
     error = goal.error(speed)
     tolerance = target.tolerance.base if target.tolerance else None
@@ -394,13 +394,13 @@ def sensitivity(
             if teeth + step > 0
         }
         for result in outputs:
-            shift = {step: _shift(result, relative) for step, relative in changed.items()}
+            shift = {step: _relative_change(result, relative) for step, relative in changed.items()}
             if any(value != 0 for value in shift.values()):
                 allowed = wheel.doubt.allowed if wheel.doubt else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
 
 
-def _shift(result: OutputResult, relative: Relative) -> float | None:
+def _relative_change(result: OutputResult, relative: Relative) -> float | None:
     speed = relative(result.of, result.relative_to)
     if speed is None or result.speed is None:
         return None

@@ -58,16 +58,18 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
         if circuit.note:
             yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
     for position, gear in enumerate(train.gears):
-        yield from (_intermittent(train, wheel, position) for wheel in gear.pair if _is_finger(train, gear, wheel))
+        yield from (
+            _intermittent_note(train, wheel, position) for wheel in gear.pair if _is_single_tooth(train, gear, wheel)
+        )
 
 
-def _is_finger(train: Train, gear: GearPair, name: str) -> bool:
+def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
     """Return True for a spur wheel of one tooth without helix angle (helical teeth overlap) and without tooth form."""
     wheel = train.wheels[name][1]
     return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
 
 
-def _intermittent(train: Train, wheel: str, position: int) -> Problem:
+def _intermittent_note(train: Train, wheel: str, position: int) -> Problem:
     what = f"wheel '{wheel}' has one tooth, which cannot drive continuously"
     why = "the mean ratio is exact; the motion is intermittent"
     return Problem(what, why, "", train.place("gears", position))
@@ -192,7 +194,7 @@ class TrainKinematics(Shown):
     @cached_property
     def whole(self) -> SolvedPart:
         """All links and circuits, ready for solution."""
-        return self._part(self.circuits, tuple(self.declaration.links))
+        return self._solved_part(self.circuits, tuple(self.declaration.links))
 
     @cached_property
     def mobility(self) -> Mobility:
@@ -254,11 +256,11 @@ class TrainKinematics(Shown):
         wanted, part, case = None, self.whole, self.cases[self.declaration.single_state(state)]
         if output is not None:
             case, wanted = self.single_output(case, output)
-            part = self._pruned(case, wanted)
+            part = self._relevant_part(case, wanted)
         check_choice("method", method, get_args(Method))
         if case.problems:
             verdict = Verdict("refused", "; ".join(problem.text for problem in case.problems))
-            return self._judged(case, verdict, {}, _unknown, wanted, 0, {})
+            return self._build_answer(case, verdict, {}, _unknown, wanted, 0, {})
         solution, in_floats = None, method in ("sparse", "floats")
         with suppress(TooDenseError):
             solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
@@ -270,9 +272,9 @@ class TrainKinematics(Shown):
                     raise
             solution = solve(part, case, self.signs, None)
         if not case.exact:  # ratios of radians to turns are irrational
-            return self._rounded(part, case, wanted, solution)
+            return self._rounded_answer(part, case, wanted, solution)
         verdict, speeds = solution.verdict, solution.speeds
-        return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
+        return self._build_answer(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
         """Yield the effect of one tooth less or more of each uncertain wheel on each output of an answer.
@@ -285,7 +287,7 @@ class TrainKinematics(Shown):
         case = self.case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+            return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
@@ -366,19 +368,19 @@ class TrainKinematics(Shown):
 
     # ------------------------------------------------------------------------------------------ the part that matters
 
-    def _part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
+    def _solved_part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
         declared = self.declaration
         # inputs of all states, because the components are computed once for all states
         first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
         return SolvedPart(links, declared.frame, circuits, first)
 
-    def _pruned(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
+    def _relevant_part(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
         """Return the part of the train that can affect some links."""
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = relevant_circuits(self.circuits, kept)
         kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
-        return self._part(circuits, tuple(link for link in self.declaration.links if link in kept))
+        return self._solved_part(circuits, tuple(link for link in self.declaration.links if link in kept))
 
     def _system(self, part: SolvedPart, case: StateCase) -> WillisSystem:
         components = part.reduced.components
@@ -398,8 +400,8 @@ class TrainKinematics(Shown):
         if solution is None:
             solution = self._without_speeds(part, case, system)
         if not solution.verdict:  # the system is not square
-            return self._rounded(part, case, wanted, solution)
-        found = solve_floats(system, condition_of=self._conditioned(part, case, wanted))
+            return self._rounded_answer(part, case, wanted, solution)
+        found = solve_floats(system, condition_of=self._condition_links(part, case, wanted))
         powers = found.exponents.values[:, 0].tolist()
         speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
 
@@ -420,8 +422,8 @@ class TrainKinematics(Shown):
         def relative(of: str, base: str) -> SpeedValue | None:
             return relative_speed(of, base, speeds.get, self.signs)
 
-        told, work = LazyMapping(accuracy), len(part.circuits)
-        answer = self._judged(case, solution.verdict, speeds, relative, wanted, work, None, told)
+        lazy_accuracy, work = LazyMapping(accuracy), len(part.circuits)
+        answer = self._build_answer(case, solution.verdict, speeds, relative, wanted, work, None, lazy_accuracy)
         return replace(answer, residual=LazyMapping(residual))
 
     def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
@@ -437,7 +439,7 @@ class TrainKinematics(Shown):
         still = verdict.kind == "locked" and not moved
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
-    def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
+    def _condition_links(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
         """Return links whose condition number is reported; only outputs of long trains, because each costs one
         solve.
         """
@@ -447,7 +449,9 @@ class TrainKinematics(Shown):
         outputs = (wanted,) if wanted else (each.links(name, frame) for name, each in case.outputs.items())
         return tuple(dict.fromkeys(link for pair in outputs for link in pair))
 
-    def _rounded(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution) -> Answer:
+    def _rounded_answer(
+        self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution
+    ) -> Answer:
         """Return the answer with exact speeds rounded to floats."""
 
         def relative(of: str, base: str) -> float | None:
@@ -456,9 +460,9 @@ class TrainKinematics(Shown):
 
         floats = {link: _nearest(speed) for link, speed in solution.speeds.items()}
         accuracy = {link: SpeedAccuracy(abs(speed) * float_info.epsilon / 2, None) for link, speed in floats.items()}
-        return self._judged(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
+        return self._build_answer(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
 
-    def _judged(
+    def _build_answer(
         self,
         case: StateCase,
         verdict: Verdict,
@@ -474,9 +478,9 @@ class TrainKinematics(Shown):
         """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
-            verdict = replace(verdict, text=verdict.text + "".join(map(_side, self._bevels_on_one_side)))
+            verdict = replace(verdict, text=verdict.text + "".join(map(_facing_advice, self._bevels_on_one_side)))
         if wanted is not None:
-            verdict = self._narrowed(case, verdict, relative(*wanted) is not None, wanted)
+            verdict = self._output_verdict(case, verdict, relative(*wanted) is not None, wanted)
             shown = wanted if case.outputs else wanted[:1]
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
@@ -507,7 +511,7 @@ class TrainKinematics(Shown):
 
     # -------------------------------------------------------------------------------------------- the verdict on a part
 
-    def _narrowed(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
+    def _output_verdict(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
         """Return the verdict on one output, which may be determined or at rest although the train is free.
 
         known   True if the output's speed is determined
@@ -528,7 +532,7 @@ class TrainKinematics(Shown):
             return exact_verdict(self.whole.reduced, case, self.signs)
 
 
-def _side(bevels: Sequence[str]) -> str:
+def _facing_advice(bevels: Sequence[str]) -> str:
     """Return the advice for two bevel wheels that meet a third from the same side."""
     one, other, shared = bevels
     return f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"

@@ -76,7 +76,7 @@ class Epoch(Declared):
     note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _is_a_day(self) -> Epoch:
+    def _check_date(self) -> Epoch:
         try:
             self._read()
         except ValueError as error:
@@ -151,7 +151,7 @@ def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> Frictio
 # ---------------------------------------------------------------------------------------------------------- declaration
 
 
-def _cited(raw: object) -> object:
+def _read_source(raw: object) -> object:
     return {"cite": raw} if isinstance(raw, str) else raw
 
 
@@ -172,7 +172,7 @@ class Train(Declared):
         description="Parent declaration to change: a file in the same folder, or a shipped train or evidence by name",
     )
     remove: Remove | None = Field(None, description="Parts of the parent to remove, before other parts are added")
-    sources: ByName[Annotated[Source, BeforeValidator(_cited)]] = Field(
+    sources: ByName[Annotated[Source, BeforeValidator(_read_source)]] = Field(
         {}, validate_default=True, description="Sources by key"
     )
     errata: tuple[Erratum, ...] = Field((), description="Errors in published sources")

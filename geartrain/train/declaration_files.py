@@ -181,7 +181,7 @@ def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Pat
         return _build(node_from_data(source), Path.cwd(), (), "train")
     if isinstance(source, str) and "\n" in source:
         return _build(parse_yaml(source, "text"), Path.cwd(), (), "train")
-    path = _find(source, known)
+    path = _find_file(source, known)
     if path.suffix == ".json" and (train := _read_json(path)) is not None:
         return train
     return _build(parse_yaml(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
@@ -323,7 +323,7 @@ def _exists(path: Path) -> bool:
         return False
 
 
-def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
+def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
     path = Path(source)
     if _exists(path):
         return path
@@ -338,24 +338,24 @@ def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
         Problem(
             "the file does not exist",
             f"no shipped {kind} is called '{path.stem}' either",
-            _instead(path.stem, evidence),
+            _suggestion(path.stem, evidence),
             str(source),
         )
     )
 
 
-def _instead(name: str, evidence: bool) -> str:
+def _suggestion(name: str, evidence: bool) -> str:
     """Suggest a correction for a name that is not shipped as evidence or as a train."""
     if evidence and name in shipped():
-        return f"it is a shipped train: name lost arbors by `--without ARBOR`, or give evidence: {_evidence()}"
+        return f"it is a shipped train: name lost arbors by `--without ARBOR`, or give evidence: {_evidence_names()}"
     if not evidence and name in shipped_evidence():
         return f"it is evidence: `geartrain reconstruct {name}` finds the trains that explain it"
     if evidence:
-        return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence()}", wide=True)
+        return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence_names()}", wide=True)
     return suggest(name, shipped(), otherwise="`geartrain list` shows the shipped trains", wide=True)
 
 
-def _evidence() -> str:
+def _evidence_names() -> str:
     return ", ".join(shipped_evidence())
 
 

@@ -70,14 +70,14 @@ def with_long_forms(text: str) -> str:
     return _rewritten(text, {"revolutes": _long_joints, "gears": _long_pairs})
 
 
-def _rewritten(text: str, writers: Mapping[str, Callable[[_Written], list[str] | None]]) -> str:
+def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[str] | None]]) -> str:
     lines = text.splitlines()
     root = yaml.compose(text, Loader=_Loader)
     if not isinstance(root, yaml.MappingNode) or root.flow_style:
         return text
     parts = [(key, value) for key, value in root.value if key.value in writers]
     for key, value in sorted(parts, key=lambda part: -part[0].start_mark.line):
-        written = _Written(text, key, value)
+        written = _SectionSource(text, key, value)
         found = writers[key.value](written)
         if found is not None:
             lines[written.first : written.last + 1] = found
@@ -92,7 +92,7 @@ def _last_line(node: yaml.Node) -> int:
     return _last_line(last[1] if isinstance(last, tuple) else last)
 
 
-class _Written:
+class _SectionSource:
     """Source text of a section: its value, comments at the end of lines, and comments on separate lines."""
 
     def __init__(self, text: str, key: yaml.Node, value: yaml.Node) -> None:
@@ -124,7 +124,7 @@ class _Written:
         """Return the source text of a node."""
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
-    def says(self, entries: Sequence[_Entry]) -> bool:
+    def is_written_as(self, entries: Sequence[_Entry]) -> bool:
         """Return whether all entries of a list are already written like this."""
         return [each.text for each in entries] == [self.source(node) for node in self.items]
 
@@ -141,7 +141,7 @@ def _parts(node: yaml.Node) -> dict[str, yaml.Node]:
     return {key.value: value for key, value in node.value} if isinstance(node, yaml.MappingNode) else {}
 
 
-def _pair_of(written: _Written, node: yaml.Node, keys: set[str]) -> list[str]:
+def _pair_of(written: _SectionSource, node: yaml.Node, keys: set[str]) -> list[str]:
     """Return both names of a pair as written; empty if the node has other keys than `keys`."""
     parts = _parts(node)
     if set(parts) != keys or not isinstance(parts["pair"], yaml.SequenceNode) or len(parts["pair"].value) != 2:
@@ -152,7 +152,7 @@ def _pair_of(written: _Written, node: yaml.Node, keys: set[str]) -> list[str]:
 # ------------------------------------------------------------------------------------------------------------ to short
 
 
-def _short_joints(written: _Written) -> list[str] | None:
+def _short_joints(written: _SectionSource) -> list[str] | None:
     pairs = [_pair_of(written, node, {"pair", "axis"}) for node in written.items]
     if not pairs or not all(pairs):
         return None
@@ -174,15 +174,15 @@ def _short_joints(written: _Written) -> list[str] | None:
     return list(_section("revolutes", merged, written.head, "{}", ""))
 
 
-def _short_pairs(written: _Written) -> list[str] | None:
+def _short_pairs(written: _SectionSource) -> list[str] | None:
     entries = [written.entry(_short_pair(written, node), node) for node in written.items]
-    if written.says(entries) or any("\n" in each.text for each in entries):
+    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
         return None
     all_short = not any(each.text.startswith("{") for each in entries)
     return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))
 
 
-def _short_pair(written: _Written, node: yaml.Node) -> str:
+def _short_pair(written: _SectionSource, node: yaml.Node) -> str:
     """Return the short form of a gear pair, or its source text if it has further keys."""
     wheels = _pair_of(written, node, {"pair"})
     if not all(_NAME.fullmatch(wheel) for wheel in wheels) or not wheels:
@@ -193,7 +193,7 @@ def _short_pair(written: _Written, node: yaml.Node) -> str:
 # ------------------------------------------------------------------------------------------------------------- to long
 
 
-def _long_joints(written: _Written) -> list[str] | None:
+def _long_joints(written: _SectionSource) -> list[str] | None:
     if not isinstance(written.value, yaml.MappingNode):
         return None
     entries: list[_Entry] = []
@@ -209,14 +209,14 @@ def _long_joints(written: _Written) -> list[str] | None:
     return list(_section("revolutes", entries, written.head, "", "- "))
 
 
-def _long_pairs(written: _Written) -> list[str] | None:
+def _long_pairs(written: _SectionSource) -> list[str] | None:
     entries = [written.entry(_long_pair(written, node), node) for node in written.items]
-    if written.says(entries) or any("\n" in each.text for each in entries):
+    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
         return None
     return list(_section("gears", entries, written.head, "", "- "))
 
 
-def _long_pair(written: _Written, node: yaml.Node) -> str:
+def _long_pair(written: _SectionSource, node: yaml.Node) -> str:
     if isinstance(node, yaml.ScalarNode) and node.value.count("~") == 1:
         first, second = (wheel.strip() for wheel in node.value.split("~"))
         return f"{{pair: [{first}, {second}]}}"

@@ -62,13 +62,13 @@ class Declared(BaseModel):
         try:
             copy = type(self).model_validate(given | update)
         except ValidationError as error:
-            raise DeclarationError(map(_refused, error.errors(include_url=False))) from None
+            raise DeclarationError(map(_replacement_problem, error.errors(include_url=False))) from None
         if self.__pydantic_private__ is not None:  # line numbers
             copy.__pydantic_private__ = dict(self.__pydantic_private__)
         return copy
 
 
-def _refused(error: Mapping[str, Any]) -> Problem:
+def _replacement_problem(error: Mapping[str, Any]) -> Problem:
     """Return the problem of a replacement value that was not valid."""
     if error["type"] == "missing":
         *parent, key = error["loc"]
@@ -174,11 +174,11 @@ def friction_laws() -> TypeAdapter[Any]:
 
 def read_friction(raw: object) -> Any:
     """Read Coulomb friction from a coefficient or its keys, or a friction law if its keys are present."""
-    law = isinstance(raw, Mapping) and _names_a_law(raw)
+    law = isinstance(raw, Mapping) and _has_law_keys(raw)
     return (friction_laws() if law else _coulomb_friction()).validate_python(raw)
 
 
-def _names_a_law(keys: Mapping[Any, Any]) -> bool:
+def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
     """Return True for the key `law`, and if it is missing or misspelt but most keys belong to friction laws."""
     if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
         return True
@@ -189,7 +189,7 @@ def _names_a_law(keys: Mapping[Any, Any]) -> bool:
     return sum(key in law_keys() for key in keys) > sum(key in CoulombFriction.model_fields for key in keys)
 
 
-def _tell_friction(friction: Any) -> Any:
+def _serialize_friction(friction: Any) -> Any:
     """Return friction as it was declared, for serialization."""
     return friction.model_dump(mode="json") if isinstance(friction, BaseModel) else str(friction)
 
@@ -226,8 +226,8 @@ else:
 
         @classmethod
         def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
-            told = core_schema.plain_serializer_function_ser_schema(_tell_friction)
-            return core_schema.no_info_plain_validator_function(read_friction, serialization=told)
+            as_declared = core_schema.plain_serializer_function_ser_schema(_serialize_friction)
+            return core_schema.no_info_plain_validator_function(read_friction, serialization=as_declared)
 
         @classmethod
         def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:

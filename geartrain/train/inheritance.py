@@ -29,7 +29,7 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
     keys = {key: parent.keys[key] for key in base}
     root = YamlNode(base, child.place, keys)
     if "remove" in child.mapping:
-        root = _without(root, child.mapping["remove"])
+        root = _apply_remove(root, child.mapping["remove"])
     result = dict(root.mapping)
     for key, node in child.mapping.items():
         keys[key] = child.keys[key]
@@ -37,13 +37,13 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
         if node.value is None:
             result.pop(key, None)
         elif old is not None and key in _BY_NAME:
-            result[key] = _overlay(old, node, key)
+            result[key] = _merge_mappings(old, node, key)
         elif old is not None and key in ("gears", "couplings", "revolutes"):
-            result[key] = _overlay_list(old, node, _identity(key))
+            result[key] = _merge_lists(old, node, _identity(key))
         else:
             result[key] = node
     merged = YamlNode(result, child.place, keys)
-    if problems := list(_on_another_link(root, child, merged)):
+    if problems := list(_moved_wheels(root, child, merged)):
         raise DeclarationError(problems)
     return merged
 
@@ -60,7 +60,7 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
     return declare(kept | new, merged.place_of)
 
 
-def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
+def _moved_wheels(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
     """Yield a problem for each wheel that a child declares on another link although it is still on the parent's."""
     owner = {wheel: link for link, part in _child(parent, "links").items() for wheel in _child(part, "wheels")}
     for link, part in _child(child, "links").items():
@@ -76,7 +76,7 @@ def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Ite
                 )
 
 
-def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
+def _merge_mappings(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
     """Merge two mappings entry by entry; null removes an entry."""
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):
         return new
@@ -89,22 +89,22 @@ def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
         elif node.value is None:
             del result[name]
         else:
-            result[name] = _entry(before, node, kind)
+            result[name] = _merge_entry(before, node, kind)
     return YamlNode(result, new.place, keys)
 
 
-def _entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
+def _merge_entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
     """Merge two entries of the same kind; short forms are expanded first."""
     if kind == "clutches":  # exactly one of `fixes` and `locks`: merging could give both
         return new
-    old, new = _long(old, kind), _long(new, kind)
+    old, new = _expanded(old, kind), _expanded(new, kind)
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):
         return new
     result, keys = dict(old.value), dict(old.keys)
     for key, node in new.value.items():
         keys[key] = new.keys[key]
         if key in result and ((kind == "links" and key == "wheels") or (kind == "states" and key == "outputs")):
-            result[key] = _overlay(result[key], node, key)
+            result[key] = _merge_mappings(result[key], node, key)
         elif node.value is None:
             result.pop(key, None)
         else:
@@ -112,7 +112,7 @@ def _entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
     return YamlNode(result, new.place, keys)
 
 
-def _long(node: YamlNode, kind: str) -> YamlNode:
+def _expanded(node: YamlNode, kind: str) -> YamlNode:
     key = _SHORT.get(kind)
     if key is None or isinstance(node.value, dict) or node.value is None:
         return YamlNode({}, node.place) if node.value is None else node
@@ -136,7 +136,7 @@ def _coupling_name(node: YamlNode) -> str:
     return given.text if given else f"{pin.text if pin else ''}~{slot.text if slot else ''}"
 
 
-def _overlay_list(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], object]) -> YamlNode:
+def _merge_lists(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], object]) -> YamlNode:
     if not isinstance(old.value, list) or not isinstance(new.value, list):
         return new
     result = list(old.value)
@@ -146,11 +146,11 @@ def _overlay_list(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], o
         if position is None:
             result.append(node)
         else:
-            result[position] = _entry(result[position], node, "list")
+            result[position] = _merge_entry(result[position], node, "list")
     return YamlNode(result, new.place)
 
 
-def _without(root: YamlNode, remove: YamlNode) -> YamlNode:
+def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
     """Remove the parts named by `remove` from the parent; a link is removed with its wheels, joints, pairs and
     couplings.
     """
@@ -170,7 +170,7 @@ def _without(root: YamlNode, remove: YamlNode) -> YamlNode:
     if "links" in result:
         kept = _drop(result["links"], links)
         result["links"] = YamlNode(
-            {name: _bare(node, wheels) for name, node in kept.mapping.items()}, kept.place, kept.keys
+            {name: _without_wheels(node, wheels) for name, node in kept.mapping.items()}, kept.place, kept.keys
         )
     pairs, couplings = set(gone.get("gears", ())), set(gone.get("couplings", ()))
     _filter(
@@ -207,7 +207,7 @@ def _drop(node: YamlNode, names: Iterable[str]) -> YamlNode:
     return YamlNode({name: part for name, part in node.mapping.items() if name not in gone}, node.place, node.keys)
 
 
-def _bare(link: YamlNode, wheels: set[str]) -> YamlNode:
+def _without_wheels(link: YamlNode, wheels: set[str]) -> YamlNode:
     """Return a link without the given wheels."""
     if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
         return link

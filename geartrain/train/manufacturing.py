@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _VICKERS = 9.80665e6  # Pa per HV: 1 HV is 1 kgf/mm2
 
 
-def _contracts(figure: Figure) -> Figure:
+def _check_poisson(figure: Figure) -> Figure:
     if not 0 <= figure.value < 0.5:
         raise PydanticCustomError(
             "poisson",
@@ -44,7 +44,7 @@ def _contracts(figure: Figure) -> Figure:
     return figure
 
 
-def _partly(figure: Figure) -> Figure:
+def _check_spread(figure: Figure) -> Figure:
     if not 0 <= figure.value < 1:
         raise PydanticCustomError(
             "spread",
@@ -74,7 +74,7 @@ class Material(Declared):
     youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(
         description="Young's modulus, such as 100 GPa"
     )
-    poisson: Annotated[Figure, AfterValidator(_contracts)] = Field(
+    poisson: Annotated[Figure, AfterValidator(_check_poisson)] = Field(
         Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5"
     )
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
@@ -88,7 +88,7 @@ class Material(Declared):
     density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
         None, description="Density, such as 8.5 g/cm3; the `density` of a wheel takes precedence"
     )
-    spread: Annotated[Figure, AfterValidator(_partly)] = Field(
+    spread: Annotated[Figure, AfterValidator(_check_spread)] = Field(
         Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
     )
     what: str = Field("", description="Description of the material")
@@ -138,11 +138,11 @@ AngleOff = Annotated[Quantity, Dimension("angle or fraction", plain=True)]
 LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
-class _Off(Declared):
+class _DeclaredError(Declared):
     """A fixed error, or one that is drawn for each tooth, wheel or pair. A plain value is fixed."""
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> _Off:
+    def _has_one_key(self) -> _DeclaredError:
         given = [key for key in ("value", "normal", "uniform") if getattr(self, key) is not None]
         if len(given) != 1:
             raise PydanticCustomError(
@@ -165,7 +165,7 @@ class _Off(Declared):
         return also({"type": ["number", "string"]}, handler(schema))
 
 
-class AngleError(_Off):
+class AngleError(_DeclaredError):
     """Error of an angle, fixed or random."""
 
     value: AngleOff | None = Field(None, description="Fixed error")
@@ -173,7 +173,7 @@ class AngleError(_Off):
     uniform: AngleOff | None = Field(None, description="Maximum magnitude of a uniform distribution about 0")
 
 
-class LengthError(_Off):
+class LengthError(_DeclaredError):
     """Error of a length, fixed or random."""
 
     value: LengthOff | None = Field(None, description="Fixed error")
@@ -247,7 +247,7 @@ class Filing(Declared):
     )
 
     @model_validator(mode="after")
-    def _takes_something(self) -> Filing:
+    def _check_stroke(self) -> Filing:
         if self.stroke.value <= 0:
             raise PydanticCustomError(
                 "error",

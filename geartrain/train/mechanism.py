@@ -102,7 +102,7 @@ class BearingFriction(Declared):
     )
 
     @model_validator(mode="after")
-    def _rests_no_easier(self) -> BearingFriction:
+    def _check_static(self) -> BearingFriction:
         if self.static is None:
             return self
         if (self.static.unit is None) != (self.sliding.unit is None) and self.static.value and self.sliding.value:
@@ -127,20 +127,20 @@ class BearingFriction(Declared):
         return also({"type": ["string", "number"]}, handler(schema))
 
 
-def _sliding(raw: object) -> object:
+def _read_bearing(raw: object) -> object:
     if isinstance(raw, dict | BearingFriction):
         return raw
     return {"sliding": _not_negative(Quantity.parse(raw, "torque", plain=True))}
 
 
-DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_sliding)]
+DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_read_bearing)]
 """Friction of a bearing, or its sliding torque as a plain value."""
 
 
 # --------------------------------------------------------------------------------------------------------- efficiencies
 
 
-def _no_more_than_all(efficiency: Quantity) -> Quantity:
+def _at_most_one(efficiency: Quantity) -> Quantity:
     if efficiency.base > 1:
         meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
         raise PydanticCustomError(
@@ -154,7 +154,7 @@ def _no_more_than_all(efficiency: Quantity) -> Quantity:
     return efficiency
 
 
-Efficiency = Annotated[Share, AfterValidator(_no_more_than_all)]
+Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
 
 
 class Efficiencies(Declared):
@@ -171,7 +171,7 @@ class Efficiencies(Declared):
     )
 
     @model_validator(mode="after")
-    def _passes_power_one_way(self) -> Efficiencies:
+    def _check_directions(self) -> Efficiencies:
         if self.forward.base <= 0 and self.backward.base <= 0:
             raise PydanticCustomError(
                 "efficiency",
@@ -227,7 +227,7 @@ class Teeth(Declared):
     note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _makes_sense(self) -> Teeth:
+    def _check_counts(self) -> Teeth:
         bounds = self.range or self.search
         if bounds and len(bounds) == 2 and bounds[0] > bounds[1]:
             raise PydanticCustomError(
@@ -394,7 +394,7 @@ class Wheel(Declared):
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
     @model_validator(mode="after")
-    def _leans_where_it_may(self) -> Wheel:
+    def _check_helix_angle(self) -> Wheel:
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
             raise PydanticCustomError(
                 "helix_angle",
@@ -404,7 +404,7 @@ class Wheel(Declared):
         return self
 
     @model_validator(mode="after")
-    def _bends_where_it_may(self) -> Wheel:
+    def _check_flexible(self) -> Wheel:
         if self.flexible and (self.internal or self.kind != "spur"):
             raise PydanticCustomError(
                 "flexible",
@@ -515,7 +515,7 @@ class Axis(Declared):
         return x, y, z
 
     @model_validator(mode="after")
-    def _points_somewhere(self) -> Axis:
+    def _check_direction(self) -> Axis:
         if not any(figure.value for figure in self.direction):
             raise PydanticCustomError(
                 "axis", "the direction is the zero vector", {"fix": "give a direction such as [0, 0, 1]"}

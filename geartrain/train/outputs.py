@@ -25,7 +25,7 @@ NAMED_SCALES: Mapping[str, tuple[str, tuple[tuple[str, int], ...]]] = {
 _MOST = 10**6
 
 
-def _whole(raw: object) -> int:
+def _read_whole(raw: object) -> int:
     """Read a whole number from 1 to 10^6."""
     text = str(raw)
     number = int(text) if not isinstance(raw, bool) and text.isascii() and text.isdigit() and len(text) < 10 else 0
@@ -38,7 +38,7 @@ def _whole(raw: object) -> int:
     )
 
 
-Whole = Annotated[int, BeforeValidator(_whole)]
+Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
@@ -103,7 +103,7 @@ class Graduation(Declared):
 
     @model_validator(mode="before")
     @classmethod
-    def _with_its_scale(cls, raw: Any) -> Any:
+    def _expand_scale(cls, raw: Any) -> Any:
         """Expand a named scale, and derive `divisions` from the names if it is not given."""
         if not isinstance(raw, dict) or not raw.get("names"):
             return raw
@@ -118,7 +118,9 @@ class Graduation(Declared):
             own.setdefault("divisions", sum(span for _, span in parts))
             if str(own["divisions"]) == str(sum(span for _, span in parts)):
                 own.setdefault("cell", cell)
-            own["names"] = [{"name": name, "span": span} for name, span in _shared(names, parts, own["divisions"])]
+            own["names"] = [
+                {"name": name, "span": span} for name, span in _distribute_names(names, parts, own["divisions"])
+            ]
         elif isinstance(names, list | tuple):
             spans = [each.get("span") if isinstance(each, dict) else None for each in names]
             whole = [int(str(span)) for span in spans if str(span).isascii() and str(span).isdigit()]
@@ -126,7 +128,7 @@ class Graduation(Declared):
         return own
 
     @model_validator(mode="after")
-    def _adds_up(self) -> Graduation:
+    def _check_spans(self) -> Graduation:
         spans = [each.span for each in self.names]
         given = [span for span in spans if span is not None]
         if given and len(given) < len(spans):
@@ -148,8 +150,12 @@ class Graduation(Declared):
             )
         for cell in self.glyphs:
             if cell > self.divisions:
-                told = {"cell": cell, "divisions": self.divisions, "fix": f"give a number from 1 to {self.divisions}"}
-                raise PydanticCustomError("dial", "cell {cell} is beyond the {divisions} divisions", told)
+                context = {
+                    "cell": cell,
+                    "divisions": self.divisions,
+                    "fix": f"give a number from 1 to {self.divisions}",
+                }
+                raise PydanticCustomError("dial", "cell {cell} is beyond the {divisions} divisions", context)
         return self
 
     @property
@@ -163,13 +169,13 @@ class Graduation(Declared):
         return tuple(found)
 
 
-def _shared(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
+def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
     """Distribute the names of a scale over another number of divisions."""
-    total, count = sum(span for _, span in parts), _whole(divisions)
+    total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        told = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
-        raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", told)
+        context = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
+        raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
     return [(part, int(share)) for part, share in shares]
 
 
@@ -226,7 +232,7 @@ def looks_away(face: str | None, seen_from: str | None) -> bool:
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
 
-def _lasts(period: Quantity) -> Quantity:
+def _period_above_zero(period: Quantity) -> Quantity:
     if period.value <= 0:
         raise PydanticCustomError(
             "target",
@@ -236,7 +242,7 @@ def _lasts(period: Quantity) -> Quantity:
     return period
 
 
-def _turns(figure: Figure) -> Figure:
+def _turns_above_zero(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
             "target",
@@ -246,14 +252,14 @@ def _turns(figure: Figure) -> Figure:
     return figure
 
 
-def _no_tolerance(text: str) -> PydanticCustomError:
+def _negative_tolerance(text: str) -> PydanticCustomError:
     fix = {"text": text, "fix": "give the magnitude of the permitted error, 0 or more"}
     return PydanticCustomError("tolerance", "a tolerance of {text} is negative", fix)
 
 
 def _not_negative(figure: Figure) -> Figure:
     if figure.value < 0:
-        raise _no_tolerance(figure.text)
+        raise _negative_tolerance(figure.text)
     return figure
 
 
@@ -270,7 +276,7 @@ class Target(Declared):
     """
 
     name: str | None = Field(None, description="Name of an astronomical period; `geartrain periods` lists them")
-    period: Annotated[Span, AfterValidator(_lasts)] | None = Field(
+    period: Annotated[Span, AfterValidator(_period_above_zero)] | None = Field(
         None, description="Time for `turns` turns, such as 29.53059 d; above 0"
     )
     speed: Figure | None = Field(
@@ -279,7 +285,7 @@ class Target(Declared):
     sense: Literal["direct", "retrograde"] | None = Field(
         None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
     )
-    turns: Annotated[Figure, AfterValidator(_turns)] = Field(
+    turns: Annotated[Figure, AfterValidator(_turns_above_zero)] = Field(
         Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0"
     )
     tolerance: Share | None = Field(
@@ -291,7 +297,7 @@ class Target(Declared):
     note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> Target:
+    def _has_one_key(self) -> Target:
         given = [key for key in ("name", "period", "speed") if getattr(self, key) is not None]
         if len(given) != 1:
             raise PydanticCustomError(
@@ -302,7 +308,7 @@ class Target(Declared):
         return self
 
     @model_validator(mode="after")
-    def _has_one_sign(self) -> Target:
+    def _check_sign(self) -> Target:
         if self.sense is not None and self.speed is not None:
             raise PydanticCustomError(
                 "target",
@@ -312,12 +318,12 @@ class Target(Declared):
         return self
 
     @model_validator(mode="after")
-    def _is_near_something(self) -> Target:
+    def _check_tolerance(self) -> Target:
         tolerance = self.tolerance
         if tolerance is None:
             return self
         if tolerance.value < 0:
-            raise _no_tolerance(tolerance.text)
+            raise _negative_tolerance(tolerance.text)
         if self.speed is not None and not self.speed.value and tolerance.unit is not None:
             raise PydanticCustomError(
                 "target",
@@ -384,7 +390,7 @@ class Published(Declared):
     source: str | None = Field(None, description="Key of the source in `sources`")
 
     @model_validator(mode="after")
-    def _can_be(self) -> Published:
+    def _check_ratio(self) -> Published:
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
             raise PydanticCustomError(

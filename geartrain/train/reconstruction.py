@@ -18,7 +18,7 @@ NEW_ARBOR = "new"
 """Value of `of` in an output if the arbor of its pointer does not survive."""
 
 
-def _number(raw: object) -> object:
+def _read_part_number(raw: object) -> object:
     """Read a whole number from 0 to 1000."""
     try:
         # True is an int in Python; converting thousands of digits would take minutes
@@ -38,7 +38,7 @@ def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
     return bounds
 
 
-PartNumber = Annotated[int, BeforeValidator(_number)]
+PartNumber = Annotated[int, BeforeValidator(_read_part_number)]
 Factor = Annotated[Figure, above_zero("give a factor above 0, such as 10")]
 Spread = Annotated[Share, above_zero("give a spread above 0, such as 4 %")]
 Distance = Annotated[MeasuredLength, above_zero("give a length above 0, such as 0.5 mm")]
@@ -62,7 +62,7 @@ class AddedParts(Declared):
     )
 
     @model_validator(mode="after")
-    def _is_bounded(self) -> AddedParts:
+    def _check_bounds(self) -> AddedParts:
         if self.wheels and self.teeth is None:
             raise PydanticCustomError(
                 "add",

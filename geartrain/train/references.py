@@ -200,7 +200,7 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
     return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))
 
 
-def _no_wheel(train: Train, name: str, at: int) -> Problem:
+def _unknown_wheel(train: Train, name: str, at: int) -> Problem:
     """Return the problem of a gear pair that names an unknown wheel, or a link instead of its wheel."""
     unknown = _unknown(train, "wheel", name, train.wheels, "gears", at, "pair")
     if name not in train.links:
@@ -293,14 +293,14 @@ def _wheels(train: Train) -> Iterator[Problem]:
     for at, gear in enumerate(train.gears):
         name, (first, second) = gear.name, gear.pair
         if name in names:
-            yield _twice(train, "gear pair", name, "gears", at)
+            yield _duplicate(train, "gear pair", name, "gears", at)
         names.add(name)
         if gear.driver is not None and gear.driver not in gear.pair:
             yield _unknown(train, "wheel of this pair", gear.driver, gear.pair, "gears", at, "driver")
         if first not in wheels or second not in wheels:
             for wheel in gear.pair:
                 if wheel not in wheels:
-                    yield _no_wheel(train, wheel, at)
+                    yield _unknown_wheel(train, wheel, at)
             continue
         (link_1, wheel_1), (link_2, wheel_2) = wheels[first], wheels[second]
         if link_1 != link_2 and wheel_1.kind == wheel_2.kind == "spur" and not (wheel_1.internal and wheel_2.internal):
@@ -331,11 +331,11 @@ def _wheels(train: Train) -> Iterator[Problem]:
             )
     for at, coupling in enumerate(train.couplings):
         if coupling.name in names:
-            yield _twice(train, "coupling", coupling.name, "couplings", at)
+            yield _duplicate(train, "coupling", coupling.name, "couplings", at)
         names.add(coupling.name)
 
 
-def _twice(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
+def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
     return Problem(
         f"{kind} '{name}' is declared twice",
         "pairs and couplings share one set of ids",
@@ -359,7 +359,7 @@ def _couplings(train: Train) -> Iterator[Problem]:
 
 
 def _prescriptions(train: Train) -> Iterator[Problem]:
-    yield from _scope(train, train.inputs, train.fixed, train.locks, ())
+    yield from _prescribed_links(train, train.inputs, train.fixed, train.locks, ())
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
     yield from rates(train)
@@ -374,7 +374,7 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
                 yield _unknown(train, "link", link, train.links, "clutches", name)
     for name, state in train.states.items():
         loc = ("states", name)
-        yield from _scope(train, state.inputs or {}, state.fixed or (), state.locks or (), loc)
+        yield from _prescribed_links(train, state.inputs or {}, state.fixed or (), state.locks or (), loc)
         yield from _named_links(train, state.loads or {}, *loc, "loads")
         for at, clutch_name in enumerate(state.engaged):
             if clutch_name not in train.clutches:
@@ -392,7 +392,7 @@ def _escapement(train: Train) -> Iterator[Problem]:
         yield Problem(what, "", "name the link of the escape wheel", train.place("escapement", "link"))
 
 
-def _scope(
+def _prescribed_links(
     train: Train,
     inputs: Mapping[str, Quantity],
     fixed: Iterable[str],

@@ -85,7 +85,7 @@ class HandDrive(Declared):
     )
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> HandDrive:
+    def _has_one_key(self) -> HandDrive:
         if (self.torque is None) == (self.rate is None):
             raise PydanticCustomError(
                 "drive", "a hand needs either a torque or a rate", {"fix": "give exactly one of torque, rate"}
@@ -135,7 +135,7 @@ class Drive(Declared):
     hand: HandDrive | None = Field(None, description="Drive by a hand")
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> Drive:
+    def _has_one_key(self) -> Drive:
         kinds = ("rate", "torque", "weight", "spring", "hand")
         given = [key for key in kinds if getattr(self, key) is not None]
         if len(given) != 1:
@@ -204,7 +204,7 @@ class Escapement(Declared):
     )
 
     @model_validator(mode="after")
-    def _beats(self) -> Escapement:
+    def _check_pendulum(self) -> Escapement:
         """Check the length of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes it slightly faster."""
         if self.pendulum is not None:
             length = GRAVITY * (self.beat.si / pi) ** 2
@@ -247,7 +247,7 @@ class Clutch(Declared):
     locks: tuple[Id, Id] | None = Field(None, description="Two links that the clutch locks together")
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> Clutch:
+    def _has_one_key(self) -> Clutch:
         if (self.fixes is None) == (self.locks is None):
             raise PydanticCustomError(
                 "clutch", "a clutch needs either `fixes` or `locks`", {"fix": "give exactly one of fixes, locks"}

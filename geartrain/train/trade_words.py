@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-_MOST_TOLD = 4
+_MOST_WORDS = 4
 
 
 class TradeWord(NamedTuple):
@@ -52,5 +52,5 @@ def trade_words(text: str) -> Iterator[TradeWord]:
 
 def told_words(text: str) -> str:
     """Return one line that explains the terms of a message; empty if it contains none of them."""
-    found = [str(word) for word in trade_words(text)][:_MOST_TOLD]
+    found = [str(word) for word in trade_words(text)][:_MOST_WORDS]
     return f"words: {'; '.join(found)}" if found else ""

@@ -71,11 +71,11 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     place = marks or dotted
     head = _head(data)
     if head is not None:  # a large file may have a million errors, so its beginning is checked first
-        _refuse_many(head, place)
+        _check_head(head, place)
     try:
         train = Train.model_validate(data)
     except ValidationError as error:
-        raise DeclarationError(first_problems(_explained(error, place), error.error_count())) from None
+        raise DeclarationError(first_problems(_problems_of(error, place), error.error_count())) from None
     train._marks = marks
     problems = first_problems(find_problems(train))
     if problems:
@@ -117,16 +117,16 @@ def _first(part: Any, key: str = "") -> Any:
     return part
 
 
-def _refuse_many(head: Mapping[str, Any], place: Marks) -> None:
+def _check_head(head: Mapping[str, Any], place: Marks) -> None:
     """Raise `DeclarationError` if the head of a declaration has more problems than are reported."""
     try:
         Train.model_validate(head)
     except ValidationError as error:
         if error.error_count() > MOST_TOLD:
-            raise DeclarationError(_explained(error, place)) from None
+            raise DeclarationError(_problems_of(error, place)) from None
 
 
-def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
+def _problems_of(error: ValidationError, place: Marks) -> Iterator[Problem]:
     """Yield a problem for each error. A misspelt key is reported once, not also as a missing key."""
     errors = error.errors(include_url=False)
     incomplete = {item["loc"][:-1] for item in errors if item["type"] == "missing"}
@@ -136,10 +136,10 @@ def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
         for loc in islice(unknown, _HEAD)
         if (close := nearest_names(str(loc[-1]), _keys_at(loc[:-1])))
     }
-    return (_explain(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
+    return (_problem_of(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
 
 
-def _name(kind: Any) -> tuple[Any, ...]:
+def _union_tags(kind: Any) -> tuple[Any, ...]:
     """Return the tags by which a union selects a tooth form, friction law or coupling; empty for other models."""
     field = next((kind.model_fields[key] for key in ("form", "law", "kind") if key in kind.model_fields), None)
     return get_args(field.annotation) if field else ()
@@ -150,7 +150,7 @@ def _laws() -> dict[str, type[BaseModel]]:
     """Return every friction law by its tag."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
-    return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _name(law)}
+    return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}
 
 
 _SHAPES = {
@@ -164,7 +164,7 @@ _SHAPES = {
 }
 
 
-def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
+def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     loc: Loc = error["loc"]
     kind, context = error["type"], error.get("ctx", {})
     key = str(loc[-1]) if loc else ""
@@ -226,7 +226,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
     """Yield the keys that a declaration may have at `loc`, found by traversing the models."""
     kinds: list[Any] = [Train]
     for step in loc:
-        named = [kind for kind in kinds if step in _name(kind)]
+        named = [kind for kind in kinds if step in _union_tags(kind)]
         kinds = named or [after for kind in kinds for after in _step(kind, step)]
     for kind in kinds:
         for name, field in kind.model_fields.items():
@@ -297,7 +297,7 @@ def _check_short_forms(
     if short_joints is not None and single:
         lists += [_single_link(axis, short_joints.keys.get(axis, short_joints.place)) for axis in single]
     if lists or wrong:  # texts are composed only for the problems that are shown
-        raise DeclarationError(first_problems(chain(lists, map(_no_pair, wrong)), len(lists) + len(wrong)))
+        raise DeclarationError(first_problems(chain(lists, map(_invalid_pair, wrong)), len(lists) + len(wrong)))
 
 
 def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
@@ -329,7 +329,7 @@ def _wheels(gear: YamlNode) -> list[str]:
     return [name.strip() for name in gear.value.split(_MARK)]
 
 
-def _no_pair(gear: YamlNode) -> Problem:
+def _invalid_pair(gear: YamlNode) -> Problem:
     why = "the short form of a pair is two wheels with a tilde between them"
     return Problem(f"'{gear.value}' is not a gear pair", why, "write for example `sun ~ planet`", gear.place)
 

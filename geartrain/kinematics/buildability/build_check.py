@@ -56,17 +56,17 @@ def check_kinds(
     for pair in pairs:
         shape = next((kind for kind in pair.kinds if kind != "spur"), "helical" if pair.is_crossed else "spur")
         if set(pair.kinds) not in _MATES:
-            yield BuildFinding("K2", "error", _strange_mates(pair))
+            yield BuildFinding("K2", "error", _incompatible_kinds(pair))
         elif pair.parallel and shape != "spur":
             declared = all(label in train.axes for label in pair.axes)
-            yield BuildFinding("K1", "error" if declared else "note", _side_by_side(pair, shape, declared))
+            yield BuildFinding("K1", "error" if declared else "note", _parallel_axes_problem(pair, shape, declared))
         elif not pair.parallel:
-            problem = _crossing(pair, shape, passing_distance(axes, pair.axes))
+            problem = _crossing_axes_problem(pair, shape, passing_distance(axes, pair.axes))
             if problem is not None:
                 yield BuildFinding("K1", "error", problem)
 
 
-def _strange_mates(pair: PitchPair) -> Problem:
+def _incompatible_kinds(pair: PitchPair) -> Problem:
     first, second = (f"{kind} wheel '{wheel}'" for kind, wheel in zip(pair.kinds, pair.wheels, strict=True))
     return Problem(
         f"pair '{pair.name}': {first} meets {second}",
@@ -85,7 +85,7 @@ def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
     )
 
 
-def _side_by_side(pair: PitchPair, shape: str, declared: bool) -> Problem:
+def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Problem:
     first, second = pair.axes
     if declared:
         what = f"{shape} pair '{pair.name}' on parallel axes '{first}' and '{second}'"
@@ -99,7 +99,7 @@ def _side_by_side(pair: PitchPair, shape: str, declared: bool) -> Problem:
     return Problem(what, why, fix, pair.place)
 
 
-def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
+def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
     """Return the problem of a pair on non-parallel axes at distance `offset` (m); None if the pair is valid."""
     first, second = pair.axes
     if shape == "spur":
@@ -177,16 +177,16 @@ def _triangle(
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
     """Yield findings of rules G1 (locks) and G2 (brakes), each once for all states."""
-    said = set()
+    reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
-            if rigid.links not in said:
-                said.add(rigid.links)
+            if rigid.links not in reported:
+                reported.add(rigid.links)
                 lock = len(rigid.links) == 2
-                yield BuildFinding("G1" if lock else "G2", "error", _across(train, case, rigid, lock))
+                yield BuildFinding("G1" if lock else "G2", "error", _across_axes_problem(train, case, rigid, lock))
 
 
-def _across(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
+def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
     axes = " and ".join(f"'{label}'" for label in rigid.labels)
     joints = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
     between = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]

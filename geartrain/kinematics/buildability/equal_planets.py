@@ -366,23 +366,23 @@ def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
     close.
     """
     found: list[Any] = []
-    left = _left(arm, kind, found)
+    left = _angle_conditions(arm, kind, found)
     # pairwise compatible conditions are compatible together, because their solutions are multiples of one step
-    found += (_number(one, other, kind.gcd(one[0], other[0])) for one, other in combinations(left, 2))
+    found += (_compatibility_number(one, other, kind.gcd(one[0], other[0])) for one, other in combinations(left, 2))
     return found
 
 
-def _left(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
+def _angle_conditions(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
     """Return D and b of the conditions on the angle of a planet; append the numbers of its descendants to `found`."""
     left = []
     for contact in arm.central:
         own, mate = kind.count(contact.own), kind.count(contact.mate)
         left.append((own, kind.reduced(-contact.sense * mate)))
     for contact, other in arm.outward:
-        further = _left(other, kind, found)
+        further = _angle_conditions(other, kind, found)
         if not further:
             continue
-        D, b = _joined(further, kind, found)
+        D, b = _combined_condition(further, kind, found)
         own, mate = kind.count(contact.own), kind.count(contact.mate)
         # z phi of the child planet is known up to multiples of gcd(z, D)/D
         common = kind.gcd(mate, D)
@@ -390,17 +390,17 @@ def _left(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple
     return left
 
 
-def _joined(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
+def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
     """Combine all conditions on an angle into one; append the numbers of their compatibility to `found`."""
     (D, b), *others = left
     for D2, b2 in others:
         common, u, v = kind.bezout(D, D2)
-        found.append(_number((D, b), (D2, b2), common))
+        found.append(_compatibility_number((D, b), (D2, b2), common))
         D, b = common, kind.reduced(kind.reduced(u) * b + kind.reduced(v) * b2)
     return D, b
 
 
-def _number(one: tuple[Any, Any], other: tuple[Any, Any], common: Any) -> Any:
+def _compatibility_number(one: tuple[Any, Any], other: tuple[Any, Any], common: Any) -> Any:
     return (one[0] * other[1] - other[0] * one[1]) // common
 
 
@@ -452,7 +452,7 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
     return A * A, B * B, -c * Q, -s * sines, -tips * tips
 
 
-_MISS, _LITTLE = 0.1, 0.01  # phase errors (pitches): more than any backlash absorbs; less than any backlash
+_MISS, _NEGLIGIBLE = 0.1, 0.01  # phase errors (pitches): more than any backlash absorbs; less than any backlash
 ON_ECCENTRIC = 0.25
 """Maximum distance of a wheel's axis from that of its carrier [radius of the wheel] for a wheel on an eccentric."""
 _CLEAR = 0.2  # recommended clearance of neighbours (modules)
@@ -505,7 +505,7 @@ class _EqualPlanets:
         self.number = len(self.firsts)
         self.step = assembly_number(self.planet)
         axes = [tree.axis(link) for link in self.firsts]
-        self.points = _points(train, tree.axis(one.carrier), axes)
+        self.points = _planet_positions(train, tree.axis(one.carrier), axes)
         self.place = train.place("links", self.firsts[-1])
         self.names = ", ".join(f"'{link}'" for link in self.firsts)
 
@@ -517,16 +517,16 @@ class _EqualPlanets:
             return
         rule = "A1" if len(self.planet.wheels) == 1 and not self.planet.outward else "A2"
         if self.points is not None:
-            yield from self._placed(rule, self.points)
+            yield from self._check_placed(rule, self.points)
         elif self.step % self.number:
-            yield self._uneven(rule)
+            yield self._uneven_spacing(rule)
 
-    def _placed(self, rule: str, points: Sequence[tuple[float, float]]) -> Iterator[BuildFinding]:
+    def _check_placed(self, rule: str, points: Sequence[tuple[float, float]]) -> Iterator[BuildFinding]:
         turns = [atan2(y, x) / tau for x, y in points]
         misses = [self.step * (turn - turns[0]) for turn in turns]
         off = [abs(miss - round(miss)) for miss in misses]
         worst = max(off)
-        if worst <= _LITTLE:
+        if worst <= _NEGLIGIBLE:
             return
         at = off.index(worst)
         what = (
@@ -539,24 +539,24 @@ class _EqualPlanets:
         moved = [
             f"'{link}' {360 * (round(miss) / self.step % 1):.6g} deg"
             for link, miss, far in zip(self.firsts, misses, off, strict=True)
-            if far > _LITTLE
+            if far > _NEGLIGIBLE
         ]
         fix = f"place {', '.join(moved)} from '{self.firsts[0]}'"
         problem = Problem(what, why, self._fix(rule, fix), self.place)
         yield BuildFinding(rule, "error" if worst > _MISS and rule == "A1" else "note", problem)
 
-    def _uneven(self, rule: str) -> BuildFinding:
+    def _uneven_spacing(self, rule: str) -> BuildFinding:
         """Return the finding on planets that cannot be evenly spaced; an error if other spacings have no clearance."""
-        minimum = max((self._minimum_turn(planet, _STUB) for planet in self.planet.walk()), default=0.0)
+        minimum = max((self._minimum_angle(planet, _STUB) for planet in self.planet.walk()), default=0.0)
         steps = max(1, ceil(minimum * self.step - 1e-9))
         fits = self.number * steps <= self.step
         whole, rest = divmod(self.step, self.number)
-        even = [count for count in range(2, self._most() + 1) if self.step % count == 0]
+        even = [count for count in range(2, self._maximum_number() + 1) if self.step % count == 0]
         what = f"{self.number} equal planets {self.names} on '{self.one.carrier}' cannot be evenly spaced"
         why = f"they mesh only at multiples of {self._degrees}, and {self.step} is not a multiple of {self.number}"
         if not fits:
             why += "; other positions leave no clearance"
-        others = f"use {_listed(even)} planets, which can be evenly spaced" if even else "change a tooth count"
+        others = f"use {_enumerated(even)} planets, which can be evenly spaced" if even else "change a tooth count"
         spread = f"space them by {whole} and {whole + 1} of these steps ({rest} times {whole + 1}), or " if fits else ""
         return BuildFinding(
             rule,
@@ -577,21 +577,23 @@ class _EqualPlanets:
     def room(self) -> Iterator[BuildFinding]:
         """Yield findings of rule A3, the clearance between neighbours."""
         for planet in self.planet.walk():
-            for mesh in _once(planet):
+            for mesh in _one_mesh_per_wheel(planet):
                 if self._is_on_eccentric(planet, mesh):
                     continue  # discs on eccentrics are next to each other along the axis
-                gap = self._gap(planet, mesh, self.number)
+                gap = self._neighbour_clearance(planet, mesh, self.number)
                 if gap is not None and gap < _CLEAR:
-                    yield self._crowded(planet.own(mesh), gap)
+                    yield self._small_clearance(planet.own(mesh), gap)
             for mesh, other in planet.outward:
-                gap = self._passing(planet, other, mesh)
+                gap = self._passing_clearance(planet, other, mesh)
                 if gap is not None and gap < 0:
                     wheels = planet.own(mesh), other.own(mesh)
                     what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets collide"
                     why = f"their tip circles overlap by {-gap:.4g} modules"
-                    yield self._near(wheels, gap, what, why, "use fewer planets, or change their tooth counts")
+                    yield self._clearance_finding(
+                        wheels, gap, what, why, "use fewer planets, or change their tooth counts"
+                    )
 
-    def _crowded(self, wheel: str, gap: float) -> BuildFinding:
+    def _small_clearance(self, wheel: str, gap: float) -> BuildFinding:
         module = self._module(wheel)
         far = f"{abs(gap):.4g} modules" if module is None else f"{abs(gap) * module:.4g} mm"
         grave = gap <= 0
@@ -603,10 +605,10 @@ class _EqualPlanets:
         )
         if self.points is not None:
             why = why.replace("2 a sin(pi/n) apart, less", "placed at a distance less")
-        most = self._most() if self.points is not None else min(self._most(), self.number - 1)
-        return self._near((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
+        most = self._maximum_number() if self.points is not None else min(self._maximum_number(), self.number - 1)
+        return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
-    def _near(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
+    def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
         """Return a finding on tip clearance: an error if tips overlap even with the shortest undeclared teeth, else a
         note.
         """
@@ -623,9 +625,9 @@ class _EqualPlanets:
         module = self.sizes.module(wheel)
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
-    def _gap(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
+    def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
         """Return the clearance (modules) between the tips of equal wheels of neighbouring planets."""
-        tips = self._tips(planet, mesh)
+        tips = self._tip_diameter(planet, mesh)
         if self.points is not None and planet is self.planet and number == self.number:
             module = self._module(planet.own(mesh))
             if module is None:
@@ -634,27 +636,27 @@ class _EqualPlanets:
                 sqrt((x - u) ** 2 + (y - v) ** 2) for at, (x, y) in enumerate(self.points) for u, v in self.points[:at]
             )
             return near / module - tips
-        reach = self._reach(planet, planet.own(mesh))
+        reach = self._axis_distance(planet, planet.own(mesh))
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
         """Return True for a wheel that is much larger than its distance from the axis of the carrier."""
         wheel = planet.own(mesh)
-        reach, count = self._reach(planet, wheel), self.train.wheels[wheel][1].count or 0
+        reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
 
-    def _tips(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
+    def _tip_diameter(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
         """Return the tip diameter (modules) of a planet's wheel, with `addendum` for undeclared teeth."""
         wheel = planet.own(mesh)
         declared = self.tips.get(wheel)
         return (self.train.wheels[wheel][1].count or 0) + 2 * addendum if declared is None else 2 * declared
 
-    def _apart(self, mesh: AssemblyMesh) -> float:
+    def _mesh_distance(self, mesh: AssemblyMesh) -> float:
         """Return twice the centre distance (modules) of a pair."""
         outline = self.outlines.get(mesh.name)
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
-    def _reach(self, planet: Planet, wheel: str = "") -> float | None:
+    def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
         """Return twice the distance of a planet's axis from the central axis (modules of the wheel); None if
         unknown.
         """
@@ -665,17 +667,17 @@ class _EqualPlanets:
         wheel = wheel or own
         scale = self.sizes.sizes.ratio(("wheel", own), ("wheel", wheel))
         slants = [self.train.wheels[each][1].slant for each in (own, wheel)]
-        return None if scale is None else self._apart(meshes[0]) * float(scale) * slants[0] / slants[1]
+        return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
-    def _passing(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
+    def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
         """Return the clearance (modules) between a planet and the mates of its neighbours; None if unknown."""
-        A, B = self._reach(planet, planet.own(mesh)), self._reach(other, other.own(mesh))
+        A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
             return None
-        D = self._apart(mesh)
+        D = self._mesh_distance(mesh)
         if not abs(A - B) <= D <= A + B:
             return None
-        tips = self._tips(planet, mesh) + self._tips(other, mesh)
+        tips = self._tip_diameter(planet, mesh) + self._tip_diameter(other, mesh)
         squares = []
         for step in range(1, self.number):
             turn = tau * step / self.number
@@ -683,29 +685,29 @@ class _EqualPlanets:
             squares.append(sum(terms))
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
-    def _minimum_turn(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle (turns) between neighbours without overlapping tips; `addendum` as in `_tips`."""
+    def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
+        """Return the smallest angle (turns) between neighbours without tip collision; `addendum` as in `_tip_diameter`."""
         found = 0.0
-        for mesh in _once(planet):
-            reach = self._reach(planet, planet.own(mesh))
+        for mesh in _one_mesh_per_wheel(planet):
+            reach = self._axis_distance(planet, planet.own(mesh))
             if reach:
-                found = max(found, 2 * asin(min(self._tips(planet, mesh, addendum) / reach, 1.0)) / tau)
+                found = max(found, 2 * asin(min(self._tip_diameter(planet, mesh, addendum) / reach, 1.0)) / tau)
         return found
 
-    def _most(self) -> int:
+    def _maximum_number(self) -> int:
         """Return the maximum number of evenly spaced planets without overlapping tips."""
-        minimum = max((self._minimum_turn(planet) for planet in self.planet.walk()), default=0.0)
+        minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number
 
 
-def _once(planet: Planet) -> list[AssemblyMesh]:
+def _one_mesh_per_wheel(planet: Planet) -> list[AssemblyMesh]:
     """Return one mesh for each wheel of a planet."""
     inward = [planet.inward] if planet.inward else []
     meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
 
 
-def _points(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
+def _planet_positions(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
     """Return the positions of planets relative to their carrier's axis (mm); None unless all are declared."""
     places = [train.axes[label].point if label in train.axes else None for label in (centre or "", *map(str, axes))]
     spots = [place for place in places if place is not None]
@@ -715,6 +717,6 @@ def _points(train: Train, centre: str | None, axes: Sequence[str | None]) -> lis
     return [(dot(minus(spot, spots[0]), x), dot(minus(spot, spots[0]), y)) for spot in spots[1:]]
 
 
-def _listed(counts: Sequence[int]) -> str:
+def _enumerated(counts: Sequence[int]) -> str:
     *some, last = map(str, counts)
     return f"{', '.join(some)} or {last}" if some else last

@@ -212,7 +212,7 @@ class PitchPair:
         module = self.modules[0] or self.modules[1]
         if own is not None and (own.unit is None or module):
             return own.value if own.unit is None else millimetres(own) / (module or 1)
-        return self.touching if form is None else _shifted(self, form)
+        return self.touching if form is None else _distance_without_backlash(self, form)
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction]:
@@ -233,7 +233,7 @@ class PitchPair:
         return wanted - low, wanted + high
 
 
-def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
+def _distance_without_backlash(pair: PitchPair, form: ToothForm) -> Fraction:
     """Return the distance (modules) without backlash: that of the pitch circles, except for profile-shifted
     involutes.
     """
@@ -347,7 +347,7 @@ class PitchDistances:
         offsets = {coupling.name: coupling.offset for coupling in self.train.couplings if coupling.offset is not None}
         for pair in self.pairs:
             if pair.parallel:
-                self._place(pair.axis_pair)
+                self._record_positions(pair.axis_pair)
         at = {coupling.name: number for number, coupling in enumerate(self.train.couplings)}
         for circuit in circuits:
             if circuit.id not in offsets:
@@ -355,7 +355,7 @@ class PitchDistances:
             labels = [tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
             axes, offset = (min(labels), max(labels)), millimetres(offsets[circuit.id])
             node = ("axes", *axes)
-            self._place(axes)
+            self._record_positions(axes)
             apart = self.sizes.ratio(node, _MM)
             if apart is not None and abs(apart - offset) > _EQUAL * max(apart, offset):
                 what = f"axes {_named(axes)} are {_mm(apart)} apart, and the offset of '{circuit.id}' is {_mm(offset)}"
@@ -366,7 +366,7 @@ class PitchDistances:
                 self.sizes.join(_MM, node, offset)
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
-    def _place(self, axes: tuple[str, str]) -> None:
+    def _record_positions(self, axes: tuple[str, str]) -> None:
         """Record the distance of two parallel axes whose positions are declared."""
         declared = [self.train.axes[label] for label in axes if label in self.train.axes]
         node = ("axes", *axes)
@@ -416,7 +416,9 @@ class PitchDistances:
         )
         move, shift = f"move an axis by {_mm(abs(off) * module)}", f", or {shifts}" if shifts else ""
         if low <= found <= high or (shifts and pair.form is None):
-            yield BuildFinding("P1", "note", Problem(what, _effect(pair, off, module), move + shift, pair.place))
+            yield BuildFinding(
+                "P1", "note", Problem(what, _backlash_effect(pair, off, module), move + shift, pair.place)
+            )
             return
         why = f"their pitch circles {'are' if off > 0 else 'overlap by'} {_mm(abs(off) * module)}" + (
             " apart" if off > 0 else ""
@@ -451,7 +453,9 @@ class PitchDistances:
         level: BuildLevel = "note" if max(low, minimum) <= min(high, most) else "error"
         yield BuildFinding("P2", level, self._two_distances(pair, other, scale, off, level == "error"))
 
-    def _two_distances(self, pair: PitchPair, other: PitchPair, scale: Fraction, off: Fraction, grave: bool) -> Problem:
+    def _two_distances(
+        self, pair: PitchPair, other: PitchPair, scale: Fraction, off: Fraction, is_error: bool
+    ) -> Problem:
         module = self.module(pair.wheels[0])
         wants = [self._length(each, module) for each in (other.distance * scale, pair.distance)]
         shared = set(pair.wheels) & set(other.wheels)
@@ -459,9 +463,9 @@ class PitchDistances:
             f"pairs '{other.name}' and '{pair.name}' need different distances of axes {_named(pair.axis_pair)}: "
             f"{wants[0]} and {wants[1]}"
         )
-        if not grave:
+        if not is_error:
             why = f"two axes have only one distance, and the teeth must compensate for {self._length(off, module)}"
-            return Problem(what, why, _BRIDGE, pair.place)
+            return Problem(what, why, _COMPENSATE, pair.place)
         why = f"two axes have only one distance, and these differ by {self._length(off, module)}"
         teeth = 2 * off
         fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
@@ -475,7 +479,7 @@ class PitchDistances:
 
 _MOST = 50  # pairs between two axes with which a further one is compared; bounds the cost for many coaxial pairs
 _SHIFTS = (-1.0, 2.0)  # range of the sum of shifts (modules) for full-depth teeth of 20 degrees, about 20 and 40 teeth
-_BRIDGE = "shift profiles, give the pairs different modules, or change a tooth count"
+_COMPENSATE = "shift profiles, give the pairs different modules, or change a tooth count"
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
@@ -507,7 +511,7 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     return f"declare `{key}`: {what} must be {total:.4g}"
 
 
-def _effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
+def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
     """Describe the effect of a small change of distance on backlash, 2 da tan(alpha) for involutes (20 degrees by
     default).
     """

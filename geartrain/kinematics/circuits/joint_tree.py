@@ -96,7 +96,7 @@ def find_tree(train: Train) -> Tree:
             if first_top != top[other]:
                 problems.append(_two_axes(train, axis, first_top, top[other], first_at, at))
             queue.append(other)
-    problems += [_loose(train, link) for link in train.links if link != train.frame and link not in parent]
+    problems += [_unconnected(train, link) for link in train.links if link != train.frame and link not in parent]
     if problems:
         raise DeclarationError(problems)
     return Tree(train.frame, parent, top)
@@ -132,7 +132,7 @@ def _no_joints(train: Train) -> Problem:
     )
 
 
-def _loose(train: Train, link: str) -> Problem:
+def _unconnected(train: Train, link: str) -> Problem:
     return Problem(
         f"link '{link}' is not joined to the frame",
         f"no chain of turning pairs leads from it to '{train.frame}'",
@@ -194,7 +194,7 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
         if abs(remainder(lean - way * angle - turned, 2 * pi)) <= _SAME
     ]
     if not fits:
-        raise GearTrainError(_not_along(wheels, angle, side))
+        raise GearTrainError(_not_aligned(wheels, angle, side))
     if len({sense for sense, _ in fits}) == 1:
         return fits[0][0], ""
     note = (
@@ -227,11 +227,11 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
         declared = {wheel.helix} if wheel.hand else {wheel.helix, -wheel.helix}
         leans = [lean for lean in leans if any(abs(lean - each) <= _SAME for each in declared)]
     if not leans:
-        raise GearTrainError(_not_along(wheels, angle, side))
+        raise GearTrainError(_not_aligned(wheels, angle, side))
     return (leans[0], worm.helix) if at else (worm.helix, leans[0])
 
 
-def _not_along(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
+def _not_aligned(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
     hands = [f"{degrees(abs(wheel.helix)):.6g} deg {wheel.hand or 'right'}" for wheel in wheels]
     over = " about the way from the second to the first" if side else ""
     return Problem(
@@ -438,13 +438,13 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
     `DeclarationError` if every case has problems.
     """
     lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
-    closed = [_closed(train, lines, sums, case) for case in cases]
+    closed = [_closed_case(train, lines, sums, case) for case in cases]
     if all(case.problems for case in closed):
         raise DeclarationError({str(problem): problem for case in closed for problem in case.problems}.values())
     return closed
 
 
-def _closed(train: Train, lines: JointLines, sums: frozenset[str], case: StateCase) -> StateCase:
+def _closed_case(train: Train, lines: JointLines, sums: frozenset[str], case: StateCase) -> StateCase:
     problems = list(_driven_sums(train, case, sums))
     across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]
     if across:
@@ -481,7 +481,7 @@ class JointLines:
         steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
         found: list[JointOnLine] = []
         for start, end, label in steps:
-            if found and self._alike(found[-1][2][-1], label):
+            if found and self._same_line(found[-1][2][-1], label):
                 before = found.pop()
                 labels = before[2] if before[2][-1] == label else (*before[2], label)
                 found.append((before[0], end, labels))
@@ -489,13 +489,13 @@ class JointLines:
                 found.append((start, end, (label,)))
         return tuple(found)
 
-    def _alike(self, one: str, other: str) -> bool:
+    def _same_line(self, one: str, other: str) -> bool:
         return one == other or self._axes.are_one_line(one, other)
 
     def rigid(self, labels: Sequence[str]) -> bool:
         """Return whether a closed chain of turning pairs with these axes cannot move."""
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
-        if len(labels) <= 3 and not any(self._alike(one, other) for one, other in combinations(labels, 2)):
+        if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
             return True
         screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]
         return len(screws) == len(labels) and eliminate(screws).rank == len(labels)

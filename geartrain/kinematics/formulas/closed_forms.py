@@ -60,7 +60,7 @@ class FactoredPolynomial:
         for factor in known:
             while (quotient := divide(left, factor)) is not None:
                 left, found = quotient, [*found, factor]
-        sums = [_positive(each, point) for each in (*found, *_parted(left)) if len(each) > 1]
+        sums = [_positive_at_point(each, point) for each in (*found, *_separate_factors(left)) if len(each) > 1]
         back = product([Laurent.of(each, width) for each in sums], width)
         exponents = next(iter(back.terms))
         content = rest.terms[exponents] / back.terms[exponents]
@@ -68,43 +68,43 @@ class FactoredPolynomial:
         return cls(int(content), powers, tuple(sums))
 
 
-def _positive(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
+def _positive_at_point(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
     terms = p.sorted_terms()
     value = whole(terms, point) or terms[0].coefficient
     found = terms if value > 0 else (-p).sorted_terms()
     return tuple(sorted(found, key=lambda term: term.coefficient < 0))  # positive terms first
 
 
-def _parted(p: Laurent) -> Iterator[Laurent]:
+def _separate_factors(p: Laurent) -> Iterator[Laurent]:
     """Yield factors without a common variable, up to a constant."""
     used = [at for at in range(p.width) if any(exponents[at] for exponents in p.terms)]
     groups = [{at} for at in used]
     for i, j in combinations(used, 2):
         one, other = (next(group for group in groups if at in group) for at in (i, j))
-        if one is not other and not _are_apart(p, i, j):
+        if one is not other and not _are_separable(p, i, j):
             groups.remove(other)
             one |= other
     for group in groups:
-        yield _alone(p, [at for at in used if at not in group]).primitive()
+        yield _with_numbers(p, [at for at in used if at not in group]).primitive()
 
 
-def _are_apart(p: Laurent, i: int, j: int) -> bool:
+def _are_separable(p: Laurent, i: int, j: int) -> bool:
     for value in _VALUES:
-        at_i, at_j = _with(p, i, value), _with(p, j, value + 1)
-        both = _with(at_i, j, value + 1)
+        at_i, at_j = _substitute(p, i, value), _substitute(p, j, value + 1)
+        both = _substitute(at_i, j, value + 1)
         if both:
             return p * both == at_i * at_j
     return False
 
 
-def _alone(p: Laurent, others: Sequence[int]) -> Laurent:
+def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
     """Return the polynomial with some variables replaced by numbers at which it is not 0."""
     for at in others:
-        p = next(found for value in _VALUES if (found := _with(p, at, value)))
+        p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
     return p
 
 
-def _with(p: Laurent, at: int, value: int) -> Laurent:
+def _substitute(p: Laurent, at: int, value: int) -> Laurent:
     found: dict[Exponents, Fraction] = {}
     for exponents, coefficient in p.terms.items():
         key = (*exponents[:at], 0, *exponents[at + 1 :])
@@ -180,12 +180,12 @@ class ClosedForm(Result):
     @cached_property
     def text(self) -> str:
         """Formula as text, such as `z_s/(z_s + z_r)`, or `1 + z_r/z_s`."""
-        return self._written(_TEXT)
+        return self._format(_TEXT)
 
     @cached_property
     def latex(self) -> str:
         """Formula in LaTeX."""
-        return self._written(_LATEX)
+        return self._format(_LATEX)
 
     def sympy(self) -> Expr:
         """Return a SymPy expression, factored numerator over denominator; symbols are named `z_` plus the wheel.
@@ -251,11 +251,11 @@ class ClosedForm(Result):
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
     def _factored(self, terms: Sequence[Term]) -> FactoredPolynomial:
-        known = (self._own(*each) for each in self.known)
+        known = (self._converted(*each) for each in self.known)
         point = [self.counts[wheel] for wheel in self.formula.wheels]
         return FactoredPolynomial.of(terms, point, [each for each in known if each is not None])
 
-    def _own(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
+    def _converted(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
         """Return a sum in the variables of this formula; None if it has other wheels too."""
         own, used = self.formula.wheels, [at for at in range(len(wheels)) if any(each.exponents[at] for each in terms)]
         if any(wheels[at] not in own for at in used):
@@ -264,16 +264,16 @@ class ClosedForm(Result):
         spread = (Term(c, tuple(powers[place[wheel]] if wheel in place else 0 for wheel in own)) for c, powers in terms)
         return Laurent.of(spread, len(own))
 
-    def _written(self, style: _Style) -> str:
+    def _format(self, style: _Style) -> str:
         top, bottom = (self._factored(terms) for terms in (self.formula.numerator, self.formula.denominator))
-        split = self._split(style, top, bottom)
+        split = self._format_split(style, top, bottom)
         if split:
             return split
         sign = "-" if top.content * bottom.content < 0 else ""
         above, below = (_product(each, self.formula.wheels, style) for each in (top, bottom))
         return sign + (above if below == "1" else style.over(above, below))
 
-    def _split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
+    def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
         """Write a short sum over one of its terms as 1 plus quotients; "" for other formulas."""
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
             return ""

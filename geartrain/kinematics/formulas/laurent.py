@@ -200,16 +200,16 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
     if q.is_unit:
         return p * q.inverse()
     low_p, low_q = p.lowest(), q.lowest()
-    rest = dict(p.shifted(_minus(low_p)).terms)
-    divisor = q.shifted(_minus(low_q)).terms
+    rest = dict(p.shifted(_negated(low_p)).terms)
+    divisor = q.shifted(_negated(low_q)).terms
     lead = max(divisor)
     queue = [
-        _minus(exponents) for exponents in rest
+        _negated(exponents) for exponents in rest
     ]  # negated, because the heap returns the smallest and the highest powers are needed
     heapify(queue)
     found: dict[Exponents, Fraction] = {}
     while queue:
-        top = _minus(heappop(queue))
+        top = _negated(heappop(queue))
         if top not in rest:
             continue
         step = tuple(map(int.__sub__, top, lead))
@@ -221,7 +221,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
         for exponents, value in divisor.items():
             at = tuple(map(int.__add__, exponents, step))
             if at not in rest:
-                heappush(queue, _minus(at))
+                heappush(queue, _negated(at))
             new = rest.get(at, Fraction(0)) - factor * value
             if new:
                 rest[at] = new
@@ -240,7 +240,7 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     if not p or not q:
         return p if p else q
     shared = [at for at in range(p.width) if _degree(p, at) and _degree(q, at)]
-    shared = [at for at in shared if _may_share(p, q, at)]
+    shared = [at for at in shared if _may_have_common_divisor(p, q, at)]
     if not shared:
         return Laurent.constant(1, p.width)
     for whole, other in ((p, q), (q, p)):
@@ -254,7 +254,7 @@ def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
     """Apply Euclid's algorithm in one variable, with the contents (in the other variables) handled separately."""
     content_p, content_q = _content(p, at), _content(q, at)
     content = common_divisor(content_p, content_q)
-    p, q = _exactly(p, content_p), _exactly(q, content_q)
+    p, q = _divide_exactly(p, content_p), _divide_exactly(q, content_q)
     if _degree(p, at) < _degree(q, at):
         p, q = q, p
     while True:
@@ -263,7 +263,7 @@ def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
             return (content * q).primitive()
         if not _degree(rest, at):
             return content
-        p, q = q, _exactly(rest, _content(rest, at)).primitive()
+        p, q = q, _divide_exactly(rest, _content(rest, at)).primitive()
 
 
 def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
@@ -296,17 +296,17 @@ def _degree(p: Laurent, at: int) -> int:
     return max(exponents[at] for exponents in p.terms) if p else 0
 
 
-def _exactly(p: Laurent, q: Laurent) -> Laurent:
+def _divide_exactly(p: Laurent, q: Laurent) -> Laurent:
     found = divide(p, q)
     assert found is not None, "a content divides what it is the content of"
     return found
 
 
-def _minus(exponents: Exponents) -> Exponents:
+def _negated(exponents: Exponents) -> Exponents:
     return tuple(-power for power in exponents)
 
 
-def _may_share(p: Laurent, q: Laurent, at: int) -> bool:
+def _may_have_common_divisor(p: Laurent, q: Laurent, at: int) -> bool:
     """Return False only if no common divisor contains the variable; the others are set to random numbers modulo a
     prime.
     """

@@ -67,7 +67,7 @@ class SymbolicSolution:
             if factor is not None:
                 add_into(rest, equal, -factor)
         free = {c: entry.modulo(self.point, PRIME) for c, entry in rest.items() if c != GIVEN}
-        if _cleared(free, self.span):
+        if _reduced_row(free, self.span):
             return None
         return _combined(rest, self.values, self.determinants, self.width)
 
@@ -89,7 +89,7 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
     # a non-zero polynomial vanishes at a random point with a probability of at most degree / (2^61 - 1)
     # (Schwartz-Zippel lemma)
     point = [draw.randrange(1, PRIME) for _ in range(width)]
-    pivots, core, conditions = _divide_out(rows)
+    pivots, core, conditions = _eliminate_monomials(rows)
     chosen, span = _independent(core, point)
     leading = span
     if preferred is not None and len(chosen) < len(core):
@@ -116,7 +116,7 @@ class _LaurentRing:
         return len(entry)
 
 
-def _divide_out(
+def _eliminate_monomials(
     rows: Sequence[Row],
 ) -> tuple[list[tuple[int, Row]], list[tuple[int, Row]], list[tuple[int, Laurent]]]:
     """Eliminate with monomials as pivots. Return the pivots, the remaining core, and conditions."""
@@ -132,7 +132,7 @@ def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple
     chosen: list[int] = []
     span: dict[int, _Residues] = {}
     for at, (_, row) in enumerate(rows):
-        rest = _cleared({c: entry.modulo(point, PRIME) for c, entry in row.items() if c != GIVEN}, span)
+        rest = _reduced_row({c: entry.modulo(point, PRIME) for c, entry in row.items() if c != GIVEN}, span)
         if rest:
             lead = min(rest)
             inverse = pow(rest[lead], -1, PRIME)
@@ -141,7 +141,7 @@ def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple
     return chosen, span
 
 
-def _cleared(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Residues:
+def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Residues:
     """Return a row after elimination of the leading columns of an echelon form, without zeros."""
     rest = {column: value for column, value in row.items() if value}
     while True:
@@ -251,20 +251,20 @@ class SymbolicEquations:
         self.chords = tuple(chord for chord in loops if not chord.product.is_constant)
         self._reduced = reduce_components(replace(parts, breaking=never))
         self.parts = parts
-        stated = [*self._coupling(), *self._held(case), *self._driven(case)]
+        stated = [*self._coupling_rows(), *self._fixed_rows(case), *self._input_rows(case)]
         self.rows = [row for row, _ in stated]
         self.origin = [words for _, words in stated]
 
     def relative(self, link: str, base: str) -> Row:
         """Return the speed of a link relative to another, about the axis of the first, as a form of the unknowns."""
         row = self._form(self.parts.index[link])
-        add_into(row, self._form(self.parts.index[base]), self._number(-1))
-        sign = self._number(self._signs.get(link, 1))
+        add_into(row, self._form(self.parts.index[base]), self._constant(-1))
+        sign = self._constant(self._signs.get(link, 1))
         return {column: entry * sign for column, entry in row.items()}
 
     def unknown(self, group: int) -> Row:
         """Return the unknown of one component."""
-        return {group: self._number(1)}
+        return {group: self._constant(1)}
 
     def _find_ratios(self, parts: Components) -> list[Laurent]:
         """Return the speed of every node relative to its carrier, over its component's unknown."""
@@ -275,24 +275,24 @@ class SymbolicEquations:
             while node not in found and parts.node_parent[node] >= 0:
                 chain.append(node)
                 node = parts.node_parent[node]
-            found.setdefault(node, self._number(1))
+            found.setdefault(node, self._constant(1))
             for child in reversed(chain):
-                step = self._step(parts.circuits[parts.node_circuit[child]], parts.links[parts.node_link[child]])
+                step = self._speed_ratio(parts.circuits[parts.node_circuit[child]], parts.links[parts.node_link[child]])
                 found[child] = found[parts.node_parent[child]] * step
         return [found[node] for node in range(len(parts.node_link))]
 
-    def _step(self, circuit: Circuit, to: str) -> Laurent:
+    def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
         """Return the speed of one link of a circuit over that of the other, relative to their carrier."""
-        a, b = self._side(circuit, 0), self._side(circuit, 1)
+        a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())
 
-    def _side(self, circuit: Circuit, side: int) -> Laurent:
+    def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
         """Return a or b of a circuit; for a free wheel, its variable with the sign of the coefficient."""
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.kind == "gear" else None
         if variable is None:
-            return self._number(given)
+            return self._constant(given)
         size = Laurent.variable(variable, self.width)
         return size if given > 0 else -size
 
@@ -300,7 +300,7 @@ class SymbolicEquations:
         chord = parts.circuits[at]
         carrier = parts.index[chord.carrier]
         i, j = (parts.node(parts.index[link], carrier) for link in (chord.i, chord.j))
-        around = self._step(chord, chord.j) * self._ratios[i] * self._ratios[j].inverse()
+        around = self._speed_ratio(chord, chord.j) * self._ratios[i] * self._ratios[j].inverse()
         return Chord(at, around, parts.node_group[i])
 
     def _form(self, link: int) -> Row:
@@ -309,44 +309,44 @@ class SymbolicEquations:
         if link == self.parts.frame:
             return {}
         own = reduced.own.get(link)
-        return {own: self._number(1)} if own is not None else self._seen_from(self.parts.nodes_of[link][0])
+        return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
-    def _seen_from(self, node: int) -> Row:
+    def _relative_form(self, node: int) -> Row:
         """Return the speed of a node's link: the speed of its carrier plus its relative speed."""
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
         if carrier != parts.frame:
-            row[self._reduced.own[carrier]] = self._number(1)
+            row[self._reduced.own[carrier]] = self._constant(1)
         return row
 
-    def _coupling(self) -> Iterator[tuple[Row, str]]:
+    def _coupling_rows(self) -> Iterator[tuple[Row, str]]:
         parts = self.parts
         for (kind, subject, node), numbers in zip(self._reduced.origin, self._reduced.equations, strict=True):
             if kind == "share":
                 row = self._form(subject)
-                add_into(row, self._seen_from(node), self._number(-1))
+                add_into(row, self._relative_form(node), self._constant(-1))
                 yield row, f"'{parts.links[subject]}' is driven in more than one way"
             else:  # a component that is locked to its carrier for all counts
                 yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' locks its wheels"
 
-    def _held(self, case: StateCase) -> Iterator[tuple[Row, str]]:
+    def _fixed_rows(self, case: StateCase) -> Iterator[tuple[Row, str]]:
         index = self.parts.index
         for link in case.fixed:
             yield self._form(index[link]), case.says(link)
         for a, b in case.locks:
             row = self._form(index[a])
-            add_into(row, self._form(index[b]), self._number(-1))
+            add_into(row, self._form(index[b]), self._constant(-1))
             yield row, case.says(a, b)
 
-    def _driven(self, case: StateCase) -> Iterator[tuple[Row, str]]:
+    def _input_rows(self, case: StateCase) -> Iterator[tuple[Row, str]]:
         for link, speed in case.inputs.items():
             row = self._form(self.parts.index[link])
             if speed:
-                row[GIVEN] = self._number(-speed * self._signs.get(link, 1))
+                row[GIVEN] = self._constant(-speed * self._signs.get(link, 1))
             yield row, f"'{link}' is an input"
 
-    def _number(self, value: Fraction | int) -> Laurent:
+    def _constant(self, value: Fraction | int) -> Laurent:
         return Laurent.constant(value, self.width)
 
 
@@ -419,7 +419,7 @@ def find_formulas(
     )
     equations = _equations(train, tree, case, wheels, free)
     try:
-        return _read_off(train, case, equations, wheels)
+        return _collect_formulas(train, case, equations, wheels)
     except TooLongError:
         raise QuestionError(_too_coupled(train)) from None
 
@@ -458,11 +458,11 @@ def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
     """Return the equations that affect the outputs. Free wheels are represented by distinct large random counts."""
-    stand_in = with_counts(train, {name: free[name][0] for name in wheels})
+    representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
-    circuits = [circuit.with_counts(sizes) for circuit in find_circuits(stand_in, tree)]
+    circuits = [circuit.with_counts(sizes) for circuit in find_circuits(representative, tree)]
     requested = {link for name, output in case.outputs.items() for link in output.links(name, train.frame)}
     kept = {train.frame, *requested, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)}
     circuits = relevant_circuits(circuits, kept)
@@ -472,7 +472,7 @@ def _equations(
     return SymbolicEquations(links, train.frame, circuits, case, Axes(train, tree).link_signs, variables)
 
 
-def _read_off(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
+def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
     """Return the outputs, conditions and exclusions from the solved equations."""
     solution = solve_rows(equations.rows, equations.width, _declared(train, wheels))
     outputs: dict[str, Formula] = {}
@@ -488,12 +488,12 @@ def _read_off(train: Train, case: StateCase, equations: SymbolicEquations, wheel
         if not common.is_definite:
             cancelled[name] = common
     stated = [(equations.origin[row], left) for row, left in solution.conditions]
-    stated += _loops(equations, solution)
+    stated += _loop_conditions(equations, solution)
     excluded = [(f"the motion of '{name}' is determined", common) for name, common in cancelled.items()]
-    return Formulas(outputs, _zeros(stated, wheels), _zeros(excluded, wheels), tuple(undetermined))
+    return Formulas(outputs, _zero_conditions(stated, wheels), _zero_conditions(excluded, wheels), tuple(undetermined))
 
 
-def _loops(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
+def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
     """Yield the conditions of loops of free wheels: ratio product 1, unless the wheels of the loop are at rest."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
@@ -507,7 +507,7 @@ def _loops(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator
         yield f"loop {' - '.join(loop.links)} closes", left
 
 
-def _zeros(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
+def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
     """Return functions of which only the zeros matter, divided by one of their monomials, without duplicates."""
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:

@@ -290,7 +290,7 @@ def make_formula(
     common = common_divisor(top, bottom)
     cancelled = grouping.back(common, len(wheels))
     if not common.is_constant:
-        quotients = [grouping.back(_over(each, common), len(wheels)) for each in (top, bottom)]
+        quotients = [grouping.back(_quotient(each, common), len(wheels)) for each in (top, bottom)]
         grouping = find_grouping(quotients)  # the quotients may have fewer classes
         top, bottom = grouping.rewritten
     return _formula(label, wheels, grouping, top, bottom), cancelled
@@ -325,7 +325,7 @@ def _formula(label: str, wheels: Sequence[str], grouping: MonomialGrouping, top:
     return Formula(label, tuple(wheels[at] for at in used), numerator, denominator, groups, upper, lower)
 
 
-def _over(p: Laurent, q: Laurent) -> Laurent:
+def _quotient(p: Laurent, q: Laurent) -> Laurent:
     found = divide(p, q)
     assert found is not None, "a common divisor divides"
     return found

@@ -99,7 +99,7 @@ class OutputFormula(Result):
     @property
     def latex(self) -> str:
         """Formula in LaTeX."""
-        return f"{_speed(self.output)} = {self._sum('latex', _speed)}"
+        return f"{_speed_symbol(self.output)} = {self._sum('latex', _speed_symbol)}"
 
     def sympy(self) -> Expr:
         """Return the speed as a SymPy expression with symbols `z_...` for counts and `w_...` for speeds of inputs.
@@ -153,13 +153,15 @@ def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ())
             shares = tuple(
                 InputShare(link, case.inputs[link], ClosedForm(each[name], counts)) for link, each in found.items()
             )
-            told = [each for formulas in found.values() for each in formulas.conditions]
+            required = [each for formulas in found.values() for each in formulas.conditions]
             excluded = [each for formulas in found.values() for each in formulas.exclusions]
             poles = [text for share in shares for text in share.ratio.poles] + _zeros(excluded, counts)
-            yield OutputFormula(name, state, tuple(filter(_matters, shares)), _once(_zeros(told, counts)), _once(poles))
+            yield OutputFormula(
+                name, state, tuple(filter(_is_nonzero, shares)), _unique(_zeros(required, counts)), _unique(poles)
+            )
 
 
-def _matters(share: InputShare) -> bool:
+def _is_nonzero(share: InputShare) -> bool:
     return bool(share.ratio.formula.numerator)
 
 
@@ -167,9 +169,9 @@ def _zeros(formulas: Sequence[Formula], counts: Mapping[str, int]) -> list[str]:
     return [text for each in formulas for text in ClosedForm(each, counts).zeros]
 
 
-def _once(texts: Sequence[str]) -> tuple[str, ...]:
+def _unique(texts: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(texts))
 
 
-def _speed(link: str) -> str:
+def _speed_symbol(link: str) -> str:
     return r"\omega_{\mathrm{" + link.replace("_", r"\_") + "}}"

@@ -42,12 +42,12 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
         return Gridlock()
-    jams = tuple(_jam(parts, jammed) for jammed in find_locked_networks(parts))
+    jams = tuple(_locked_subgraph(parts, jammed) for jammed in find_locked_networks(parts))
     gone = {mesh for jam in jams for mesh in jam.release.meshes}
     ordinary = all(carrier == parts.frame for carrier in parts.group_carrier)  # then components are not coupled
-    held = () if ordinary else _held(part, gone)
+    held = () if ordinary else _locked_links(part, gone)
     if held:
-        return Gridlock(jams, held, _coupled(part, gone, sum(jam.release.at_least for jam in jams)))
+        return Gridlock(jams, held, _coupled_removal(part, gone, sum(jam.release.at_least for jam in jams)))
     return Gridlock(jams, (), join_removals(jam.release for jam in jams) if jams else None)
 
 
@@ -97,7 +97,7 @@ def _gain(parts: Components, chord: int) -> Gain:
     return -1 if gain == -1 else gain
 
 
-def _jam(parts: Components, jammed: LockedNetwork) -> LockedSubgraph:
+def _locked_subgraph(parts: Components, jammed: LockedNetwork) -> LockedSubgraph:
     network = jammed.network
     found = walk_gain_graph(network)
     choice = choose_removal(network, found)
@@ -138,28 +138,28 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
     return SolvedPart(part.links, part.frame, circuits, part.first)
 
 
-def _held(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
+def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
     """Return the links that meshes lock for any tooth counts, after removal of some meshes.
 
     A ratio can keep one link from rotating, and all links that it drives at rest, while the train moves. With other
     tooth counts these links would move, so only links that are at rest for other ratios too are counted.
     """
     less = _without(part, gone)
-    still = _still(less)
+    still = _stationary_links(less)
     if not still:
         return ()
-    always = set(_still(_varied(less)))
+    always = set(_stationary_links(_with_random_ratios(less)))
     return tuple(link for link in still if link in always)
 
 
-def _still(part: SolvedPart) -> tuple[str, ...]:
+def _stationary_links(part: SolvedPart) -> tuple[str, ...]:
     mobility = find_mobility(part.reduced, 0)
     if mobility.by_rank:
         return mobility.still
     return tuple(link for link in part.links if link != part.frame)
 
 
-def _varied(part: SolvedPart) -> SolvedPart:
+def _with_random_ratios(part: SolvedPart) -> SolvedPart:
     """Return the train with another ratio for every link and carrier; the ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
@@ -179,36 +179,42 @@ def _varied(part: SolvedPart) -> SolvedPart:
     return SolvedPart(part.links, part.frame, circuits, part.first)
 
 
-def _frees(part: SolvedPart, gone: Collection[str]) -> bool:
+def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
     """Return True if every loop is consistent and every link can move after removal of some meshes."""
     less = _without(part, gone)
-    return not less.reduced.components.breaking and not _held(part, gone)
+    return not less.reduced.components.breaking and not _locked_links(part, gone)
 
 
-def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
+def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
     """Return meshes of several carriers whose removal frees the train: a smallest set for few meshes, else a minimal
     one.
 
     None if such a set does not exist, or there are too many meshes to try.
     """
     toothed = _without(part, ())
-    bound = {circuit.id for some in (toothed, _varied(toothed)) for circuit in relevant_circuits(some.circuits, ())}
+    bound = {
+        circuit.id
+        for some in (toothed, _with_random_ratios(toothed))
+        for circuit in relevant_circuits(some.circuits, ())
+    }
     gears = [circuit.id for circuit in toothed.circuits if circuit.kind == "gear" and circuit.id in bound]
-    if len(gears) > MOST_COUPLED or not _frees(part, gears):
+    if len(gears) > MOST_COUPLED or not _frees_train(part, gears):
         return None
     minimum = max(1, at_least)
-    singles = [gear for gear in gears if _frees(part, {gear})] if minimum == 1 and len(gears) <= _ONE_BY_ONE else []
+    singles = (
+        [gear for gear in gears if _frees_train(part, {gear})] if minimum == 1 and len(gears) <= _ONE_BY_ONE else []
+    )
     if singles:
         return MeshRemoval((singles[0],), "one", 1, tuple(singles))
-    needed = _needed(part, sorted(gears, key=lambda name: name not in gone))
+    needed = _minimal_removal(part, sorted(gears, key=lambda name: name not in gone))
     # no single mesh frees the train
     minimum = max(minimum, 2) if len(gears) <= _ONE_BY_ONE else minimum
     if sum(comb(len(gears), size) for size in range(minimum, len(needed))) > _TRIALS:
         return MeshRemoval(tuple(needed), "greedy", minimum)
-    return _searched(part, gears, needed, range(minimum, len(needed)))
+    return _search_smaller_sets(part, gears, needed, range(minimum, len(needed)))
 
 
-def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:
+def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
     """Return a minimal set of meshes whose removal frees the train, preferring those early in the list.
 
     Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
@@ -216,20 +222,20 @@ def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:
     """
     needed: list[str] = []
     left = list(gears)
-    while not _frees(part, needed):
+    while not _frees_train(part, needed):
         low, high = 1, len(left)
         while low < high:
             middle = (low + high) // 2
-            low, high = (low, middle) if _frees(part, [*needed, *left[:middle]]) else (middle + 1, high)
+            low, high = (low, middle) if _frees_train(part, [*needed, *left[:middle]]) else (middle + 1, high)
         needed.append(left[low - 1])
         del left[low - 1 :]
     return needed
 
 
-def _searched(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
+def _search_smaller_sets(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
     """Search all smaller sets exhaustively, in the order of size."""
     for size in sizes:
         for some in combinations(gears, size):
-            if _frees(part, some):
+            if _frees_train(part, some):
                 return MeshRemoval(some, "search", size)
     return MeshRemoval(tuple(kept), "search", len(kept))

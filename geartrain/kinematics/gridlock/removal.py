@@ -82,9 +82,9 @@ class MeshRemoval(Result):
             return f"disengage {one}" if len(self.choices) == 1 else f"disengage one of {abridged_names(self.choices)}"
         many = len(self.meshes)
         text = f"disengage {many} meshes: {abridged_names(self.meshes)}" if many > 1 else f"disengage {self.meshes[0]}"
-        return f"{text}; {self._why()}"
+        return f"{text}; {self._reason()}"
 
-    def _why(self) -> str:
+    def _reason(self) -> str:
         proof = ", and ".join(map(str, self.proofs)) if sum(p.at_least for p in self.proofs) == self.at_least else ""
         if not self.minimum:
             because = f", because {proof}" if proof else ""

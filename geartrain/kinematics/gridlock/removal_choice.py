@@ -62,14 +62,14 @@ def minimal_removal(network: GainGraph, most: int, budget: int) -> list[int] | N
     lower bound on the remaining removals is the number of loops without a common mesh. Raises `OverBudgetError` after
     `budget` branches.
     """
-    return _Search(network, most, budget).run()
+    return _BranchAndBound(network, most, budget).run()
 
 
 class OverBudgetError(Exception):
     """Error raised if branch and bound exceeds its number of branches."""
 
 
-class _Search:
+class _BranchAndBound:
     """State of one branch and bound: `best` is the smallest set so far, `most` its size."""
 
     def __init__(self, network: GainGraph, most: int, budget: int) -> None:
@@ -108,21 +108,23 @@ def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list
     A spanning forest with gains grows mesh by mesh and keeps the consistent ones: first meshes on no short inconsistent
     loop, last those on most such loops. Nodes then change to the speed for which most of their meshes are consistent.
     """
-    suspects, loops = _suspects(network, found)
+    suspects, loops = _inconsistent_loop_counts(network, found)
     tree = [mesh for mesh in found.entry if mesh >= 0]
     last = sorted(suspects, key=lambda mesh: suspects[mesh])
     calm = [mesh for mesh in (*tree, *found.chords, *found.breaking) if mesh not in suspects]
     best: list[int] | None = None
     for order in ([*calm, *last], [*tree, *found.chords, *found.breaking]):
-        first = _refused(network, order)
-        better = _improved(network, first)
+        first = _inconsistent_meshes(network, order)
+        better = _local_search(network, first)
         minimum = better if len(better) < len(first) else first
         if best is None or len(minimum) < len(best):
             best = minimum
     return best or [], loops
 
 
-def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict[int, int], list[GainLoop]]:
+def _inconsistent_loop_counts(
+    network: GainGraph, found: GainWalk, most: int = 64
+) -> tuple[dict[int, int], list[GainLoop]]:
     """Return the number of inconsistent loops of two to four meshes on which each mesh lies, and disjoint ones of them.
 
     An inconsistent loop contains a mesh with a gain other than 1 if speeds are in the units of the search, so only the
@@ -187,7 +189,7 @@ def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
     return loop
 
 
-def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
+def _inconsistent_meshes(network: GainGraph, order: Sequence[int]) -> list[int]:
     """Return the meshes that are inconsistent with earlier ones in a forest with gains (Kruskal); firm ones come
     first.
     """
@@ -196,7 +198,7 @@ def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
     refused = []
     for mesh in (*network.firm, *(mesh for mesh in order if mesh not in network.firm)):
         first, second = network.ends[mesh]
-        (top, one), (other, two) = _top(up, gain, first), _top(up, gain, second)
+        (top, one), (other, two) = _root(up, gain, first), _root(up, gain, second)
         requested = one * network.gains[mesh] if mesh in network.gains else one
         if top != other:
             up[other], gain[other] = top, requested if two == 1 else requested * inverse(two)
@@ -205,7 +207,7 @@ def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
     return refused
 
 
-def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
+def _root(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
     """Return the root of a node and the node's speed over the root's (union-find with path compression)."""
     chain = []
     while up[node] != node:
@@ -218,7 +220,7 @@ def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
     return node, total
 
 
-def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
+def _local_search(network: GainGraph, refused: Sequence[int]) -> list[int]:
     """Reduce a removal by local search: nodes take the speed for which most of their meshes are consistent."""
     speed = list(walk_gain_graph(network, refused).speed)
     queue = [node for mesh in refused for node in network.ends[mesh]]
@@ -234,12 +236,12 @@ def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
         if requested[best] > requested.get(speed[here], 0):
             speed[here] = best
             queue += [network.other(mesh, here) for mesh in network.at[here]]
-    held = [mesh for mesh, (i, _) in enumerate(network.ends) if _agrees(network, speed, mesh, i)]
+    held = [mesh for mesh, (i, _) in enumerate(network.ends) if _is_consistent(network, speed, mesh, i)]
     agreeing = set(held)
-    return _refused(network, [*held, *(mesh for mesh in range(len(network.ends)) if mesh not in agreeing)])
+    return _inconsistent_meshes(network, [*held, *(mesh for mesh in range(len(network.ends)) if mesh not in agreeing)])
 
 
-def _agrees(network: GainGraph, speed: Sequence[Gain], mesh: int, start: int) -> bool:
+def _is_consistent(network: GainGraph, speed: Sequence[Gain], mesh: int, start: int) -> bool:
     return speed[start] * network.gains.get(mesh, 1) == speed[network.other(mesh, start)]
 
 
@@ -270,10 +272,10 @@ def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None
         return None
     faces = _faces(drawing)
     # the boundary of each face has the product -1 or 1; a loop is inconsistent if it encloses an odd number of -1
-    odd = [at for at, face in enumerate(faces) if _fails(bundles, face)]
+    odd = [at for at, face in enumerate(faces) if _is_odd(bundles, face)]
     if len(odd) > most_odd:
         return None
-    signs = _signs(bundles, _join(bundles, faces, odd))
+    signs = _signs(bundles, _minimum_join(bundles, faces, odd))
     speed = [sign * signs.get(node, 1) for node, sign in nodes]
     gone = [mesh for mesh, (i, j) in enumerate(network.ends) if speed[i] * network.gains.get(mesh, 1) != speed[j]]
     simple = not network.firm and len(bundles) == len(network.ends)
@@ -330,7 +332,7 @@ def _steps(face: Sequence[int]) -> list[Pair]:
     return list(zip(face, [*face[1:], face[0]], strict=True))
 
 
-def _fails(bundles: dict[Pair, int], face: Sequence[int]) -> bool:
+def _is_odd(bundles: dict[Pair, int], face: Sequence[int]) -> bool:
     """Return True if an odd number of bundles around a face have a negative sign."""
     return sum(bundles[min(step), max(step)] < 0 for step in _steps(face)) % 2 == 1
 
@@ -354,7 +356,7 @@ def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
     return signs
 
 
-def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequence[int]) -> set[Pair]:
+def _minimum_join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequence[int]) -> set[Pair]:
     """Return the bundles crossed by a minimum T-join of the odd faces."""
     import networkx as nx
 
@@ -365,7 +367,7 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
         if one != two:
             dual[one].append((two, abs(surplus), pair))  # weight: number of meshes to remove when the bundle is crossed
             dual[two].append((one, abs(surplus), pair))
-    ways = {start: _ways(dual, start) for start in odd}
+    ways = {start: _shortest_paths(dual, start) for start in odd}
     graph: nx.Graph[int] = nx.Graph()
     graph.add_weighted_edges_from(
         (one, two, ways[one][0][two]) for at, one in enumerate(odd) for two in odd[at + 1 :] if two in ways[one][0]
@@ -380,7 +382,7 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
     return join
 
 
-def _ways(
+def _shortest_paths(
     dual: Sequence[Sequence[tuple[int, int, Pair]]], start: int
 ) -> tuple[dict[int, int], dict[int, tuple[int, Pair]]]:
     """Compute distances from one face by Dijkstra's algorithm, with predecessor face and bundle of each."""
@@ -450,8 +452,8 @@ def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
     for block in biconnected_blocks(network):
         part, nodes = network.part(block)
         if not is_balanced(part):
-            choices.append(_placed(_choose_in_block(part), block, nodes))
-    return _joined(choices)
+            choices.append(_with_network_indices(_choose_in_block(part), block, nodes))
+    return _combined(choices)
 
 
 def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
@@ -484,10 +486,10 @@ def _choose_in_block(block: GainGraph) -> RemovalChoice:
         join = planar_removal(plain)
         if join is not None:
             return RemovalChoice(
-                join.meshes, "matching", len(join.meshes), [], _proofs(plain, join.odd, len(join.meshes))
+                join.meshes, "matching", len(join.meshes), [], _loop_proofs(plain, join.odd, len(join.meshes))
             )
     meshes, loops = greedy_removal(plain, found)
-    bound = _bound(plain, loops)
+    bound = _better_packing(plain, loops)
     if bound.at_least == len(meshes) or len(block.ends) > _SEARCHED:
         return _greedy(meshes, bound)
     try:
@@ -504,13 +506,13 @@ def _greedy(meshes: list[int], bound: LoopPacking) -> RemovalChoice:
     return RemovalChoice(sorted(meshes), method, bound.at_least, [], [bound])
 
 
-def _bound(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
+def _better_packing(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
     """Return the better of two collections of loops without a common mesh."""
     more = disjoint_loops(network) if len(network.ends) <= _MEDIUM else None
     return LoopPacking(max((loops, more or []), key=len), 1)
 
 
-def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
+def _loop_proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
     """Return loops that prove a matching to be smallest, if any are found: odd faces, or loops without a common
     mesh.
     """
@@ -523,11 +525,11 @@ def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[L
     for bound in (LoopPacking(apart, 1), LoopPacking(list(odd), 2)):
         if bound.at_least == minimum:
             return [bound]
-    bound = _bound(network, apart)
+    bound = _better_packing(network, apart)
     return [bound] if bound.at_least == minimum else []
 
 
-def _placed(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -> RemovalChoice:
+def _with_network_indices(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -> RemovalChoice:
     """Return the choice of a block with the indices of the whole network."""
     bounds = [
         LoopPacking([[(nodes[node], block[mesh]) for node, mesh in loop] for loop in bound.loops], bound.sharing)
@@ -537,7 +539,7 @@ def _placed(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -
     return RemovalChoice(meshes, choice.method, choice.at_least, choices, bounds)
 
 
-def _joined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
+def _combined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
     """Combine the choices of all blocks. No loop passes through two blocks, so bounds are added."""
     if len(choices) == 1:
         return choices[0]
@@ -546,11 +548,11 @@ def _joined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
         weakest_method(choice.method for choice in choices),
         sum(choice.at_least for choice in choices),
         [],
-        _merged([bound for choice in choices for bound in choice.bounds]),
+        _merged_bounds([bound for choice in choices for bound in choice.bounds]),
     )
 
 
-def _merged(bounds: Sequence[LoopPacking]) -> list[LoopPacking]:
+def _merged_bounds(bounds: Sequence[LoopPacking]) -> list[LoopPacking]:
     """Merge the bounds of several blocks; loops without a common mesh are counted together."""
     apart = [loop for bound in bounds if bound.sharing == 1 for loop in bound.loops]
     return ([LoopPacking(apart, 1)] if apart else []) + [bound for bound in bounds if bound.sharing > 1]

@@ -195,14 +195,14 @@ def _axes(train: Train) -> dict[str, _Axis]:
         place, error = None, Fraction(0)
         if axis.position:
             x, y, z = (part.numerator * (unit // part.denominator) for part in points[label])
-            place, error = (x, y, z), unit * Fraction(math.hypot(*map(_half, axis.position)))
+            place, error = (x, y, z), unit * Fraction(math.hypot(*map(_half_digit, axis.position)))
         found[label] = _Axis(way, unsure, sense, place, error)
     return found
 
 
 def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[IntegerVector, float, IntegerVector]:
     """Return a direction, its maximum error (rad), and the first known direction parallel to it."""
-    way = _whole([figure.value for figure in figures])
+    way = _integer_direction([figure.value for figure in figures])
     rough = math.hypot(*(float(figure.half or 0) for figure in figures))
     sense = next((known for known in senses if parallel(known, way)), None)
     if sense is None:
@@ -210,7 +210,7 @@ def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[
     return way, rough / math.hypot(*(float(figure.value) for figure in figures)), sense or way
 
 
-def _whole(parts: Sequence[Fraction]) -> IntegerVector:
+def _integer_direction(parts: Sequence[Fraction]) -> IntegerVector:
     """Return the shortest integer vector with the given direction."""
     unit = math.lcm(*(part.denominator for part in parts))
     x, y, z = (int(part * unit) for part in parts)
@@ -218,7 +218,7 @@ def _whole(parts: Sequence[Fraction]) -> IntegerVector:
     return x // common, y // common, z // common
 
 
-def _half(length: Quantity) -> float:
+def _half_digit(length: Quantity) -> float:
     """Return half a unit of the last decimal written (m); 0 for integers and fractions, which are exact."""
     number = _NUMBER.match(length.text)
     if number is None or not _DECIMAL.search(number[0]) or "/" in length.text or ":" in length.text:
@@ -244,11 +244,11 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
     if parallel(first.way, second.way):
         if kinds != {"spur"}:
             return "a bevel pair on parallel axes has no pitch point"
-        return _side_by_side(first, second, [wheel.internal for wheel in wheels])
-    return _through_a_point(first, second, [wheel.facing for wheel in wheels])
+        return _parallel_contact(first, second, [wheel.internal for wheel in wheels])
+    return _intersecting_contact(first, second, [wheel.facing for wheel in wheels])
 
 
-def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
+def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
     """Return the contact on parallel axes: towards the other axis, or away from it for the mate of a ring."""
     if first.place is None or second.place is None:
         return "the positions of its axes are not declared"
@@ -263,7 +263,7 @@ def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Con
     return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
 
 
-def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
+def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
     """Return the contact on intersecting axes: towards the side to which the mate's cone opens."""
     if first.place is not None and second.place is not None:
         apart = dot(minus(second.place, first.place), cross(first.way, second.way))

@@ -122,7 +122,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
     for power in _prime_powers(scale):
         # p-part of a form: the multiple that is 1 modulo the power of p and 0 modulo the cofactor (Chinese remainders)
         lifted = [[value * pow(scale // power, -1, power) % power for value in row] for row in whole]
-        for modulus, row in (_plain(row, power) for row in _needed(lifted, power)):
+        for modulus, row in (_simplest_form(row, power) for row in _independent_generators(lifted, power)):
             terms = {kind: value for kind, value in zip(kinds, row, strict=True) if value}
             if len(terms) == 1:
                 alone[next(iter(terms))] = alone.get(next(iter(terms)), 1) * modulus
@@ -158,23 +158,23 @@ def _prime_powers(number: int) -> Iterable[int]:
         prime += 1
 
 
-def _needed(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
+def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
     """Return generators of the same group without redundant ones."""
-    found = _triangle(rows, power)
+    found = _howell_form(rows, power)
     for row in found[::-1]:
         fewer = [other for other in found if other is not row]
-        if _order(fewer, power) == _order(found, power):
+        if _group_order(fewer, power) == _group_order(found, power):
             found = fewer
     return found
 
 
-def _order(rows: Sequence[Sequence[int]], power: int) -> int:
+def _group_order(rows: Sequence[Sequence[int]], power: int) -> int:
     """Return the number of elements of the group."""
-    firsts = (next(value for value in row if value) for row in _triangle(rows, power))
+    firsts = (next(value for value in row if value) for row in _howell_form(rows, power))
     return math.prod(power // math.gcd(first, power) for first in firsts)
 
 
-def _triangle(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
+def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
     """Return rows that generate the same group modulo a prime power, in triangular (Howell) form."""
     found = []
     active = [list(row) for row in rows]
@@ -198,14 +198,14 @@ def _triangle(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
     return found
 
 
-def _plain(row: Sequence[int], power: int) -> tuple[int, list[int]]:
+def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
     """Return the equivalent condition with the smallest numbers."""
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
     # the unit affects only the notation, so at most 1000 are tried
     units = [unit for unit in range(1, min(modulus, 1000) + 1) if math.gcd(unit, modulus) == 1]
-    return modulus, min((_centred(row, unit, modulus) for unit in units), key=_size)
+    return modulus, min((_centred(row, unit, modulus) for unit in units), key=_simplicity)
 
 
 def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
@@ -213,7 +213,7 @@ def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
     return [value - modulus if 2 * value > modulus else value for value in found]
 
 
-def _size(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
+def _simplicity(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
     """Return the sort key of a row: small factors first, then few minus signs, then a positive first factor."""
     first = next((value for value in row if value), 0)
     return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
@@ -276,17 +276,17 @@ class LoopPhase(Result):
         """Description of the loop on one line."""
         name = " - ".join((*self.gears, *self.gears[:1])) if self.gears else f"{', '.join(self.meshes)} together"
         if self.kind == "closes":
-            return f"{name} closes{self._doubt}"
+            return f"{name} closes{self._accuracy_remark}"
         if self.kind == "unclear":
             return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
-        words = f"{name} misses by {_shown(self.miss)} pitch at {self.meshes[-1]}{self._doubt}"
+        words = f"{name} misses by {_magnitude_text(self.miss)} pitch at {self.meshes[-1]}{self._accuracy_remark}"
         if self.retime:
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
             words += f"; {wheel} turned on its arbor by {turned:.6g} pitch would close it"
         return words
 
     @property
-    def _doubt(self) -> str:
+    def _accuracy_remark(self) -> str:
         if self.how == "exact":
             return ""
         return " (angles recognised)" if self.how == "recognised" else f" (to {self.slack:.1g})"
@@ -304,7 +304,7 @@ def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
             came, goes = (_wheel(problem, one, node) for one in (before, mesh))
             gears.append(came if came == goes else f"{came}+{goes}")
             if came != goes:
-                over |= {came: _pull(problem, before, node, row), goes: _pull(problem, mesh, node, row)}
+                over |= {came: _sum_change(problem, before, node, row), goes: _sum_change(problem, mesh, node, row)}
             before = mesh
     meshes = cycle.meshes if cycle else tuple(row)
     return LoopPhase(
@@ -314,7 +314,7 @@ def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
         condition.residue,
         condition.slack,
         condition.how,
-        None if over or cycle is None else _inside(problem, condition),
+        None if over or cycle is None else _inside_angles(problem, condition),
         {wheel: float(condition.residue) / pull for wheel, pull in over.items() if condition.kind == "misses"},
         cycle is None,
     )
@@ -324,13 +324,13 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
     return problem.circuits[mesh].wheels[problem.ends[mesh][1] == node]
 
 
-def _pull(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
+def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
     """Return the change of a loop's sum when one wheel is rotated on its arbor by one pitch."""
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 
 
-def _inside(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
+def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
     """Return the signed and weighted azimuths of both contacts of each gear, summed: the angle inside the loop
     (turns).
     """
@@ -344,14 +344,14 @@ def _inside(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fracti
         for one in (before, mesh):
             side = problem.ends[one][1] == node
             angle = contacts.part[one][side] if exact else float(contacts.azimuth[one, int(side)])
-            part += _pull(problem, one, node, condition.row) * angle
+            part += _sum_change(problem, one, node, condition.row) * angle
         gear = _wheel(problem, mesh, node)
         found[gear] = found.get(gear, Fraction(0)) + part
         before = mesh
     return found
 
 
-def _shown(value: Fraction | float) -> str:
+def _magnitude_text(value: Fraction | float) -> str:
     return fraction_text(abs(value)) if isinstance(value, Fraction) else f"{abs(value):.6g}"
 
 
@@ -560,7 +560,7 @@ class MeshPhasing(Result):
             yield f"  and {len(shown) - _SHOWN} more"
         if self.missing:
             yield f"  assembled one after the other, the last meshes are off by up to {self.last:.6g} pitch"
-            yield f"  distributed over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash}"
+            yield f"  distributed over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash_remark}"
         if self.unjudged:
             passes = "loop passes" if self.unjudged == 1 else "loops pass"
             yield f"  {self.unjudged} {passes} through pairs with unknown position, not checked:"
@@ -571,7 +571,7 @@ class MeshPhasing(Result):
             yield "  loops were checked one by one, without conditions on several loops together"
 
     @property
-    def _backlash(self) -> str:
+    def _backlash_remark(self) -> str:
         if not self.backlashes:
             return ""
         words = {
@@ -669,7 +669,7 @@ def find_phasing(
         every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
         whole = find_components(_links(train, every), train.frame, every)
         unjudged = max(len(whole.closing) - len(parts.closing), 0)
-    return MeshPhasing(PhaseSystem(parts, contacts), dict(backlashes or {}), lambda: _alike(train), unjudged)
+    return MeshPhasing(PhaseSystem(parts, contacts), dict(backlashes or {}), lambda: _equal_wheels(train), unjudged)
 
 
 def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
@@ -678,7 +678,7 @@ def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
     return tuple(dict.fromkeys([*train.links, *mounts]))
 
 
-def _alike(train: Train) -> dict[str, str]:
+def _equal_wheels(train: Train) -> dict[str, str]:
     """Map wheels that are equal and have equal mates to the name of the first of them."""
     marks = {name: (wheel.count, wheel.internal) for name, (_, wheel) in train.wheels.items()}
     mates: dict[str, list[object]] = {name: [] for name in marks}

@@ -118,7 +118,7 @@ def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[i
         for node in fronts[side]:
             for mesh, there in edges[node]:
                 if there in other:
-                    return _way(came, (node, there) if side == 0 else (there, node), mesh)
+                    return _joined_path(came, (node, there) if side == 0 else (there, node), mesh)
                 if there not in own:
                     own[there] = (mesh, node)
                     fresh.append(there)
@@ -126,7 +126,9 @@ def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[i
     return None
 
 
-def _way(came: tuple[dict[int, tuple[int, int]], ...], meet: tuple[int, int], mesh: int) -> tuple[list[int], list[int]]:
+def _joined_path(
+    came: tuple[dict[int, tuple[int, int]], ...], meet: tuple[int, int], mesh: int
+) -> tuple[list[int], list[int]]:
     halves: list[tuple[list[int], list[int]]] = []
     for at, reached in zip(meet, came, strict=True):
         nodes, meshes = [at], []
@@ -196,7 +198,7 @@ class CarrierCoupling:
         Free unknowns are 0, so carriers are in their declared pose.
         """
         parts, own = self.reduced.components, self.reduced.own
-        together = [self._apart(at, nodes, left) for at in range(len(self.reduced.origin))]
+        together = [self._angle_difference(at, nodes, left) for at in range(len(self.reduced.origin))]
         values: dict[int, Number] = {}
         for unknown, form in (self.forms or {}).items():
             values[unknown] = sum(factor * together[-column - 1] for column, factor in form.items() if column < 0)
@@ -210,7 +212,7 @@ class CarrierCoupling:
                 found[link] += parts.relative(node) * turned if turned else 0
         return found
 
-    def _apart(self, at: int, nodes: Sequence[Number], left: Left) -> Number:
+    def _angle_difference(self, at: int, nodes: Sequence[Number], left: Left) -> Number:
         """Return the difference of a link's angles relative to two carriers, or the required angle of a rigid loop."""
         parts = self.reduced.components
         kind, first, node = self.reduced.origin[at]
@@ -240,15 +242,15 @@ def find_carrier_coupling(
             total: dict[int, Fraction] = {}
             for at, (_, link, node) in origins.items():
                 factor = condition[-at - 1]
-                _follow(parts, circuits, ends, node, factor, total)
+                _add_contributions(parts, circuits, ends, node, factor, total)
                 if link not in reduced.own:
-                    _follow(parts, circuits, ends, parts.nodes_of[link][0], -factor, total)
+                    _add_contributions(parts, circuits, ends, parts.nodes_of[link][0], -factor, total)
             weights = whole_multiple(total.values())
             rows.append({mesh: weight for mesh, weight in zip(total, weights, strict=True) if weight})
     return CarrierCoupling(reduced, circuits, ends, tuple(rows), forms)
 
 
-def _follow(
+def _add_contributions(
     parts: Components,
     circuits: Sequence[Circuit],
     ends: Sequence[tuple[int, int]],
@@ -360,7 +362,7 @@ class PhaseSystem:
         cycles = self.cycles
         with collector_paused():
             found = [self._condition(cycle, cycle.row) for cycle in cycles]
-        basis, _, index = self._together
+        basis, _, index = self._saturated
         if index != 1 or self.coupling.rows:
             alone = {tuple(sorted(cycle.row.items())) for cycle in self.cycles}
             found += [self._condition(None, row) for row in basis if tuple(sorted(row.items())) not in alone]
@@ -369,10 +371,10 @@ class PhaseSystem:
     @cached_property
     def complete(self) -> bool:
         """False if loops were checked only one by one, without conditions on several loops together."""
-        return self.coupling.complete and (self._uneven_size <= _MOST)
+        return self.coupling.complete and (self._unequal_size <= _MOST)
 
     @cached_property
-    def _uneven(self) -> list[dict[int, int]]:
+    def _unequal_rows(self) -> list[dict[int, int]]:
         """Rows whose integer combinations may have common factors: all rows of components with unequal weights."""
         if not self.cycles:
             return list(self.coupling.rows)
@@ -382,12 +384,12 @@ class PhaseSystem:
         return [cycle.row for cycle in self.cycles if group[cycle.nodes[0]] in uneven] + list(self.coupling.rows)
 
     @cached_property
-    def _uneven_size(self) -> int:
-        return len(self._uneven) * len({mesh for row in self._uneven for mesh in row})
+    def _unequal_size(self) -> int:
+        return len(self._unequal_rows) * len({mesh for row in self._unequal_rows for mesh in row})
 
     @cached_property
-    def _together(self) -> tuple[list[dict[int, int]], list[dict[int, int]], int]:
-        return saturated_lattice(self._uneven) if self._uneven_size <= _MOST else ([], [], 1)
+    def _saturated(self) -> tuple[list[dict[int, int]], list[dict[int, int]], int]:
+        return saturated_lattice(self._unequal_rows) if self._unequal_size <= _MOST else ([], [], 1)
 
     def _condition(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> PhaseCondition:
         contacts = self.contacts
@@ -397,7 +399,7 @@ class PhaseSystem:
             slack += abs(weight) * self._doubt[mesh]
         if families is None:
             # fsum rounds once, so the result does not depend on the order of the meshes
-            total = math.fsum(self._times(weight, self._constant[mesh]) for mesh, weight in row.items())
+            total = math.fsum(self._weighted(weight, self._constant[mesh]) for mesh, weight in row.items())
             # in (-1/2, 1/2] like `centred_residue`; `round` would round halves to even integers
             return PhaseCondition(cycle, row, total - math.ceil(total - 0.5), slack, False)
         scale, exact = contacts.scale, contacts.exact_constant
@@ -416,7 +418,7 @@ class PhaseSystem:
         return values
 
     @staticmethod
-    def _times(weight: int, constant: float) -> float:
+    def _weighted(weight: int, constant: float) -> float:
         if abs(weight) == 1:
             return weight * constant
         return float(
@@ -448,9 +450,9 @@ class PhaseSystem:
     # ---------------------------------------------------------------------------------------------------------- angles
 
     @cached_property
-    def _engaged(self) -> dict[int, int]:
+    def _whole_pitches(self) -> dict[int, int]:
         """Integer pitches to add to constants, so that loops with unequal weights close as nearly as possible."""
-        basis, dual, _ = self._together
+        basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
             total = sum((weight * Fraction(self._constant[mesh]) for mesh, weight in row.items()), Fraction(0))
@@ -479,7 +481,7 @@ class PhaseSystem:
             circuit, first = self.circuits[mesh], self.ends[mesh][0] == node
             own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
             if parts.node_group[node] in self._exact_groups:
-                right = Fraction(self._constant[mesh]) + self._engaged.get(mesh, 0)
+                right = Fraction(self._constant[mesh]) + self._whole_pitches.get(mesh, 0)
                 found[node] = (right - other * Fraction(found[up])) / own
             else:
                 found[node] = ((self._constant[mesh] - other * found[up]) / own) % 1.0
@@ -487,35 +489,35 @@ class PhaseSystem:
 
     @cached_property
     def _exact_groups(self) -> frozenset[int]:
-        return frozenset(self.parts.node_group[self.ends[mesh][0]] for row in self._together[0] for mesh in row)
+        return frozenset(self.parts.node_group[self.ends[mesh][0]] for row in self._saturated[0] for mesh in row)
 
     @cached_property
     def tree_angles(self) -> list[float]:
         """Angles of links (turns) that satisfy every mesh except those that close loops."""
-        return self._of_links(self._tree_nodes)
+        return self._link_angles(self._tree_nodes)
 
-    def _of_links(self, nodes: Sequence[Number]) -> list[float]:
-        return [float(angle % 1) for angle in self.coupling.angles(nodes, self._left)]
+    def _link_angles(self, nodes: Sequence[Number]) -> list[float]:
+        return [float(angle % 1) for angle in self.coupling.angles(nodes, self._remaining_constant)]
 
-    def _left(self, mesh: int, nodes: Sequence[Number]) -> Number:
+    def _remaining_constant(self, mesh: int, nodes: Sequence[Number]) -> Number:
         (i, j), circuit = self.ends[mesh], self.circuits[mesh]
         return self._constant[mesh] - circuit.a * nodes[i] - circuit.b * nodes[j]
 
     @cached_property
-    def _by_links(self) -> SparseRows:
+    def _link_rows(self) -> SparseRows:
         """Links and coefficients of every mesh: its two links and its carrier."""
         index = self.parts.index
         links = np.array([(index[c.i], index[c.j], index[c.carrier]) for c in self.circuits]).reshape(-1, 3)
         teeth = self.contacts.teeth
         factors = np.column_stack([teeth, np.where(links[:, 2] == self.parts.frame, 0.0, -teeth.sum(axis=1))])
-        return SparseRows(links, self._requested(factors), len(self.parts.links))
+        return SparseRows(links, self._without_rigid_loops(factors), len(self.parts.links))
 
     @cached_property
-    def _by_nodes(self) -> SparseRows:
+    def _node_rows(self) -> SparseRows:
         nodes = np.array(self.ends).reshape(-1, 2)
-        return SparseRows(nodes, self._requested(self.contacts.teeth), len(self.parts.node_parent))
+        return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
-    def _requested(self, factors: Floats) -> Floats:
+    def _without_rigid_loops(self, factors: Floats) -> Floats:
         """Return the factors with rows of 0 for meshes that close rigid loops, which have no phase condition."""
         found = factors.copy()
         found[list(self.parts.breaking)] = 0.0  # rigid loops have no phase condition
@@ -525,7 +527,7 @@ class PhaseSystem:
         """Return the error of every mesh (pitches) at given angles of links (turns); 0 for meshes that close a rigid
         loop.
         """
-        return self._errors(self._by_links, np.asarray(angles))
+        return self._errors(self._link_rows, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
         # integer pitches are removed before the sum, to keep the digits of the fraction
@@ -544,11 +546,11 @@ class PhaseSystem:
         better.
         """
         start = self.errors(self.tree_angles)
-        starts = [self._by_loops(start), start][: 2 if self._by_nodes.small(len(start)) else 1]
-        found = [self._spread(start) for start in starts]
+        starts = [self._loop_errors(start), start][: 2 if self._node_rows.small(len(start)) else 1]
+        found = [self._distribute(start) for start in starts]
         return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
 
-    def _by_loops(self, errors: Floats) -> Floats:
+    def _loop_errors(self, errors: Floats) -> Floats:
         """Return errors of the meshes that close loops, with integer pitches added so that residues of short loops are
         small.
         """
@@ -560,16 +562,16 @@ class PhaseSystem:
                 found[last] += round(left / weight - found[last])
         return np.array(found)
 
-    def _spread(self, errors: Floats) -> list[float]:
+    def _distribute(self, errors: Floats) -> list[float]:
         """Distribute the errors; carriers are kept in place unless they are geared to each other."""
         if self.coupling.rows:
-            together = np.mod(self._settle(self._by_links, np.array(self.tree_angles), errors), 1.0)
+            together = np.mod(self._iterate(self._link_rows, np.array(self.tree_angles), errors), 1.0)
             return [float(angle) for angle in together]
         start = self._tree_nodes
-        moved = self._settle(self._by_nodes, np.zeros(len(start)), errors, [float(angle % 1) for angle in start])
-        return self._of_links([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
+        moved = self._iterate(self._node_rows, np.zeros(len(start)), errors, [float(angle % 1) for angle in start])
+        return self._link_angles([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
 
-    def _settle(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
+    def _iterate(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
         """Distribute errors by least squares and reassign teeth to gaps, alternately until nothing changes."""
         for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
             step = rows.least_squares(errors)

@@ -61,21 +61,21 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
             resolved = resolve_form(row, forms)
             # no unknown is left: circuits and brakes imply that this speed is 0
             if stated.speed and not any(column >= 0 for column in resolved):
-                return _name(reduced, case, _uses(resolved), statements)
+                return _describe_contradiction(reduced, case, _tag_factors(resolved), statements)
         echelon = eliminate(rows, budget)
     except TooDenseError:
         return unwitnessed_verdict(reduced, case)
     for condition in echelon.conditions:
-        given = _uses(condition)
+        given = _tag_factors(condition)
         total = sum(
             (value * statements[tag - structural].speed for tag, value in given.items() if tag >= structural), _ZERO
         )
         if total:
-            return _name(reduced, case, given, statements)
+            return _describe_contradiction(reduced, case, given, statements)
     return unwitnessed_verdict(reduced, case)
 
 
-def _uses(row: LinearForm) -> dict[int, Fraction]:
+def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
     """Return the factor of each tagged equation in a row of symbols."""
     return {-1 - column: value for column, value in row.items()}
 
@@ -102,13 +102,13 @@ def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
 def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
     """Return the verdict without a certificate: locked if an input cannot move, else contradictory."""
     given = tuple(map(case.given, case.inputs))
-    stuck = _stuck(reduced, case)
+    stuck = _locked_inputs(reduced, case)
     if stuck:
         return Verdict("locked", f"input '{stuck[0]}' is locked to the frame by the circuits", prescriptions=given)
     return Verdict("contradictory", f"{', '.join(given)} contradict the circuits", prescriptions=given)
 
 
-def _stuck(reduced: ReducedSystem, case: StateCase) -> list[str]:
+def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
     """Return the non-zero inputs that cannot move whatever the other inputs are, by elimination modulo a prime.
 
     With a symbol for each input, elimination leaves the relations between the inputs that the circuits imply.
@@ -147,7 +147,7 @@ def _tagged(
     return rows, statements
 
 
-def _name(
+def _describe_contradiction(
     reduced: ReducedSystem, case: StateCase, given: Mapping[int, Fraction], statements: Sequence[PrescriptionStatement]
 ) -> Verdict:
     """Describe one contradiction. `given` has the factor of each equation in it."""
@@ -457,14 +457,14 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
         return Solution(determined_verdict(case), walked, ratios, signs)
     reduced = part.reduced
     budget = elimination_budget(reduced, budget)
-    rows = [*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)]
+    rows = [*reduced.equations, *held_rows(reduced, case), *_input_rows(reduced, case, signs)]
     echelon = eliminate_within(rows, budget)
     if echelon.conditions:
         return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
-    if not any(case.inputs.values()) and _all_still(reduced, case, budget):
+    if not any(case.inputs.values()) and _is_immobile(reduced, case, budget):
         return Solution(stationary_verdict(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
     forms = echelon.forms(budget)
-    speeds, undetermined = _read_off(reduced, forms, signs)
+    speeds, undetermined = _determined_speeds(reduced, forms, signs)
     if undetermined:
         freedom = reduced.unknowns - echelon.rank
         verdict = free_verdict(reduced, case, forms, undetermined, freedom)
@@ -492,7 +492,7 @@ def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, i
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
-    echelon = eliminate(map(residues, [*held, *_driven(reduced, case, signs)]), modulus=PRIME)
+    echelon = eliminate(map(residues, [*held, *_input_rows(reduced, case, signs)]), modulus=PRIME)
     if echelon.conditions:
         return unwitnessed_verdict(reduced, case)
     freedom = reduced.unknowns - echelon.rank
@@ -512,7 +512,7 @@ def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) ->
     return Verdict("determined", text, loops=loops)
 
 
-def _driven(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Iterator[LinearForm]:
+def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Iterator[LinearForm]:
     """Yield one row for each input, with the prescribed speed in column -1."""
     for link, speed in case.inputs.items():
         row = dict(reduced.form(reduced.components.index[link]))
@@ -521,12 +521,12 @@ def _driven(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -
         yield row
 
 
-def _all_still(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
+def _is_immobile(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
     """Return True if no link can move, which inputs that are all 0 would conceal."""
     return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 
-class _ReadOff(Mapping[str, Fraction]):
+class _LazySpeeds(Mapping[str, Fraction]):
     """Speeds by link, computed on access: speed of the carrier plus ratio times the component's unknown."""
 
     def __init__(self, reduced: ReducedSystem, known: Sequence[Fraction | None], signs: Mapping[str, int]) -> None:
@@ -572,13 +572,13 @@ class _ReadOff(Mapping[str, Fraction]):
         return link in self._links
 
 
-def _read_off(
+def _determined_speeds(
     reduced: ReducedSystem, forms: Mapping[int, LinearForm], signs: Mapping[str, int]
 ) -> tuple[Mapping[str, Fraction], list[str]]:
     """Return the speeds of all determined links, and the names of undetermined links."""
     parts = reduced.components
     known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
-    speeds = _ReadOff(reduced, known, signs)
+    speeds = _LazySpeeds(reduced, known, signs)
     undetermined: list[str] = []
     for at, name in enumerate(parts.links):
         if at == parts.frame or all(known[unknown] is not None for unknown in reduced.unknowns_of(at)):

@@ -58,7 +58,7 @@ _TOO_DENSE = Problem(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Rough(LongFloat):
+class _RoughFloat(LongFloat):
     """A float with unlimited exponent whose sums are set to 0 after almost complete cancellation."""
 
     @classmethod
@@ -68,10 +68,10 @@ class _Rough(LongFloat):
 
     def __add__(self, other: Any) -> Any:
         total = LongFloat.__add__(self, other)
-        if isinstance(other, _Rough) and other and self:
+        if isinstance(other, _RoughFloat) and other and self:
             most = max(self.exponent, other.exponent)
             if total.exponent < most - _LOST:
-                return _Rough(0.0, 0)
+                return _RoughFloat(0.0, 0)
         return total
 
     __radd__ = __add__
@@ -87,7 +87,8 @@ def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], li
     at = {link: column for column, link in enumerate(links)}
     lines = [{at[link]: c for link, c in row.terms if link in at} for row in rows]
     forms: Any = [
-        {column: _Rough(*split(c)) for column, c in line.items()} | ({_GIVEN: _Rough(*split(-right))} if right else {})
+        {column: _RoughFloat(*split(c)) for column, c in line.items()}
+        | ({_GIVEN: _RoughFloat(*split(-right))} if right else {})
         for line, right in zip(lines, given, strict=True)
     ]
     found: dict[int, float] = {}
@@ -103,12 +104,12 @@ def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], li
     for line, right in zip(lines, given, strict=True):
         if len(line) == 1 and not right:  # fixed link
             found[next(iter(line))] = 0.0
-    _spread(lines, found)
+    _assign_exponents(lines, found)
     # integer exponents, so that scaling is exact
     return [round(found.get(column, 0.0)) for column in range(len(links))]
 
 
-def _spread(lines: Sequence[Mapping[int, int]], found: dict[int, float]) -> None:
+def _assign_exponents(lines: Sequence[Mapping[int, int]], found: dict[int, float]) -> None:
     """Assign exponents to links at rest: the smallest that one of their rows with other links gives.
 
     In rows of faster links the scaled entry is then negligible, which is correct because the link does not move.
@@ -142,7 +143,9 @@ _INVERTED, _ABREAST = (
 _DRAWN = 12  # random sets of signs for more links
 _STEPS = 8  # maximum refinement steps; each at least halves the error if they converge
 _ITERATIONS = 4  # power iterations that bound a condition number
-_KNOWN = 1 / (8 * UNIT_ROUNDOFF)  # 1 / (4 eps): beyond this condition number no digit of the inverse is correct
+_LARGEST_CONDITION = 1 / (
+    8 * UNIT_ROUNDOFF
+)  # 1 / (4 eps): beyond this condition number no digit of the inverse is correct
 _REGULAR = 2.0**40  # condition number up to which the factors prove that the matrix is regular
 _ORDINARY = 400  # exponents of two up to which speeds are solved unscaled: squares stay within float64
 
@@ -239,7 +242,9 @@ def solve_floats(
     Underflow to 0 is never returned.
     """
     matrix, rows = prepare(system)
-    found, exponents = _solve_any(matrix, rows, _given(rows, inputs), _Way(ordering, refine, condition_of))
+    found, exponents = _solve_with_scaling(
+        matrix, rows, _right_hand_sides(rows, inputs), _Options(ordering, refine, condition_of)
+    )
     cases = [str(case) for case in range(found.x.shape[1])]
     return FloatSpeeds(
         _with_frame(system, matrix, found.x),
@@ -259,7 +264,7 @@ class _Solved(NamedTuple):
     condition: Mapping[str, float]
 
 
-class _Way(NamedTuple):
+class _Options(NamedTuple):
     """Options of `solve_floats`."""
 
     ordering: str
@@ -267,38 +272,38 @@ class _Way(NamedTuple):
     condition_of: Sequence[str]
 
 
-def _solve_any(
-    matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
+def _solve_with_scaling(
+    matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], options: _Options
 ) -> tuple[_Solved, NDArray[np.int64]]:
     """Return scaled speeds with their estimates, and the exponents of two; these are 0 for ordinary trains."""
     near = None
     with suppress(RangeError):
-        near = _solve(matrix, rows, given, way)
+        near = _solve(matrix, rows, given, options)
     if near is not None and _is_ordinary(near.x):
         return near, np.zeros(near.x.shape, dtype=np.int64)
-    cases = [_solve_far(matrix, rows, [line[at : at + 1] for line in given], way) for at in range(len(given[0]))]
+    cases = [_solve_scaled(matrix, rows, [line[at : at + 1] for line in given], options) for at in range(len(given[0]))]
     found, exponents = zip(*cases, strict=True)
     x, estimate, residual, conditions = zip(*found, strict=True)
     return _Solved(np.hstack(x), np.hstack(estimate), np.hstack(residual), conditions[0]), np.hstack(exponents)
 
 
 def _is_ordinary(x: Floats) -> bool:
-    """Return True if no speed is so large or small that its errors, or their squares in `_reach`, leave float64."""
+    """Return True if no speed is so large or small that errors, or squares in `_error_bound`, leave float64."""
     sizes = np.frexp(x)[1]
     return bool(((x == 0) | (np.abs(sizes) <= _ORDINARY)).all())
 
 
 def _solve(
-    matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
+    matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], options: _Options
 ) -> _Solved:
     """Return the solution with its error estimates. Raises `RangeError` beyond the range of float64."""
-    right, remainder = _right_sides(rows, given)
+    right, remainder = _rounded_right_sides(rows, given)
     try:
-        lu = matrix.factorise(way.ordering)
+        lu = matrix.factorise(options.ordering)
     except RuntimeError as error:
         raise RangeError(_no_factors(len(rows), str(error))) from None
     x = lu.solve(right)
-    if way.refine:
+    if options.refine:
         x = _refined(lu, matrix, x, right, remainder)
     rest = matrix.residual(x, right, remainder)
     _check_range(matrix, x, rest, rows)
@@ -307,12 +312,14 @@ def _solve(
     # rounding errors of the residuals in twice the precision and of the last solution, and dropped entries
     terms = matrix.size(x)
     hidden = 16 * UNIT_ROUNDOFF**2 * terms + 16 * UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
-    reach, spread = np.hsplit(_reach(lu, np.hstack([hidden, terms])), 2)
+    reach, spread = np.hsplit(_error_bound(lu, np.hstack([hidden, terms])), 2)
     _check_digits(lu, matrix, np.abs(x), spread)
     estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + reach
     residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
     # the factors are kept in memory until the condition numbers are read, and only if these were requested
-    condition = LazyMapping(partial(matrix.condition, lu, way.condition_of, x[:, 0])) if way.condition_of else {}
+    condition = (
+        LazyMapping(partial(matrix.condition, lu, options.condition_of, x[:, 0])) if options.condition_of else {}
+    )
     return _Solved(x, estimate, residual, condition)
 
 
@@ -333,30 +340,30 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
     return x
 
 
-def _solve_far(
-    matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
+def _solve_scaled(
+    matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], options: _Options
 ) -> tuple[_Solved, NDArray[np.int64]]:
     """Solve one case in speeds scaled by powers of two, which causes no rounding."""
     exponents = np.array(find_exponents(rows, [right for (right,) in given], list(matrix.at)), dtype=np.int64)
     near, shifts = matrix.scaled(exponents)
     moved = [[right * Fraction(2) ** -shift] for (right,), shift in zip(given, shifts.tolist(), strict=True)]
-    found = _solve(near, rows, moved, way)
+    found = _solve(near, rows, moved, options)
     powers = exponents[:, None]
-    held = _held(found.x, powers) & _held(found.estimate, powers)
+    held = _is_representable(found.x, powers) & _is_representable(found.estimate, powers)
     # numpy's ldexp takes C ints; exponents beyond float64 are kept separately
     folded = np.where(held, powers, 0).astype(np.intc)
     there = found._replace(x=np.ldexp(found.x, folded), estimate=np.ldexp(found.estimate, folded))
     return there, np.where(held, 0, powers)
 
 
-def _held(values: Floats, powers: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _is_representable(values: Floats, powers: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Return a mask of values that, times powers of two, are 0 or normal float64 numbers."""
     sizes = np.frexp(values)[1] + powers
     held: NDArray[np.bool_] = (values == 0) | ((sizes >= LOWEST) & (sizes <= HIGHEST))
     return held
 
 
-def _reach(lu: Any, error: Floats) -> Floats:
+def _error_bound(lu: Any, error: Floats) -> Floats:
     """Return the maximum change of each speed by errors of the equations of any sign: |A^-1| error.
 
     A solution for one set of signs may cancel to 0 where another does not. The inverse is computed column by column for
@@ -404,7 +411,9 @@ def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) 
     )
 
 
-def _given(rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None) -> list[list[Fraction]]:
+def _right_hand_sides(
+    rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None
+) -> list[list[Fraction]]:
     """Return the right-hand side of every row, one number for each case."""
     cases = len(next(iter(inputs.values()))) if inputs else 1
     return [
@@ -415,7 +424,7 @@ def _given(rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]]
     ]
 
 
-def _right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]]) -> tuple[Floats, Floats]:
+def _rounded_right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]]) -> tuple[Floats, Floats]:
     """Return right-hand sides as floats, and the exact remainders after rounding."""
     right = np.zeros((len(rows), len(given[0])))
     remainder = np.zeros_like(right)
@@ -464,12 +473,12 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
     speeds   |x|
     spread   |A^-1| |A| |x|, by the factors
     """
-    condition = _condition(lu, matrix, speeds, spread, _KNOWN)
-    if (condition <= _KNOWN).all():
+    condition = _condition(lu, matrix, speeds, spread, _LARGEST_CONDITION)
+    if (condition <= _LARGEST_CONDITION).all():
         return
     at = int(np.argmax(condition.max(axis=1)))
     what = f"no digit of the speed of '{list(matrix.at)[at]}' is known in float64"
-    why = f"rounding errors of the equations are amplified more than {_KNOWN:.0e} times"
+    why = f"rounding errors of the equations are amplified more than {_LARGEST_CONDITION:.0e} times"
     raise RangeError(Problem(what, why, "use the exact method"))
 
 
@@ -481,7 +490,7 @@ def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limi
         condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
         if (condition <= limit).all():
             break
-        speeds, spread = spread, _reach(lu, matrix.size(spread))
+        speeds, spread = spread, _error_bound(lu, matrix.size(spread))
     return condition
 
 
@@ -498,7 +507,7 @@ def is_regular(system: WillisSystem) -> bool:
         return False
     ones = np.ones((len(matrix.at), 1))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        return bool((_condition(lu, matrix, ones, _reach(lu, matrix.size(ones)), _REGULAR) <= _REGULAR).all())
+        return bool((_condition(lu, matrix, ones, _error_bound(lu, matrix.size(ones)), _REGULAR) <= _REGULAR).all())
 
 
 def _out_of_range(label: str) -> Problem:

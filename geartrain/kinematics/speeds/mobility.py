@@ -83,7 +83,7 @@ class Mobility(Result):
         return self.links - 1 - self.by_rank
 
 
-def _idle(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
+def _idle_circuits(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
     """Return the circuits of components whose unknown is always 0."""
     parts = reduced.components
     null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
@@ -92,7 +92,7 @@ def _idle(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
     return [c.id for c in parts.circuits if c.b and parts.group_of(c) in null]
 
 
-def _still(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
+def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
     """Return the links that are at rest in every motion, because their form vanishes."""
     parts = reduced.components
     if not forms:
@@ -126,7 +126,7 @@ def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None
         rank = echelon.rank
         with suppress(TooDenseError):
             forms = echelon.forms(budget)
-            still, idle = _still(reduced, forms), _idle(reduced, forms)
+            still, idle = _stationary_links(reduced, forms), _idle_circuits(reduced, forms)
         repeated = (reduced.origin[row] for row in echelon.redundant)
         shared = [parts.links[link] for kind, link, _ in repeated if kind == "share"]
     freedom = reduced.unknowns - rank

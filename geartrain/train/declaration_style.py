@@ -43,7 +43,7 @@ def with_short_forms(text: str) -> str:
 
     Examples
     --------
-    >>> print(with_short_forms("gears:\\n  - {pair: [p, w]}"), end="")
+    >>> print(with_short_forms("gears:\n  - {pair: [p, w]}"), end="")
     gears: [p ~ w]
     """
     return _rewritten(text, {"revolutes": _short_joints, "gears": _short_pairs})

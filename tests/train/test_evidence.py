@@ -240,7 +240,8 @@ def test_shipped_evidence_is_extended_by_its_name(tmp_path: Path) -> None:
         assert problem == replace(plain, meshes=frozenset({frozenset({"e4", "f1"})}))
     path.write_text("extends: back-trian\n", encoding="utf-8")
     with pytest.raises(
-        GearTrainError, match=r"seen\.yaml:1: `extends` names the unknown parent 'back-trian'(.|\n)*did you mean 'back-train'"
+        GearTrainError,
+        match=r"seen\.yaml:1: `extends` names the unknown parent 'back-trian'\n.*\n.*did you mean 'back-train'",
     ):
         read_evidence(path)
 

@@ -145,7 +145,7 @@ SLIPS = {
     "friction: {sliding: 0.2, static: 0.1}": "a static friction of 0.1 is below the sliding friction of 0.2",
     "friction: {slidign: 0.2}": "did you mean 'sliding'",
     "friction: {static: 0.2, kinetic: 0.1, speed: 1 m/s}": "add `law:`",
-    "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "the static friction torque 0.5 is below the sliding friction torque 1",
+    "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "0.5 is below the sliding friction torque 1",
     "links: {a: {bearing: {sliding: 1, static: 2 N m}}}": "mix a plain number and a torque with a unit",
     "links: {a: {drag: 1 N m}}": "is a torque, and a torsional damping belongs here",
     "restitution: 1.01": "a restitution of 1.01 is none",

@@ -686,7 +686,7 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle (turns) between neighbours without tip collision; `addendum` as in `_tip_diameter`."""
+        """Return the smallest angle (turns) between neighbours with separate tips (`addendum` as in `_tip_diameter`)."""
         found = 0.0
         for mesh in _one_mesh_per_wheel(planet):
             reach = self._axis_distance(planet, planet.own(mesh))

@@ -88,7 +88,7 @@ def adjacency_labels(train: Train) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
-    """Return the adjacency matrix as numbers of edges between every two links.
+    """Return the adjacency matrix with the number of edges between every two links.
 
     Parameters
     ----------

@@ -341,7 +341,7 @@ def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> Tar
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity(Result):
-    """Effect of one tooth less and one tooth more of an uncertain wheel on an output, by exact solution.
+    """Effect of one tooth fewer and one tooth more of an uncertain wheel on an output, by exact solution.
 
     Examples
     --------
@@ -365,7 +365,7 @@ class Sensitivity(Result):
     output: str
     """Name of the output."""
     less: float | None
-    """Change of the speed of the output with one tooth less [ppm]; None if the train can no longer turn, or the output
+    """Change of the speed of the output with one tooth fewer [ppm]; None if the train can no longer turn, or the output
     is at rest.
     """
     more: float | None
@@ -380,7 +380,7 @@ def sensitivity(
     solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
 ) -> Iterator[Sensitivity]:
-    """Yield the effect of one tooth less and one tooth more of each uncertain wheel, by exact solution.
+    """Yield the effect of one tooth fewer and one tooth more of each uncertain wheel, by exact solution.
 
     solve_with   function from changed circuits to relative speeds
     """

@@ -277,7 +277,7 @@ class TrainKinematics(Shown):
         return self._build_answer(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
-        """Yield the effect of one tooth less or more of each uncertain wheel on each output of an answer.
+        """Yield the effect of one tooth fewer or more of each uncertain wheel on each output of an answer.
 
         Parameters
         ----------

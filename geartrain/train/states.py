@@ -261,7 +261,7 @@ class State(Declared):
     See Also
     --------
     Train : has them as `states`, by name
-    StateCase : what comes of one
+    StateCase : prescriptions in force in one state
     """
 
     engaged: tuple[Id, ...] = Field((), description="Names of engaged clutches and brakes")

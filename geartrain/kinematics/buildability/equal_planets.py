@@ -476,7 +476,7 @@ def check_planets(
             continue
         found = _EqualPlanets(train, tree, one, copies, sizes, outlines())
         yield from found.assembly()
-        yield from found.room()
+        yield from found.clearance()
 
 
 def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
@@ -574,7 +574,7 @@ class _EqualPlanets:
 
     # ------------------------------------------------------------------------------------------------------------ room
 
-    def room(self) -> Iterator[BuildFinding]:
+    def clearance(self) -> Iterator[BuildFinding]:
         """Yield findings of rule A3, the clearance between neighbours."""
         for planet in self.planet.walk():
             for mesh in _one_mesh_per_wheel(planet):
@@ -686,7 +686,7 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle (turns) between neighbours with separate tips (`addendum` as in `_tip_diameter`)."""
+        """Return the smallest angle (turns) between neighbours with separate tips; see `_tip_diameter`."""
         found = 0.0
         for mesh in _one_mesh_per_wheel(planet):
             reach = self._axis_distance(planet, planet.own(mesh))

@@ -79,13 +79,9 @@ def tell(text: str) -> None:
 
 
 def complain(error: GearTrainError) -> None:
-    """Every problem on standard error, and what makers and historians call the things that they name."""
-    from geartrain.train.trade_words import told_words
-
+    """Print every problem on standard error."""
     for problem in error.problems:
         tell(f"error: {problem}")
-    if words := told_words("\n".join(map(str, error.problems))):
-        tell(words)
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import islice, zip_longest
 from typing import Any
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
 from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
@@ -162,6 +163,8 @@ class Section(Shown):
     """After the paragraphs."""
     branches: Sequence[Branch] = ()
     """A tree between paragraphs and tables."""
+    detail: bool = False
+    """True for a section that a report as text omits unless it is requested, and that a page shows folded."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,6 +248,31 @@ class Document:
 
     def _repr_markdown_(self) -> str:
         return str(self)
+
+
+def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
+    """Return a document without its detail sections, except those requested by words of their titles.
+
+    The last section then lists the titles that were omitted.
+
+    Raises `QuestionError` if a requested word is in no title.
+    """
+    titles = [section.title for section in document.sections]
+    for word in requested:
+        if not any(word.lower() in title.lower() for title in titles):
+            raise QuestionError(
+                Problem(
+                    f"the report has no section '{word}'", f"its sections are {', '.join(titles)}", "name one of them"
+                )
+            )
+    if requested:
+        kept = [each for each in document.sections if any(word.lower() in each.title.lower() for word in requested)]
+        return replace(document, summary=(), sections=kept)
+    kept = [each for each in document.sections if not each.detail]
+    omitted = dict.fromkeys(each.title for each in document.sections if each.detail)
+    if omitted:
+        kept.append(Section("More", (f"{', '.join(omitted)}: with `--section NAME`, or `--all`.",)))
+    return replace(document, sections=kept)
 
 
 def figure(value: Fraction | Real | None, digits: int = 8) -> str:
@@ -341,8 +369,31 @@ def column_widths(table: Table, width: int) -> list[int]:
     return sizes
 
 
+_NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
+
+
+def aligned_rows(table: Table) -> list[list[str]]:
+    """Return the rows with numbers shifted so that the decimal points of each column of numbers are aligned.
+
+    A column is one of numbers if all of its cells are decimal numbers, empty, or a dash.
+    """
+    if table.wide:
+        return [list(row) for row in table.rows]
+    columns = [_aligned(column) for column in zip_longest(*table.rows, fillvalue="")]
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
+def _aligned(column: Sequence[str]) -> Sequence[str]:
+    numbers = [cell for cell in column if cell not in ("", "-")]
+    if len(numbers) < 2 or not all(_NUMBER.fullmatch(cell) for cell in numbers):
+        return column
+    widths = [len(re.split(r"[.e]", cell)[0]) for cell in column]
+    widest = max(width for width, cell in zip(widths, column, strict=True) if cell in numbers)
+    return [" " * (widest - width) + cell if cell else cell for width, cell in zip(widths, column, strict=True)]
+
+
 def _columns(table: Table) -> list[tuple[str, ...]]:
-    return list(zip_longest(table.header, *table.rows, fillvalue=""))
+    return list(zip_longest(table.header, *aligned_rows(table), fillvalue=""))
 
 
 def _minimum(column: Sequence[str], whole: bool) -> int:

@@ -53,6 +53,9 @@ class DrivenPin(Result):
     """Its figures with the pin driving."""
 
 
+_MOST_PAIRS = 12  # with more, a report as text omits their tables
+
+
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
     """The real teeth and pins of a train; nothing where none are declared."""
     if pairs:
@@ -72,7 +75,7 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     tables.append(_drivers(pairs))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
     lines += map(fault_text, train.mechanics.faults)
-    return Section("Teeth", lines, tables)
+    return Section("Teeth", lines, tables, detail=len(pairs) > _MOST_PAIRS)
 
 
 def joined_table(rows: Sequence[AccountTable]) -> Table:

@@ -1,4 +1,4 @@
-"""`geartrain teeth approximants RATIO`: the fractions on the way to a ratio."""
+"""Command `geartrain teeth approximants RATIO`: fractions that approximate a ratio."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Fractions on the way to a ratio, each nearer than all smaller ones: convergents and what lies between."""
+    """List fractions that approximate a ratio: convergents of its continued fraction and intermediate fractions."""
     from geartrain.search.stern_brocot import Approximants, approximants
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts

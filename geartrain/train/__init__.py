@@ -11,7 +11,7 @@ manufacturing, wheel_stock, reconstruction   materials and cutting errors; blank
 fields, validation, references   strict fields; short forms and problems; conflicting names and units
 yaml_nodes, declaration_style    YAML with line numbers; rewriting in short or long forms
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and changed copies of a declaration
-periods, trade_words             astronomical periods; words of clockmakers and historians
+periods                          table of astronomical periods
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 
 from geartrain.errors import (
-    MOST_TOLD,
+    MOST_REPORTED,
     DeclarationError,
     Loc,
     Marks,
@@ -122,7 +122,7 @@ def _check_head(head: Mapping[str, Any], place: Marks) -> None:
     try:
         Train.model_validate(head)
     except ValidationError as error:
-        if error.error_count() > MOST_TOLD:
+        if error.error_count() > MOST_REPORTED:
             raise DeclarationError(_problems_of(error, place)) from None
 
 

@@ -22,7 +22,7 @@ def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show_shared:
         place.fill(text)
         place.press("Enter")
         assert turns(shown) == Fraction(-5, 2), text
-        assert "no number of turns" in shown.page.get_by_role("alert").inner_text()
+        assert "not a number of turns" in shown.page.get_by_role("alert").inner_text()
         assert place.get_attribute("aria-invalid") == "true"
     assert shown.errors == []
 

@@ -74,7 +74,7 @@ def test_a_date_that_is_typed_is_reached_exactly(show_shared: Opening) -> None:
         day.fill(text)
         day.press("Enter")
         assert turns(shown) == before, text
-        assert "That is no date" in shown.page.get_by_role("alert").inner_text()
+        assert "This is not a date" in shown.page.get_by_role("alert").inner_text()
 
 
 def test_the_page_turns_to_a_date_and_back_and_stops_there(show_shared: Opening) -> None:

@@ -88,11 +88,11 @@ def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(s
 def test_losses_are_told_where_they_are_known(show_shared: Opening) -> None:
     shown = show_shared("norton-compound")
     shown.page.get_by_label("Colours").select_option("loss")
-    assert "of the power put in" in shown.page.locator(".legend").inner_text()
+    assert "of the input power" in shown.page.locator(".legend").inner_text()
     tab(shown, "Wheels")
     wheel = next(wheel for wheel in shipped.built("norton-compound").wheels if wheel.loss)
     shown.page.locator(f"[data-wheel='{wheel.id}']").click()
-    assert f"{100 * float(wheel.loss or 0):.3g} % of the power put in" in shown.page.locator(".detail").inner_text()
+    assert f"{100 * float(wheel.loss or 0):.3g} % of the input power" in shown.page.locator(".detail").inner_text()
     shown = show_shared(SIMPLE)
     shown.page.get_by_label("Colours").select_option("loss")
     assert "declares no loads" in shown.page.locator(".legend").inner_text()

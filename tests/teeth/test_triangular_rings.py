@@ -369,8 +369,8 @@ def test_a_planetary_set_has_the_reference_motion_and_efficiency(name: str) -> N
         ({"clearance_factor": "1.02"}, (20, 60), ["1.02", "maximum, in a ring", "below 1"]),
         ({"clearance_factor": "0.98"}, (20, 60, 0), ["0.98", "minimum", "above 1"]),
         ({"window": "0.5", "radii": "equal_depth"}, (20, 60), ["no clearance", "pitch_true"]),
-        ({"window": "0.5"}, (60, 60), ["a ring of 60 teeth has no room for a wheel of 60"]),
-        ({"excess": "0.9", "radii": "0.9"}, (20, 21), ["overlap all round"]),
+        ({"window": "0.5"}, (60, 60), ["a ring of 60 teeth cannot contain a wheel of 60 teeth"]),
+        ({"excess": "0.9", "radii": "0.9"}, (20, 21), ["overlap at every angle"]),
     ],
 )
 def test_what_no_ring_can_have_is_refused_by_name(

@@ -216,7 +216,7 @@ class KinkSearch:
     def over(self, start: float, end: float) -> KinkPositions:
         """The corners from one position of the input to a greater one, both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
-            what = f"from {start:g} to {end:g} turns pairs pass some {expected:.2g} corners of their laws"
+            what = f"from {start:g} to {end:g} turns pairs pass some {expected:.2g} kinks"
             why = f"at most {MOST_KINKS:g} are listed"
             raise QuestionError(Problem(what, why, "ask for fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]

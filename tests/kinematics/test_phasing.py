@@ -844,7 +844,7 @@ def test_both_ways_of_minimum_squares_leave_the_same_errors(monkeypatch: pytest.
     from geartrain.numerics import sparse_least_squares as squares
 
     requested = spherical_phasing(icosidodecahedron(), {"5": 12, "3": 6}).problem
-    rows, right = requested._by_nodes, requested.errors(requested.tree_angles)
+    rows, right = requested._node_rows, requested.errors(requested.tree_angles)
     dense = right - rows.times(rows.least_squares(right))
     monkeypatch.setattr(squares, "_DENSE", 0)
     gradients = right - rows.times(rows.least_squares(right))

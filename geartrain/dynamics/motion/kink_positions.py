@@ -217,11 +217,7 @@ class KinkSearch:
     def over(self, start: float, end: float) -> KinkPositions:
         """Return the kinks from one position of the input to a later one, both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
-<<<<<<< HEAD
-            what = f"from {start:g} to {end:g} turns pairs pass some {expected:.2g} kinks"
-=======
             what = f"from {start:g} to {end:g} turns, pairs pass about {expected:.2g} kinks"
->>>>>>> w-dyn
             why = f"at most {MOST_KINKS:g} are listed"
             raise QuestionError(Problem(what, why, "request fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]

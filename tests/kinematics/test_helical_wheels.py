@@ -183,10 +183,10 @@ def test_involutes_are_those_of_the_transverse_section() -> None:
 
 
 def test_other_teeth_do_not_lean() -> None:
-    with pytest.raises(GearTrainError, match="only involutes are known to work there"):
+    with pytest.raises(GearTrainError, match="only involute teeth are supported on helical wheels"):
         _ = train(helical(20, 15), helical(40, 15), tooth_form={"form": "cycloidal"}).meshes
     skew = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
-    with pytest.raises(GearTrainError, match="touch at a point"):
+    with pytest.raises(GearTrainError, match="have point contact"):
         _ = train(helical(20, 45), helical(20, 45), tooth_form={"form": "involute"}, axes=skew).meshes
 
 

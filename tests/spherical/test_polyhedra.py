@@ -724,7 +724,7 @@ def test_awkward_texts_survive_yaml() -> None:
 
 
 def test_a_set_without_teeth_or_gears_is_no_train() -> None:
-    with pytest.raises(GearTrainError, match="no tooth count for 3"):
+    with pytest.raises(GearTrainError, match="no tooth number for 3"):
         to_train(from_polyhedron("icosidodecahedron", teeth={5: 20}))
     with pytest.raises(GearTrainError, match="without gears"):
         to_train(from_polyhedron("cube", teeth=12, drop=["4"]))

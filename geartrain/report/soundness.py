@@ -163,7 +163,7 @@ def _wanted(result: OutputResult) -> str:
         words.append(f"published {published.value} as {published.as_}, {result_words(result)}")
     for declared, target in zip(
         result.output.targets, result.targets, strict=False
-    ):  # without a speed there are no results
+    ):  # without a speed no target is evaluated
         if target.met is False:
             off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
             words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")

@@ -73,7 +73,7 @@ def test_suggestions_are_the_best_of_the_table() -> None:
     assert best["teeth"] == {"5": 40, "4": 34, "3": 15}
     assert best["mismatch"] == pytest.approx(-3.342905645e-04, rel=1e-9)
     assert best["residue"] == 0
-    assert "removed" in call("sphere", "rhombicosidodecahedron", "--suggest", 8).stdout
+    assert "rejected" in call("sphere", "rhombicosidodecahedron", "--suggest", 8).stdout
     assert call("sphere", "rhombicosidodecahedron", "--suggest", 8).exit_code == 1
 
 

@@ -95,7 +95,10 @@ def run(
         from geartrain.simulation.time.time_run_plot import time_run_figure
 
         name = train.name if found.state is None else f"{train.name}, state {found.state}"
-        draw(time_run_figure(found, f"{name}: in time, {abs(found.rate) / tau:.4g} turn/s of {found.driving_link}"), picture)
+        draw(
+            time_run_figure(found, f"{name}: in time, {abs(found.rate) / tau:.4g} turn/s of {found.driving_link}"),
+            picture,
+        )
     if not found.complete:
         tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are of those")
         raise typer.Exit(INTERRUPTED)

@@ -374,7 +374,7 @@ def _check_closed(solid: Polyhedron) -> None:
 
 def _not_a_corner(vertices: Floats, at: int) -> GearTrainError:
     return _refused(
-        f"vertices[{at}] {_coordinates(vertices[at])} is not a vertex: it lies inside the hull of the others, or on its surface",
+        f"vertices[{at}] {_coordinates(vertices[at])} is not a vertex: it lies in the hull of the others",
         "gears are placed on the faces and vertices of a convex solid",
         "leave the point out, or move it outwards",
     )

@@ -1,4 +1,4 @@
-"""The strength of one gear pair under its torque: what stands in the declaration, put into the formulas of `teeth`."""
+"""Strength of one gear pair under its torque, from its declaration."""
 
 from __future__ import annotations
 
@@ -53,54 +53,54 @@ _POSITIONS = 401
 
 @dataclass(frozen=True)
 class WheelUnderLoad:
-    """One wheel of a pair."""
+    """Wheel of a loaded pair."""
 
     name: str
     gear: int
-    """1 or 2, as the law of the pair calls it."""
+    """Number of the gear in its transmission function, 1 or 2."""
     z: float
-    """Its teeth, `teeth` as they are cut, in modules; of a bevel those of the spur wheel that stands for it."""
+    """Number of teeth; `teeth` are as cut, in modules. For a bevel, both are those of the virtual spur wheel."""
     teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
     torque: float
-    """That counts [N m]; `turns` it makes as its carrier sees it, None where no time is given."""
+    """Design torque [N m]; `turns` are those relative to its carrier, None if no time is given."""
     turns: float | None
 
     @property
     def elasticity(self) -> Elasticity:
-        """Of its material."""
+        """Elastic constants of its material."""
         return Elasticity(self.material.youngs_modulus.si / _MPA, float(self.material.poisson.value))
 
     @cached_property
     def side(self) -> ToothSide:
-        """Half of a tooth."""
+        """Half outline of a tooth."""
         return ToothSide.of(self.teeth.tooth, -1 if self.teeth.kind == "ring" else 1)
 
 
 @dataclass(frozen=True)
 class PairUnderLoad:
-    """A pair under load. Lengths in mm."""
+    """Gear pair under load. Lengths in mm."""
 
     mesh: GearMesh
-    """Its teeth."""
+    """Teeth of the pair."""
     wheels: tuple[WheelUnderLoad, WheelUnderLoad]
-    """Both, as the pair names them."""
+    """Both wheels in the order of the pair."""
     module: float
-    """Of it; the width is the narrower one."""
+    """Module [mm]."""
     width: float
-    """Of it; the width is the narrower one."""
+    """Width of the narrower wheel [mm]."""
     wear: WearRange
-    """Least and greatest wear coefficient."""
+    """Minimum and maximum wear coefficient."""
     spurs: VirtualSpurs | None = None
-    """Of bevels: the spur pair that stands for them."""
+    """Virtual spur pair of bevels."""
     swing: float = 1.0
-    """The torque that bends and presses over the mean one, which wears."""
+    """Ratio of the design torque for stresses to the mean torque, which determines wear."""
     remarks: tuple[str, ...] = ()
-    """What does not hold of its wheels."""
+    """Restrictions that apply to its wheels."""
 
     def strength(self) -> PairStrength:
-        """All figures."""
+        """Compute all figures of the pair."""
         places = self._places()
         iso, roots = self._iso()
         return PairStrength(
@@ -120,11 +120,11 @@ class PairUnderLoad:
 
     @property
     def factor(self) -> float:
-        """ZE."""
+        """Elasticity factor ZE [sqrt(MPa)]."""
         return elasticity_factor(*(each.elasticity for each in self.wheels))
 
     def _radius(self, at: int) -> float:
-        """Radius at which a wheel rolls on the other [mm]."""
+        """Return the operating pitch radius of a wheel [mm]."""
         path = self.path
         if path is not None:
             return abs(path.pitch.axle_of(self.wheels[at].gear)) * self.module
@@ -132,23 +132,23 @@ class PairUnderLoad:
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
     def _flattened(self, at: int) -> float:
-        """Radii about its own axle over those about the axle of the spur wheel that stands for it."""
+        """Return the ratio of radii about a bevel's own axis to those of its virtual spur wheel; 1 for spur wheels."""
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
     def tangential(self) -> float:
-        """Force along the pitch line [N]: of the wheel with more, for friction takes some of it on the way."""
+        """Force along the pitch line [N], the larger of both wheels, because friction reduces the other."""
         arms = (self._radius(at) * self._flattened(at) for at in (0, 1))
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
 
     @property
     def path(self) -> PathOfContact | None:
-        """The path of contact, where there is one."""
+        """Path of contact, if there is one."""
         return self.mesh.path if self.spurs is None else self.spurs.pair.path
 
     @cached_property
     def load(self) -> ContactLoad | None:
-        """The load along that path."""
+        """Load along the path of contact; None if there is none."""
         path = self.path
         if path is None:
             return None
@@ -160,7 +160,7 @@ class PairUnderLoad:
 
     @cached_property
     def lean(self) -> ToothLean:
-        """How helical teeth lie; of involutes on parallel axes."""
+        """Helix data of involute teeth on parallel axes."""
         helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
         if not helix or not isinstance(form, Involute):
             return ToothLean()
@@ -173,20 +173,20 @@ class PairUnderLoad:
     def _notes(self) -> Iterator[str]:
         yield from self.remarks
         if self.load is None:
-            yield "its form has no path of contact: no pressure by Hertz, and the load acts at the tip"
+            yield "its form has no path of contact: Hertz pressure is not computed, and the load acts at the tip"
         elif self.load.has_cusp:
-            yield "flanks have no radius at the pitch point: Hertz's pressure has no bound there until they wear"
+            yield "flanks have infinite curvature at the pitch point: Hertz pressure is unbounded there until they wear"
         if self.spurs is not None:
             counts = " and ".join(f"{each.z:.4g}" for each in self.wheels)
-            yield f"its bevels are taken for spur wheels of {counts} teeth, with the module in the middle of the width"
+            yield f"its bevels are treated as virtual spur wheels of {counts} teeth, with the module at mid-width"
             if self.spurs.is_wide:
-                yield "its teeth are wider than a third of their cones, more than is usual: they bear unevenly"
+                yield "its teeth are wider than a third of the cone distance, so the load is not uniform"
         elif self.mesh.form == "involute" and self._rack_pair() is None:
-            yield "ISO 6336 is worked out for external involutes with a contact ratio from 1 to 2"
+            yield "ISO 6336 is applied only to external involutes with a contact ratio from 1 to 2"
         if self.lean.helix:
             yield (
-                "its teeth lean: the load lies evenly along the lines of contact where they are shortest, and bending "
-                "at the tip is that of the part of a tooth on which one line lies"
+                "its teeth are helical: the load is uniform along lines of contact of minimum total length; bending "
+                "at the tip is that of the part of a tooth with one line of contact"
             )
 
     # ------------------------------------------------------------------------------------------------------- roots
@@ -218,9 +218,11 @@ class PairUnderLoad:
 
     @property
     def _leaning_part(self) -> float:
-        """Bending of a helical tooth over that of a straight one with its transverse section, all load at one tip.
+        """Bending stress of a helical tooth over that of a spur tooth with its transverse section and the whole load at
+        one tip.
 
-        Each width bears its part of the lines of contact; across itself the tooth is thinner and its load the greater.
+        Each element of width carries its part of the lines of contact. In the normal section the tooth is thinner and
+        the load is larger.
         """
         load = self.load
         return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, LeaningLoad) else 1.0
@@ -232,7 +234,7 @@ class PairUnderLoad:
         return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)
 
     def _tip_load(self, own: WheelUnderLoad) -> ToothLoad:
-        """The load at the end of the flank."""
+        """Return the load at the end of the flank."""
         path = self.path
         if path is None:
             return own.side.load_at_tip()
@@ -241,7 +243,9 @@ class PairUnderLoad:
         return own.side.load_at(tip, arm)
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
-        """The section that is bent most with all at the tip, and the greatest stress [MPa] of all shared positions."""
+        """Return the section of maximum bending with the whole load at the tip, and the maximum stress [MPa] with
+        shared load.
+        """
         own, load = self.wheels[at], self.load
         if own.teeth.pins is not None:
             return None, None
@@ -253,7 +257,7 @@ class PairUnderLoad:
         outer = high if own.gear == 1 else low
         worst = 0.0
         for X in sorted({*np.linspace(-path.arcs[0], path.arcs[1], _POSITIONS).tolist(), outer}):
-            # at the very border of single contact the stretch where one couple bears all counts
+            # the boundary of single contact is evaluated on the side where one tooth pair carries the whole load
             inside = min(max(X, low + 1e-7), high - 1e-7) if abs(X - outer) < 1e-9 else X
             worst = max(worst, self._stress_at(own, load, inside))
         return tip, worst
@@ -269,12 +273,12 @@ class PairUnderLoad:
     # ------------------------------------------------------------------------------------------------- ISO and wear
 
     def _rack_pair(self) -> RackPair | None:
-        """Both wheels in the transverse section."""
+        """Return both wheels in the transverse section as rack-cut wheels; None if ISO 6336 does not apply."""
         form, load = self.mesh.tooth_form, self.load
         if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
             return None
         path, flat = load.path, cos(self.lean.helix)
-        # as the pair names them; gears 1 and 2 of an external pair are in that order
+        # in the order of the pair, which is that of gears 1 and 2 of an external pair
         wheels = [
             RackWheel(
                 each.z,
@@ -295,7 +299,7 @@ class PairUnderLoad:
         pair = self._rack_pair()
         if pair is None:
             return None, None
-        # the force of the standard is that at the reference circle
+        # the standard uses the force at the reference circle
         force = self.tangential * cos(pair.angle) / cos(pair.working)
         roots = [self._iso_root(pair, at, force) for at in (0, 1)]
         return contact_stress(pair, self.factor, force, self.width, self.module), (roots[0], roots[1])

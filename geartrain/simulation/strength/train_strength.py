@@ -1,4 +1,4 @@
-"""The strength of every gear pair of a train under its torque, and of its arbors."""
+"""Strength of every gear pair of a train under its torque, and of its arbors."""
 
 from __future__ import annotations
 
@@ -43,21 +43,23 @@ if TYPE_CHECKING:
 
 
 _YEAR = 365.25 * 86400  # s
-_PINS = "steel"  # what pins of couplings are made of, where the train declares no material
+_PINS = "steel"  # material of the pins of couplings if the train declares none
 
 
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Pressures, root stresses, safety factors and wear under the loads of one state: see `GearTrain.strength`."""
+    """Compute pressures, root stresses, safety factors and wear under the loads of one state; see
+    `GearTrain.strength`.
+    """
     check_numbers(over=over)
     own, train = service.checked(), train.unfolded
     found, loads = solve(train, state), train.load_case(state)
     if not found.verdict or loads is None:
         return TrainStrength(found.state, found.verdict)
     if not has_torque_units(train.declaration, found.state):
-        what = "stresses need torques with a unit"
-        raise QuestionError(Problem(what, "the loads are plain numbers", "write for example `-0.5 N m`"))
+        what = "stresses require torques with a unit"
+        raise QuestionError(Problem(what, "the declared loads are plain numbers", "write for example `-0.5 N m`"))
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
     question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
@@ -74,37 +76,47 @@ def solve_strength(
 
 @dataclass(frozen=True)
 class Service:
-    """How long a train runs, and what is assumed of its wear."""
+    """Service life of a train, and its range of wear coefficients."""
 
     turns: float | None = None
-    """Of the input, or of time; None where wear is not requested, and never both."""
+    """Revolutions of the input; None if wear is not requested, or `years` is given."""
     years: float | None = None
-    """Of the input, or of time; None where wear is not requested, and never both."""
+    """Years of operation; None if wear is not requested, or `turns` is given."""
     wear: tuple[float, float] | None = None
-    """Least and greatest wear coefficient; None for those of `WEAR_RANGE`."""
+    """Minimum and maximum wear coefficient; None for `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
-        """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
+        """Return the wear coefficients; raise `QuestionError` if they are not a range, or a time is not a number."""
         check_numbers(turns=self.turns, years=self.years)
         own = WearRange(*(self.wear or WEAR_RANGE))
         if not 0 < own.minimum <= own.maximum < inf:
-            what = f"{own.minimum:g} to {own.maximum:g} is no range of wear coefficients"
-            raise QuestionError(Problem(what, "K is above 0, the lesser first", "give for example 1e-7 1e-3"))
+            what = f"{own.minimum:g} to {own.maximum:g} is not a range of wear coefficients"
+            raise QuestionError(
+                Problem(what, "K must be positive, with the minimum first", "give for example --wear 1e-7 1e-3")
+            )
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Turns, in all the time, of a link whose speed is 1; None where no time is given."""
+        """Return the total revolutions of a link whose speed is 1; None if no time is given."""
         turns, years = self.turns, self.years
         if turns is None and years is None:
             return None
         if turns is not None and years is not None:
-            raise QuestionError(Problem("a time is given twice", "by turns and by years", "leave one of them out"))
+            raise QuestionError(
+                Problem("both turns and years are given", "the service life is given once", "omit one of them")
+            )
         for name, value in (("turns", turns), ("years", years)):
             if value is not None and not 0 < value < inf:
-                raise QuestionError(Problem(f"{value:g} {name} wear nothing", "", "give a number above 0"))
+                raise QuestionError(
+                    Problem(
+                        f"a service life of {value:g} {name}", "it must be positive and finite", "give a number above 0"
+                    )
+                )
         speed, declared = _input_speed(train, state), train.declaration
         if not speed:
-            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input turns", "drive it from an input"))
+            raise QuestionError(
+                Problem(f"'{declared.name}' does not move", "all its inputs have speed 0", "give an input a speed")
+            )
         if turns is not None:
             return turns / speed
         case, unit = train.kinematics.case(state), declared.unit_speed
@@ -112,13 +124,16 @@ class Service:
         if case.rate is not None and case.rate.unit is not None:
             return years * _YEAR * float(case.rate.base) / speed
         if unit is None:
-            what, why = "years tell no number of turns here", "speeds are plain numbers"
+            what, why = (
+                "years cannot be converted to turns",
+                "the speeds of this train are plain numbers without a unit",
+            )
             raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
         return years * _YEAR * float(unit)
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Speed of the input that is counted: the crank's, else that of the first that turns."""
+    """Return the speed of the reference input: the crank, otherwise the first input that turns."""
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):
@@ -131,38 +146,38 @@ def _input_speed(train: TrainMechanics, state: str | None) -> float:
 
 @dataclass(frozen=True)
 class StrengthQuestion:
-    """What is asked of a loaded train."""
+    """Request for the strength of a loaded train."""
 
     train: TrainMechanics
-    """As it answers; `setting`, its case; `torques`, what was found there."""
+    """Train; `setting` is its load case, and `torques` the solution for it."""
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
-    """Pairs with real teeth as they are driven in this case."""
+    """Pairs with real teeth, with their drivers in this case."""
     scale: float | None
-    """Turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input."""
+    """Total revolutions for a speed of 1; None if wear is not requested. `turns` are the revolutions of the input."""
     turns: float | None
     wear: WearRange
-    """Least and greatest wear coefficient."""
+    """Minimum and maximum wear coefficient."""
     over: float | None = None
-    """Turns of the input whose greatest torques bend and press; None where means do."""
+    """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
     maximum: Mapping[str, float] = field(default_factory=dict)
-    """By pair: the greatest torque on its driven side in them [N m]."""
+    """Maximum torque on the driven side of each pair in these revolutions [N m]."""
     left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
     def declared(self) -> Train:
-        """The declaration."""
+        """Declaration of the train."""
         return self.train.declaration
 
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Modules (m) by wheel."""
+        """Modules by wheel [m]."""
         return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Teeth by wheel, as they are cut for all mates."""
+        """Teeth by wheel, as cut for all mates."""
         return self._cut.wheels
 
     @cached_property
@@ -171,7 +186,7 @@ class StrengthQuestion:
 
     @cached_property
     def swings(self) -> Mapping[str, float]:
-        """By pair: the greatest torque over the turns that are asked for, over the mean one."""
+        """Ratio of the maximum torque over the requested revolutions to the mean torque, by pair."""
         found = {}
         for circuit in self.setting.circuits:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
@@ -182,7 +197,7 @@ class StrengthQuestion:
         return found
 
     def answer(self) -> TrainStrength:
-        """All pairs and arbors."""
+        """Compute the strength of all pairs and arbors."""
         meshes = {mesh.name: mesh for mesh in self.meshes}
         forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes, self.swings)
         told = tuple(forces.find())
@@ -212,10 +227,10 @@ class StrengthQuestion:
         )
 
     def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
-        """Pairs in the order of the declaration, then arbors, then what swings."""
+        """Return omitted pairs in the order of the declaration, then arbors, then varying torques."""
         swinging = [each for each in self.torques.left_out if each.what == "swing within a turn"]
         if self.over is None:
-            why = "stresses are those of mean torques; `--over` takes the greatest of some turns"
+            why = "stresses are those of mean torques; `--over` uses the maximum over some turns"
             for each in swinging:
                 self.left_out[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
         order = {gear.name: at for at, gear in enumerate(self.declared.gears)}
@@ -224,7 +239,7 @@ class StrengthQuestion:
         )
 
     def _skew_pairs(self, forces: ToothForces, told: Sequence[WheelForce]) -> Iterator[SkewPair]:
-        """Pairs on crossed axes, but for those that lack something."""
+        """Yield the pairs on crossed axes with complete data."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear" or not forces.is_crossed(circuit):
                 continue
@@ -251,7 +266,7 @@ class StrengthQuestion:
     # -------------------------------------------------------------------------------------------------------- pins
 
     def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
-        """Lobes among pins, and pins in holes of wheels of a declared width and material."""
+        """Yield contacts of lobes among pins, and of pins in holes of wheels with a declared width and material."""
         for gear in self.declared.gears:
             mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
             if not isinstance(mesh, DiscMesh):
@@ -325,14 +340,16 @@ class StrengthQuestion:
         middle = module if spurs is None else module * spurs.middle.shrunk
         swing = self.swings.get(gear.name, 1.0)
         notes = tuple(
-            f"teeth of '{name}' are those that this pair requires, for the teeth of pair '{other}' do not turn"
+            f"teeth of '{name}' are cut for this pair only, because the teeth of pair '{other}' cannot turn"
             for name in gear.pair
             if (other := self._spoilt_elsewhere(mesh, name))
         )
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Teeth of a wheel as cut for all mates; where faults of another pair prevent that, as this pair requires."""
+        """Return the teeth of a wheel as cut for all mates, or as this pair requires if faults of another pair prevent
+        that.
+        """
         if (cut := self.teeth.get(name)) is not None or not self._spoilt_elsewhere(mesh, name):
             return cut
         try:
@@ -341,7 +358,7 @@ class StrengthQuestion:
             return None
 
     def _spoilt_elsewhere(self, mesh: GearMesh, name: str) -> str | None:
-        """Another pair of a wheel that is not cut for all mates, whose teeth do not turn."""
+        """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates."""
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
 
@@ -349,15 +366,15 @@ class StrengthQuestion:
         self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _lacking(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """What is not known of a pair, or is not worked out for it."""
+        """Yield what is not known for a pair, or not supported."""
         if mesh is None:
-            yield "it declares no tooth form: give it `tooth_form`"
+            yield "it has no tooth form: declare `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
             yield "its axes are not parallel, and it has no path of contact"
         elif any(wheel.is_helical for wheel in wheels.values()) and mesh.form != "involute":
-            yield "its teeth lean, and of such only involutes are worked out"
+            yield "its teeth are helical but not involute, which is not supported"
         elif faults := mesh.faults:
-            yield f"its teeth do not turn: {faults[0].what}"
+            yield f"its teeth cannot turn: {faults[0].what}"
         yield from self._lacking_of_all(wheels, torque)
         if not torque.multiplier and not torque.loose:
             return
@@ -366,15 +383,15 @@ class StrengthQuestion:
                 yield f"'{name}' has no `face_width`"
             if mesh is not None and mesh.own_size is not None and self._teeth_in(mesh, name) is None:
                 why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
-                yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
+                yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
     def _lacking_of_all(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """What any pair needs."""
+        """Yield what is missing for a pair of any kind."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
         if torque.loose:
-            yield "how it shares its torque with others is not declared: give `share`"
+            yield "its share of the torque of parallel paths is not known: declare `share`"
         for name, wheel in wheels.items():
             if not self._material_name(wheel):
                 yield f"'{name}' has no `material`"
@@ -382,7 +399,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no `module`"
 
     def _width(self, wheel: Wheel) -> float:
-        """Width of its teeth (m), 0 where nothing says it."""
+        """Return the width of a wheel's teeth [m], 0 if it is not known."""
         found = face_width(self.declared, wheel)
         return 0.0 if found is None else found.si
 
@@ -390,7 +407,7 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Turns of one wheel as the carrier sees it, over the time that was given."""
+        """Return the revolutions of one wheel relative to the carrier over the given time."""
         if self.scale is None:
             return None
         relative = self.setting.relative(torque.links[at], torque.links[2])
@@ -399,7 +416,7 @@ class StrengthQuestion:
     # ------------------------------------------------------------------------------------------------------ arbors
 
     def _arbors(self, forces: Sequence[WheelForce], pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
-        """Arbors all of whose forces are known."""
+        """Yield the strength of arbors with known forces."""
         straight = {each.pair for each in forces if not each.axial}
         steepest = {
             name: max((each.force for each in pair.contact if each.tooth_pairs == 1), default=0.0)
@@ -410,7 +427,9 @@ class StrengthQuestion:
             if part.arbor is None:
                 continue
             if unknown := self._without_force(part.wheels, forces):
-                why = f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate"
+                why = (
+                    f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate wheel"
+                )
                 self.left_out[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
@@ -418,7 +437,7 @@ class StrengthQuestion:
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Pairs of some wheels that carry a torque and whose forces are not told."""
+        """Return pairs of some wheels that carry a torque and whose forces are not known."""
         told = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs
@@ -434,22 +453,22 @@ class StrengthQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ArborLoad:
-    """What the wheels of an arbor bear, as bounds: as if all that pulls across pulled one way."""
+    """Bounds of the load on an arbor by its wheels, as if all transverse forces acted in one direction."""
 
     across: float
-    """All forces across it [N]."""
+    """Sum of the transverse forces [N]."""
     along: float
-    """Most of what pushes one way along it [N]; `thrust`, what is left for its shoulders."""
+    """Maximum sum of axial forces of one sign [N]; `thrust` is the resultant on its shoulders."""
     thrust: float
     couple: float
-    """Of the forces along, at their radii [N mm]; `torque` [N mm]."""
+    """Moment of the axial forces at their radii [N mm]; `torque` in N mm."""
     torque: float
 
     @classmethod
     def of(cls, forces: Iterable[WheelForce], steepest: Mapping[str, float]) -> ArborLoad:
-        """Of wheels on one arbor.
+        """Return the load by the wheels on one arbor.
 
-        steepest   by pair: the force of one couple that bears all, where that is known [N]
+        steepest   force of one tooth pair in single contact, by pair where it is known [N]
         """
         own = list(forces)
         axial = [each.axial for each in own]
@@ -463,7 +482,9 @@ class ArborLoad:
 
 
 def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
-    """Of an arbor between two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26)."""
+    """Compute the strength of an arbor between two bearings for any positions of its wheels: docs/strength.md (16),
+    (17) and (26).
+    """
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
     length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
@@ -487,19 +508,19 @@ def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: Arbor
 
 
 def bending_stress(moment: float, diameter: float) -> float:
-    """Of a round bar [MPa]: 32 M/(pi d^3), M in N mm and d in mm."""
+    """Return the bending stress of a round bar [MPa]: 32 M/(pi d^3), M in N mm and d in mm."""
     return 32 * moment / (pi * diameter**3)
 
 
 def torsional_stress(torque: float, diameter: float) -> float:
-    """Of a round bar [MPa]: 16 T/(pi d^3)."""
+    """Return the torsional stress of a round bar [MPa]: 16 T/(pi d^3), T in N mm and d in mm."""
     return 16 * torque / (pi * diameter**3)
 
 
 def maximum_moment(force: float, couple: float, span: float) -> float:
-    """Of a bar between two bearings [N mm] under forces and couples, wherever they stand: docs/strength.md (26).
+    """Return the maximum bending moment of a bar between two bearings [N mm], for any positions of its loads: (26).
 
-    A force across at x L bends by F L x (1 - x) there, a couple by at most M max(x, 1 - x).
+    A transverse force at x L causes F L x (1 - x) there, and a moment at most M max(x, 1 - x).
 
     >>> maximum_moment(10.0, 0.0, 40.0), maximum_moment(0.0, 50.0, 40.0)
     (100.0, 50.0)

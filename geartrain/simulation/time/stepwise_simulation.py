@@ -139,7 +139,8 @@ class Simulation:
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
         if not 0 < step < inf or not all(0 <= each <= 1 for each in bounces.values()):
-            what = f"invalid time step or restitution: {step:g} s, {', '.join(f'{each:g}' for each in set(bounces.values()))}"
+            values = ", ".join(f"{each:g}" for each in set(bounces.values()))
+            what = f"invalid time step or restitution: {step:g} s, {values}"
             why = "the time step must be positive and finite, and restitution 0 to 1"
             raise QuestionError(Problem(what, why, "give for example step=1e-4 and restitution 0.3"))
         drive = self.drive if drive is None else drive

@@ -176,7 +176,7 @@ def _summary(run: TimeRun) -> Iterator[str]:
         yield "PARTIAL: the run was stopped; the figures are not compared with those of a shorter time step."
     if run.unsolved:
         yield (
-            f"NOT SOLVED in {run.unsolved} steps: no consistent contacts were found, for example because friction locks "
+            f"NOT SOLVED in {run.unsolved} steps: no consistent contacts were found, for example if friction locks "
             "the train (`geartrain torques --turns` shows where). Do not rely on these figures."
         )
     yield from (f"Not included: {note}." for note in run.notes)
@@ -206,14 +206,14 @@ def _contacts(run: TimeRun) -> Section:
         *("hardest (rad/s)", "gap (deg)", "torque (N mm)", "friction (mW)", "peak (N mm)", "dynamic factor"),
     )
     text = [
-        f"Percentage of time without contact (apart) and on the coast flank; impacts per turn of "
+        "Percentage of time without contact (apart) and on the coast flank; impacts per turn of "
         f"'{run.driving_link}', "
-        "the mean energy of each and the "
-        "power of all, the maximum closing speed (hardest); the maximum angle between the driven side and its nearer "
+        "their mean energy and total "
+        "power, and the maximum closing speed (hardest); the maximum angle between the driven side and its nearer "
         "flank (gap); the mean torque on the driven side.",
         "Teeth are rigid: an impact is an impulse without a peak force, so the dynamic factor is undefined."
         if run.model == "rigid"
-        else "Teeth are compliant: the peak is the maximum torque on the driven side, and the dynamic factor is its ratio "
+        else "Teeth are compliant: the peak is the maximum torque on the driven side; the dynamic factor is its ratio "
         "to the maximum quasi-static torque.",
     ]
     return Section("Contacts", text, (filled_table(header, cut(rows), 3),))

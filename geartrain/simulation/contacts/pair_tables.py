@@ -84,7 +84,7 @@ def tabled_function(
 
 
 def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
-    """Concatenate functions to the arrays of the kernels; a function's number is its index in the sequence."""
+    """Join functions to the arrays of the kernels; a function's number is its index in the sequence."""
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
     for each in functions:

@@ -133,7 +133,7 @@ def pin_arms(transmission: PinTransmission) -> Arms | None:
 def even_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
     """Return the friction terms of a pair with constant ratio and a declared efficiency for either driving wheel.
 
-    None means that there is no loss. Raises `GearTrainError` if the pair is self-locking forwards.
+    None means that the pair has no loss. Raises `GearTrainError` if the pair is self-locking forwards.
     """
     if forward == 1 and backward == 1:
         return None

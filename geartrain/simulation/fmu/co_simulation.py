@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
 DECLARATION, CASE = "train.yaml", "case.json"
-"""Files of the unit: the declaration, and how it is asked."""
+"""Files in the unit: the declaration, and the `CoSimulationCase` as JSON."""
 _SCRIPT = f'''"""Co-simulation slave of the train in {DECLARATION} next to this file, stepped by geartrain."""
 
 from geartrain.simulation.fmu.co_simulation_slave import TrainSlave, keep_alive

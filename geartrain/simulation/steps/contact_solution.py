@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 OPEN, FRONT, BACK = 0, 1, 2
-"""Which flank of a pair touches: none, the drive flank, the coast flank."""
+"""Flank in contact: none, the drive flank, the coast flank."""
 
 WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRICTION = range(8)
 """Columns of the energy balance [J]: three kinds of input work, and five kinds of loss."""
@@ -195,7 +195,7 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
 def eliminate_coordinates(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
     """Eliminate the coordinates from the last to the first: by condensation if its pair touches, otherwise by Gauss.
 
-    All is done in one loop, because a call with so many arrays takes as long as a coordinate.
+    All is done in one loop, because a call with this number of arrays takes as long as a coordinate.
     """
     A, b, w, g, near = here.A, here.b, here.w, here.g, system.near
     for d in range(len(b) - 1, -1, -1):
@@ -292,9 +292,7 @@ AT_ONCE = 6
 def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
-    """Flip the wrong contact states, all of them or only the one of lowest index (Murty's method); return
-    their number.
-    """
+    """Correct the wrong contact states, all or only the one of lowest index (Murty's method); return their number."""
     found = correct_pairs(system, state, here, slack, single)
     if len(system.sliding) > 0 and (found == 0 or not single):
         found += correct_bearings(system, state, here, creep, single)

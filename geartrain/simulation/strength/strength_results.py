@@ -174,7 +174,7 @@ class PairStrength(Result):
     elasticity: float
     """Elasticity factor ZE of both materials [sqrt(MPa)]."""
     contact: tuple[ContactPlace, ...]
-    """Pressures along the path of contact, the worst last; empty if there is no path of contact."""
+    """Pressures along the path of contact, the worst last; empty for a form without a path of contact."""
     iso: IsoContact | None
     """Contact stress by ISO 6336-2; None except for external spur and helical involutes."""
     wheels: tuple[WheelStrength, ...]

@@ -94,7 +94,7 @@ class VirtualSpurs:
 
     @property
     def why_not(self) -> str:
-        """Reason why there is no virtual pair; "" if there is one."""
+        """Reason why the virtual pair does not exist; "" if it exists."""
         if self.middle.shrunk <= 1 / 2:
             return "the width of its teeth exceeds the cone distance"
         if min(cos(self.middle.cone(gear)) for gear in (1, 2)) < _FLATTEST:

@@ -233,7 +233,7 @@ class SteppedSeparation(Result):
 def find_stepped_separation(
     study: TimeStudy, predicted: float | None, on_done: Callable[[float], object]
 ) -> SteppedSeparation:
-    """Simulate the whole run at two rates without separation, then refine the positions with the least torque.
+    """Simulate the whole run at two rates without separation, then refine the positions with the minimum torque.
 
     study       the train and its range, at the predicted rate
     predicted   rate by the closed-form condition [turn/s]

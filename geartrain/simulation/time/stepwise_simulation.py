@@ -191,7 +191,7 @@ class Simulation:
         }
 
     def set_drive(self, value: float) -> None:
-        """Change the drive from now on.
+        """Set the value of the drive from now on.
 
         Parameters
         ----------
@@ -217,7 +217,7 @@ class Simulation:
             self._set_torques()
 
     def set_load(self, link: str, torque: float) -> None:
-        """Change the load of a link from now on.
+        """Set the load of a link from now on.
 
         Parameters
         ----------

@@ -37,7 +37,7 @@ _PAIRS = 6  # maximum number of pairs whose gaps are drawn
 _STRETCH = 720  # samples of the interval in which gaps are drawn, about 60 teeth of the fastest pair
 _MOST = 4000  # maximum number of points of a curve: first, minimum and maximum of each interval
 _OUTPUTS = 4
-"""Maximum number of outputs in the plot; the least moved are omitted."""
+"""Maximum number of outputs in the plot; those with the smallest deviations are omitted."""
 _OPEN = 1e-7  # smaller gaps count as contact [rad]
 _SEEN = 1e-8  # smaller deviations count as 0 [rad]
 _SMALL = 0.1  # fraction of the backlash below which gaps get a larger scale

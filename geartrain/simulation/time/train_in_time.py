@@ -188,7 +188,7 @@ def step_to_separation(
     Returns
     -------
     SteppedSeparation
-        The rate with its error, by ever shorter time steps at the positions where pairs carry the least torque.
+        The rate with its error, by ever shorter time steps at the positions where pairs carry the minimum torque.
 
     Raises
     ------

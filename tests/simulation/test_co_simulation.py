@@ -152,7 +152,7 @@ def test_a_declaration_written_out_is_read_back_as_it_was() -> None:
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (("planetary-24-18-60", "-o", "x.fmu"), "nothing says how fast"),
+        (("planetary-24-18-60", "-o", "x.fmu"), "the train has no rate"),
         (("moon-triangular", "-o", "x.fmu", "--rate", "1"), "inertia"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--bore", "2mm"), "--bore says nothing"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--step", "0s"), "0s is not above 0"),

@@ -145,7 +145,7 @@ def test_leaning_teeth_bear_more() -> None:
     worst = [max(each.pressure for each in pair.contact) for pair in (straight, leaning)]
     assert worst[1] < worst[0]
     assert leaning.wheels[0].tip_stress < straight.wheels[0].tip_stress
-    assert any("lean" in note for note in leaning.notes)
+    assert any("helical" in note for note in leaning.notes)
 
 
 def test_other_forms_that_lean_are_left_out_by_name() -> None:
@@ -265,7 +265,7 @@ inputs: {{a: 1}}
 def test_wide_teeth_and_flat_cones_are_told() -> None:
     assert "wider than a third" in found(36, 48, 40).pairs["p~w"].notes[1]
     short = found(36, 48, 95)
-    assert short.left_out[0].why == "its teeth are wider than its cones are long"
+    assert short.left_out[0].why == "the width of its teeth exceeds the cone distance"
     flat = found(30, 60, axis="[-0.5, 0.8660254037844386, 0]")  # the cone of the second is a plane
     assert "is flat or hollow" in flat.left_out[0].why
 

@@ -462,7 +462,7 @@ def test_a_planet_goes_round_with_its_carrier() -> None:
     carried = {each.link: each.carried for each in plates}["carrier"]
     assert carried == pytest.approx(1000 * 0.005 * pi * 0.018**2 * 0.042**2, rel=0.05)
     nothing = {each.link: each for each in find_link_inertias(load(PLANET_PLATES.format(planet="", rest="")).mechanics)}
-    assert nothing["carrier"].missing == ("the mass of 'planet', which it takes round, is not known",)
+    assert nothing["carrier"].missing == ("the mass of 'planet', which it carries, is not known",)
 
 
 def test_teeth_part_by_the_inertia_of_their_outlines() -> None:

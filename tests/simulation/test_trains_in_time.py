@@ -219,10 +219,10 @@ def test_a_figure_that_depends_on_the_step_is_named_with_its_error_and_the_steps
     train = load("longcase-clock")
     run = train.dynamics(turns=1 / 360, skip=0, steps=30_000, fast=False)
     page = to_markdown([describe_time_run(collect_time_report(train, run))])
-    assert "NOT SETTLED: escape hardest impact." in page
-    assert "at most 50 % (escape hardest impact): `--steps 1500000` brings it to 1 %" in page
+    assert "NOT CONVERGED: escape hardest impact." in page
+    assert "at most 50 % (escape hardest impact): `--steps 1500000` reduces it to 1 %" in page
     run = train.dynamics(turns=1 / 360, skip=0, fast=False)
-    assert "NOT SETTLED" not in to_markdown([describe_time_run(collect_time_report(train, run))])
+    assert "NOT CONVERGED" not in to_markdown([describe_time_run(collect_time_report(train, run))])
 
 
 @pytest.mark.slow
@@ -490,7 +490,7 @@ crank: d
 
 def test_a_kept_rate_that_an_escapement_does_not_let_pass_is_refused() -> None:
     train = GearTrain.declare({**CLOCK, "drive": {"rate": "1 turn/s"}})
-    with pytest.raises(QuestionError, match="'barrel' is kept at 1 turn/s, which its escapement does not let pass"):
+    with pytest.raises(QuestionError, match="'barrel' has a prescribed speed of 1 turn/s, which exceeds that of its escapement"):
         train.dynamics(turns=1)
 
 

@@ -233,7 +233,7 @@ class TrainModel:
             name for at, name in enumerate(self.coordinates) if found[at, at] <= 0 and name not in self.prescribed
         ]
         if lacking:
-            what = f"the inertia of {', '.join(lacking)} is not known"
+            what = f"no inertia turns with {', '.join(lacking)}"
             why = "a link without inertia has no equation of motion after teeth separate"
             raise QuestionError(
                 Problem(what, why, "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels")

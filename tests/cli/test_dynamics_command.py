@@ -147,7 +147,7 @@ def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
 
     path = train_file(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), "slack.yaml")
     words = ("--rate", "1", "--turns", "0.5", "--skip", "0", "--steps", "1000", "--no-fast", "--find-rate", "--json")
-    finer, calls = stepped_separation.PartingSearch.finer, []
+    finer, calls = stepped_separation.SeparationSearch.finer, []
 
     def stopping(self: object, *given: object) -> object:
         calls.append(given)
@@ -155,7 +155,7 @@ def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
             os.kill(os.getpid(), signal.SIGINT)
         return finer(self, *given)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(stepped_separation.PartingSearch, "finer", stopping)
+    monkeypatch.setattr(stepped_separation.SeparationSearch, "finer", stopping)
     done = call("dynamics", path, *words)
     assert done.exit_code == 130
     assert "stopped before" in done.stderr

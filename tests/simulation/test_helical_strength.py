@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import geartrain
 from geartrain.simulation import PairStrength, TrainStrength
 from geartrain.simulation.strength.contact_pressure import minimum_tooth_pairs
-from geartrain.simulation.strength.iso_6336 import RackWheel, ToothLean, root_stress
+from geartrain.simulation.strength.iso_6336 import HelixData, RackWheel, root_stress
 
 Z1, Z2, NORMAL, TORQUE = 20, 43, 2.0, 50.0
 
@@ -111,11 +111,11 @@ def test_the_tooth_pairs_told_are_those_that_share_the_force(helix: float, width
 
 def test_factors_are_those_of_the_standard() -> None:
     """Ybeta 1 - 15/120 and Zbeta 1/sqrt(cos 15) with an overlap of 1; half as much lean counts half as much overlap."""
-    lean = ToothLean(radians(15), 0.24, 1.3)
+    lean = HelixData(radians(15), 0.24, 1.3)
     assert lean.Ybeta == pytest.approx(0.875)
     assert lean.Zbeta == pytest.approx(1 / sqrt(cos(radians(15))))
-    assert ToothLean(radians(45), 0.6, 2.0).Ybeta == 0.75
-    half = ToothLean(radians(15), 0.24, 0.5)
+    assert HelixData(radians(45), 0.6, 2.0).Ybeta == 0.75
+    half = HelixData(radians(15), 0.24, 0.5)
     assert half.Ybeta == pytest.approx(0.9375)
     assert half.Zeps(1.6) ** 2 == pytest.approx(((4 - 1.6) / 3 + 1 / 1.6) / 2)
     assert half.single(1.2) == pytest.approx(1.1)

@@ -11,8 +11,8 @@ from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.simulation import SeparationRates, find_link_inertias, find_separation
 from geartrain.simulation.contacts.inertial_contacts import (
+    ErrorCoupling,
     InertialContacts,
-    YieldingPairs,
     find_inertial_loads,
     minimum_rate,
 )
@@ -268,7 +268,7 @@ def test_pairs_that_depend_on_each_other_are_solved_as_their_matrices_say() -> N
     gain = np.zeros((3, 4))
     gain[1], gain[2] = random.normal(size=4), random.normal(size=4)
     gain[1:, 1] = 0.0  # the second pair, which keeps its ratio, comes last
-    pairs = YieldingPairs(gain, [0, 2, 3], [[0], [1, 2]])
+    pairs = ErrorCoupling(gain, [0, 2, 3], [[0], [1, 2]])
     slope, given = random.normal(scale=0.3, size=(3, 50)), random.normal(size=(4, 50))
     found, carried = pairs.errors(slope, given), pairs.torques(slope, given)
     for at in range(50):

@@ -260,7 +260,7 @@ def test_an_unknown_material_is_refused_with_its_line() -> None:
         changed("material: steel", "material: stel")
 
 
-@pytest.mark.parametrize(("given", "told"), [((1, 2), "both turns and years"), ((-1, None), "a service life of -1 turns")])
+@pytest.mark.parametrize(("given", "told"), [((1, 2), "both turns and years"), ((-1, None), "life of -1 turns")])
 def test_times_that_mean_nothing_are_refused(given: tuple[float, float | None], told: str) -> None:
     with pytest.raises(QuestionError, match=told):
         geartrain.load(PAIR).strength(turns=given[0], years=given[1])

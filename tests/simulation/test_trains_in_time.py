@@ -281,7 +281,7 @@ def test_below_the_rate_of_separation_impacts_that_come_together_part_no_flanks(
     model = model_in_time(train.mechanics, None, (), tau * rate, 0.0).model
     slow = simulate(model, StepPlan(1 / rate / 200, 0, 1025, 1))
     for steps in range(12_000, 24_000, 900):
-        run = simulate(model.elsewhere(1.0, slow.angles[-1]), StepPlan(1 / rate / steps, 0, round(0.004 * steps), 1))
+        run = simulate(model.restarted(1.0, slow.angles[-1]), StepPlan(1 / rate / steps, 0, round(0.004 * steps), 1))
         assert (run.forces[2:] > 0).all()
 
 
@@ -490,7 +490,7 @@ crank: d
 
 def test_a_kept_rate_that_an_escapement_does_not_let_pass_is_refused() -> None:
     train = GearTrain.declare({**CLOCK, "drive": {"rate": "1 turn/s"}})
-    with pytest.raises(QuestionError, match="'barrel' has a prescribed speed of 1 turn/s, which exceeds that of its escapement"):
+    with pytest.raises(QuestionError, match="'barrel' has a prescribed speed of 1 turn/s"):
         train.dynamics(turns=1)
 
 

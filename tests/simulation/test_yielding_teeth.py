@@ -16,10 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 from geartrain import GearTrain
 from geartrain.errors import QuestionError
 from geartrain.simulation import find_vibration_modes
-from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothYield
+from geartrain.simulation.contacts.compliant_train import damping_ratio
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothCompliance
 from geartrain.simulation.contacts.pair_tables import tabled_angle
 from geartrain.simulation.contacts.train_model import SlackPin
-from geartrain.simulation.contacts.yielding_train import damping_ratio
 from geartrain.simulation.steps.contact_solution import GAP, TIME_APART
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
@@ -45,7 +45,7 @@ def pin_train(rate: float, clearance: float = 0.0, drag: float = DRAG) -> Contac
 
 
 def yielding(model: ContactModel, plan: StepPlan, k: float, c: float) -> SimulatedRun:
-    found = simulate(model, plan, yields=ToothYield(np.array([k]), np.array([c])))
+    found = simulate(model, plan, yields=ToothCompliance(np.array([k]), np.array([c])))
     put_in, taken = found.energy[:3].sum(), found.energy[3:].sum()
     scale = np.abs(found.energy).sum() + found.start + found.end
     assert found.end - found.start + found.pressed - put_in + taken == pytest.approx(0, abs=1e-10 * scale)

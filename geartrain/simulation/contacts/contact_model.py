@@ -50,7 +50,7 @@ class ContactPair:
     """
     restitution: float = 0.0
     """Coefficient of restitution."""
-    never_stands: bool = False
+    has_no_dwell: bool = False
     """True if the transmission function has no dwell: the driven side could also drive."""
 
     @property
@@ -78,7 +78,7 @@ class ContactPair:
     def could_determine(self, coordinate: int) -> bool:
         """Return whether only one side contains the coordinate, and its coefficient never vanishes."""
         driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
-        return driven != driver and (driven or self.never_stands)
+        return driven != driver and (driven or self.has_no_dwell)
 
 
 @dataclass(frozen=True)
@@ -196,7 +196,7 @@ class ContactModel:
                 near[each].update(other for other in near[d] if other < each)
         return tuple(tuple(sorted(each)) for each in near)
 
-    def elsewhere(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
+    def restarted(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
         """Return the same train at scaled speeds, from other angles [rad] and speeds [rad/s], with the same tables.
 
         `share` scales the speeds. If touching pairs determine all coordinates, speeds follow from their transmission
@@ -212,7 +212,7 @@ class ContactModel:
         return found
 
     @property
-    def falls(self) -> list[float]:
+    def fall_times(self) -> list[float]:
         """Time that each stopped link takes from one stop to the next [s], all coordinates in their mean ratios.
 
         It follows from the driving torque at the start, without resistance.
@@ -421,7 +421,7 @@ class ContactSystem(NamedTuple):
     spring_rate: Floats
 
 
-class ToothYield(NamedTuple):
+class ToothCompliance(NamedTuple):
     """Stiffness [N m/rad] and damping [N m s/rad] of each pair, about its driven side."""
 
     stiffness: Floats

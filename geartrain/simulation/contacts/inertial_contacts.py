@@ -118,10 +118,10 @@ class InertialContacts:
         return rows
 
     @cached_property
-    def _yielding(self) -> YieldingPairs:
+    def _coupling(self) -> ErrorCoupling:
         of_pair = {source.pair: at for at, source in enumerate(self.sources)}
         blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion.spread.parts]
-        return YieldingPairs(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
+        return ErrorCoupling(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
 
     @cached_property
     def _slopes(self) -> tuple[CellTable, ...]:
@@ -177,11 +177,11 @@ class InertialContacts:
                 ahead, back = self.rubbing[source.id]
                 arm[row] += source.sense * np.where(turning >= 0, ahead(S), back(S))
             pulled[source.pair] = arm[row] * source.mean
-        acceleration = self._response @ self._yielding.errors(slope, kick)
+        acceleration = self._response @ self._coupling.errors(slope, kick)
         speed = means[:, None] + found.rate
         virtual = speed
         if self.rubbing:
-            virtual = means[:, None] + self._response @ self._yielding.errors(arm, pulled)
+            virtual = means[:, None] + self._response @ self._coupling.errors(arm, pulled)
         return _State(speed, acceleration, slope, arm, virtual)
 
     def torques(self, turns: Floats) -> CarriedTorques:
@@ -208,10 +208,10 @@ class InertialContacts:
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
         """Yield the torques of the pairs under forces on the links by the transposed matrices: sense J^-T R^T f."""
         for requested in forces:
-            force = self._less_the_crank(requested, state.virtual)
-            yield self._senses[:, None] * self._yielding.torques(state.arm, self._response.T @ force)
+            force = self._without_crank_power(requested, state.virtual)
+            yield self._senses[:, None] * self._coupling.torques(state.arm, self._response.T @ force)
 
-    def _less_the_crank(self, requested: Floats, speed: Floats) -> Floats:
+    def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
         """Subtract the driving torque of the crank that keeps the input turning, so that it supplies all
         virtual work.
         """
@@ -242,7 +242,7 @@ class InertialContacts:
 
 
 @dataclass(frozen=True)
-class YieldingPairs:
+class ErrorCoupling:
     """Matrix J = I - diag(slope) G at many positions, in block triangular order."""
 
     gain: Floats

@@ -101,7 +101,7 @@ def find_link_inertias(
     declared, case = train.declaration, train.kinematics.case(state)
     prescribed = {declared.frame, *case.fixed} | (set() if with_inputs else set(case.inputs))
     bodies = _Bodies(train)
-    return tuple(bodies.whole(link) for link in declared.links if link not in prescribed)
+    return tuple(bodies.total_inertia(link) for link in declared.links if link not in prescribed)
 
 
 class _Bodies:
@@ -110,9 +110,9 @@ class _Bodies:
     def __init__(self, train: TrainMechanics) -> None:
         self.train, self.declared = train, train.declaration
 
-    def whole(self, link: str) -> LinkInertia:
+    def total_inertia(self, link: str) -> LinkInertia:
         """Return the inertia of a link including the planets that it carries round."""
-        own = self._own(link)
+        own = self._own_inertia(link)
         tree, missing = self.train.tree, list(own.missing)
         carried = 0.0
         for planet in self.declared.links:
@@ -126,7 +126,7 @@ class _Bodies:
                 carried += mass * radius**2
         return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
 
-    def _own(self, link: str) -> LinkInertia:
+    def _own_inertia(self, link: str) -> LinkInertia:
         part = self.declared.links[link]
         if part.inertia is not None:
             return LinkInertia(link, part.inertia.si, "declared")

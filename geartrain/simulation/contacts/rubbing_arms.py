@@ -58,7 +58,7 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
             return tabled_function(partial(_at_angles, transmission, coefficient, way, mesh.label), transmission)
         # functions that are slow to evaluate are interpolated between the nodes at which their sliding is known
         S = np.mod(nodes[0], transmission.period)
-        more = _more_by_teeth(transmission.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
+        more = _friction_term(transmission.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
         return tabled_function(lambda at: np.interp(at, S, more, period=transmission.period), transmission, _ROUGH)
 
     return table(1), table(-1)
@@ -67,10 +67,10 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
 def _at_angles(
     transmission: TransmissionFunction, coefficient: Callable[[Floats], Floats | float], way: int, label: str, S: Floats
 ) -> Floats:
-    return _more_by_teeth(transmission.speed(S), transmission.rubbing(S), coefficient, way, label)
+    return _friction_term(transmission.speed(S), transmission.rubbing(S), coefficient, way, label)
 
 
-def _more_by_teeth(
+def _friction_term(
     tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
 ) -> Floats:
     """Return the friction term tau (1/eta - 1) at driver angles; 0 in a dwell, where nothing slides.
@@ -130,7 +130,7 @@ def pin_arms(transmission: PinTransmission) -> Arms | None:
     return plus, minus, minus, plus
 
 
-def even_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
+def constant_ratio_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
     """Return the friction terms of a pair with constant ratio and a declared efficiency for either driving wheel.
 
     None means that the pair has no loss. Raises `GearTrainError` if the pair is self-locking forwards.

@@ -290,11 +290,11 @@ def find_separation_rates(
         most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
         turns = whole if kinks * whole <= most else most / kinks
     found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)
-                  for each in find_partings(contacts, turns))  # fmt: skip
+                  for each in find_pair_separations(contacts, turns))  # fmt: skip
     return SeparationRates(state, contacts.moving.driving_link, turns, turns >= whole, found, tuple(inertias))
 
 
-class Parting(NamedTuple):
+class Separation(NamedTuple):
     """Separation of a pair above a rate [rad/s of the input] at a position [revolutions]; `leap` if a speed jumps
     there.
     """
@@ -305,7 +305,7 @@ class Parting(NamedTuple):
     leap: bool
 
 
-def find_partings(contacts: InertialContacts, turns: float) -> tuple[Parting, ...]:
+def find_pair_separations(contacts: InertialContacts, turns: float) -> tuple[Separation, ...]:
     """Find the minimum rate at which each pair separates in a range of the input [revolutions], in ascending order."""
     kinks = contacts.motion.kink_positions(0.0, turns).turns
     ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
@@ -316,12 +316,12 @@ def find_partings(contacts: InertialContacts, turns: float) -> tuple[Parting, ..
     at = low[:, None] + (high - low)[:, None] * shares
     rates = contacts.rates(at.ravel()).reshape(len(contacts.pairs), *at.shape)
     found = _minimum(contacts, at, rates)
-    leaping = _leaps(contacts, kinks, float((high - low).min(initial=turns)))
+    leaping = _jump_separations(contacts, kinks, float((high - low).min(initial=turns)))
     partings = [leaping.get(pair, each) for pair, each in enumerate(found)]
     return tuple(sorted(partings, key=lambda each: (each.rate, each.pair)))
 
 
-def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Parting]:
+def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Separation]:
     """Find the minimum rate of each pair by refining its best intervals with ever finer samples.
 
     at      positions, (intervals, samples); `rates` of all pairs there
@@ -329,7 +329,7 @@ def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Part
     count = len(contacts.pairs)
     best = np.argsort(rates.min(axis=2), axis=1, kind="stable")[:, :_BEST]
     at, rates = at[best], np.take_along_axis(rates, best[:, :, None], axis=1)
-    found = [Parting(name, inf, 0.0, False) for name in contacts.pairs]
+    found = [Separation(name, inf, 0.0, False) for name in contacts.pairs]
     own, shares = np.arange(count), np.arange(_SAMPLES) / (_SAMPLES - 1)
     for zoom in range(_ZOOMS + 1):
         where = rates.argmin(axis=2)[:, :, None]
@@ -345,7 +345,7 @@ def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Part
     return found
 
 
-def _leaps(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, Parting]:
+def _jump_separations(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, Separation]:
     """Return the pairs that separate at any rate, because a speed jumps so that their impulse would be tensile."""
     if not len(kinks):
         return {}
@@ -354,7 +354,7 @@ def _leaps(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[
     found = {}
     for pair, row in enumerate(impulses < -tolerance):
         if row.any():
-            found[pair] = Parting(contacts.pairs[pair], 0.0, float(kinks[row.argmax()]), True)
+            found[pair] = Separation(contacts.pairs[pair], 0.0, float(kinks[row.argmax()]), True)
     return found
 
 

@@ -22,7 +22,7 @@ from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.simulation.contacts.pair_tables import TOLERANCE, TabledFunction, tabled_angle
-from geartrain.simulation.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
+from geartrain.simulation.contacts.rubbing_arms import Arms, constant_ratio_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
 from geartrain.teeth.transmission import ExactRatio
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.contacts.contact_model import ToothYield
+    from geartrain.simulation.contacts.contact_model import ToothCompliance
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.transmission import TransmissionFunction
@@ -126,7 +126,7 @@ class TrainModel:
         return ()
 
     @property
-    def yields(self) -> ToothYield | None:
+    def yields(self) -> ToothCompliance | None:
         """Stiffness and damping of the teeth of each pair; None for rigid teeth."""
         return None
 
@@ -255,7 +255,7 @@ class TrainModel:
             if circuit.id not in self.sources:
                 transmission = self._even(circuit)
                 front = self._tabled(transmission)
-                arms = self._even_arms(circuit, transmission)
+                arms = self._constant_ratio_arms(circuit, transmission)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
             front, back, arms, first = self._flanks(circuit)
@@ -300,12 +300,12 @@ class TrainModel:
         own = circuit.b if path.coefficient == circuit.a else circuit.a
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 
-    def _even_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
+    def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
         ways = self._gears[circuit.id].efficiency
         passed = float(ways.forward.base), float(ways.backward.base)
         if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
-        return even_arms(transmission, *passed, f"pair '{circuit.id}'")
+        return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
 
     # --------------------------------------------------------------------------------------------------------- the rest
 

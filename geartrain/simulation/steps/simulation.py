@@ -12,6 +12,7 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.simulation.contacts.contact_model import ContactModel, ContactSystem
 from geartrain.simulation.contacts.pair_tables import PairTables, value_and_slope
+from geartrain.simulation.steps.compliant_steps import CompliantTeeth, run_compliant_steps
 from geartrain.simulation.steps.contact_solution import (
     COUNTS,
     DIVERGED,
@@ -27,11 +28,10 @@ from geartrain.simulation.steps.contact_solution import (
     StepRules,
 )
 from geartrain.simulation.steps.time_steps import run_steps
-from geartrain.simulation.steps.yielding_steps import YieldingTeeth, run_yielding_steps
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.simulation.contacts.contact_model import ToothYield
+    from geartrain.simulation.contacts.contact_model import ToothCompliance
 
     _Mark = tuple[Floats, Floats, Floats]
 
@@ -89,7 +89,7 @@ def simulate(
     plan: StepPlan,
     fast: bool = False,
     on_done: Callable[[int], object] = lambda _: None,
-    yields: ToothYield | None = None,
+    yields: ToothCompliance | None = None,
 ) -> SimulatedRun:
     """Simulate a model; `fast` compiles the kernels.
 
@@ -100,7 +100,7 @@ def simulate(
     """
     system, n = model.system(plan.step), len(model.torque)
     if yields is not None:
-        system = _yielding(model, system, plan.step, yields)
+        system = _midpoint_system(model, system, plan.step, yields)
     state = start_state(model, system)
     here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
     samples = (plan.skip + plan.steps) // plan.stride
@@ -115,7 +115,7 @@ def simulate(
         if teeth is None:
             run_steps.chosen(fast)(*given, steps, counted)
         else:
-            run_yielding_steps.chosen(fast)(*given, teeth, steps, counted)
+            run_compliant_steps.chosen(fast)(*given, teeth, steps, counted)
 
     def go(steps: int, counted: bool) -> int:
         """Advance in pieces between samples; return the number of steps done."""
@@ -275,16 +275,16 @@ def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
     )
 
 
-def _teeth(model: ContactModel, yields: ToothYield | None) -> YieldingTeeth | None:
+def _teeth(model: ContactModel, yields: ToothCompliance | None) -> CompliantTeeth | None:
     if yields is None:
         return None
     pairs = len(model.pairs)
-    return YieldingTeeth(
+    return CompliantTeeth(
         yields.stiffness, yields.damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2))
     )
 
 
-def _yielding(model: ContactModel, system: ContactSystem, step: float, yields: ToothYield) -> ContactSystem:
+def _midpoint_system(model: ContactModel, system: ContactSystem, step: float, yields: ToothCompliance) -> ContactSystem:
     """Return the arrays for the midpoint rule: no pair determines a coordinate, and each is a compliant row."""
     springs = system.matrix - system.mass - step * system.viscous  # step^2 K
     return system._replace(
@@ -294,7 +294,9 @@ def _yielding(model: ContactModel, system: ContactSystem, step: float, yields: T
     )
 
 
-def _stored(system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothYield | None) -> float:
+def _stored(
+    system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothCompliance | None
+) -> float:
     """Return the energy stored in compressed compliant teeth [J]."""
     if yields is None:
         return 0.0

@@ -53,7 +53,7 @@ FARTHEST = 1000.0  # largest rotation in one step [rad]; beyond it the solution 
 _SHORT = 2  # flights of at most this many steps end without rebound, whatever the restitution
 _AGAIN = 4  # maximum number of new evaluations of transmission functions when an impact changes their drivers' speeds
 _NEAR = 1e-9  # tolerance between a driver's angle and the angle at which its function was evaluated [rad]
-_JOLT = 0.01  # relative change of a driver's speed within a step that counts as an impact, or the rest of one
+_IMPACT_CHANGE = 0.01  # relative change of a driver's speed within a step that counts as an impact, or the rest of one
 
 
 @kernel
@@ -190,7 +190,7 @@ def solve_step(
         if again == _AGAIN:
             return rounds
         struck = is_struck(state.touching, here.before, transmissions.jump, system.tables, here.ratio, state.ratio)
-        if find_shift(system, here, 0.0 if struck else _JOLT) * rules.step < _NEAR:
+        if find_shift(system, here, 0.0 if struck else _IMPACT_CHANGE) * rules.step < _NEAR:
             return rounds
         again += 1
         for d in range(len(here.v)):

@@ -1,10 +1,9 @@
 """Hertzian contact of two teeth, and Archard's wear: docs/strength.md.
 
-ContactLoad     line contact, the load shared equally by the tooth pairs in contact on the path of contact
-LeaningLoad     line contact of helical involutes on parallel axes: thin spur slices, each rotated against the next,
-                with
-                the load uniform along all lines of contact
-CrossedWheels   point contact: the contact ellipse, and involute helicoids on crossed axes
+ContactLoad          line contact, the load shared equally by the tooth pairs in contact on the path of contact
+HelicalContactLoad   line contact of helical involutes on parallel axes: thin spur slices, each rotated against the
+                     next, with the load uniform along all lines of contact
+CrossedWheels        point contact: the contact ellipse, and involute helicoids on crossed axes
 loss_over_friction, deepest_passage   wear V = (K/H) times the integral of force over sliding distance
 """
 
@@ -214,7 +213,7 @@ def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class LeaningLoad(ContactLoad):
+class HelicalContactLoad(ContactLoad):
     """Loaded helical pair; quantities are as in `ContactLoad`, in the transverse section."""
 
     base_helix: float = 0.0

@@ -52,7 +52,7 @@ class RackWheel:
 
 
 @dataclass(frozen=True, slots=True)
-class ToothLean:
+class HelixData:
     """Helix angles [rad] at the pitch and base circle, and overlap ratio, of helical wheels."""
 
     helix: float = 0.0
@@ -95,7 +95,7 @@ class RackPair:
     """Operating pressure angle [rad]."""
     contact_ratio: float
     """Transverse contact ratio, 1 to less than 2."""
-    lean: ToothLean = ToothLean()
+    lean: HelixData = HelixData()
     """Helix data of helical wheels."""
 
     def __post_init__(self) -> None:

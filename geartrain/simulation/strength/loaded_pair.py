@@ -15,19 +15,19 @@ from geartrain.simulation.strength.contact_pressure import (
     ContactLoad,
     ContactPlace,
     Elasticity,
-    LeaningLoad,
+    HelicalContactLoad,
     base_helix_angle,
     deepest_passage,
     elasticity_factor,
     loss_over_friction,
 )
 from geartrain.simulation.strength.iso_6336 import (
+    HelixData,
     IsoContact,
     IsoRoot,
     RackPair,
     RackWheel,
     RootSection,
-    ToothLean,
     ToothLoad,
     ToothSide,
     contact_stress,
@@ -131,14 +131,14 @@ class PairUnderLoad:
         size = self.mesh.own_size
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
-    def _flattened(self, at: int) -> float:
+    def _cone_factor(self, at: int) -> float:
         """Return the ratio of radii about a bevel's own axis to those of its virtual spur wheel; 1 for spur wheels."""
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
     def tangential(self) -> float:
         """Force along the pitch line [N], the larger of both wheels, because friction reduces the other."""
-        arms = (self._radius(at) * self._flattened(at) for at in (0, 1))
+        arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
 
     @property
@@ -155,17 +155,17 @@ class PairUnderLoad:
         torque = self.tangential * path.pitch.R1 * self.module
         if self.lean.helix:
             lean = self.lean.base, self.lean.overlap
-            return LeaningLoad(path, self.module, self.width, torque, self.factor, *lean)
+            return HelicalContactLoad(path, self.module, self.width, torque, self.factor, *lean)
         return ContactLoad(path, self.module, self.width, torque, self.factor)
 
     @cached_property
-    def lean(self) -> ToothLean:
+    def lean(self) -> HelixData:
         """Helix data of involute teeth on parallel axes."""
         helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
         if not helix or not isinstance(form, Involute):
-            return ToothLean()
+            return HelixData()
         normal = self.module * cos(helix)
-        return ToothLean(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
+        return HelixData(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
 
     def _places(self) -> tuple[ContactPlace, ...]:
         return () if self.load is None else self.load.places()
@@ -202,12 +202,12 @@ class PairUnderLoad:
             wheel=own.name,
             material=own.material_name,
             torque=own.torque,
-            section=0.0 if tip is None else tip.x * self.module * self._flattened(at),
+            section=0.0 if tip is None else tip.x * self.module * self._cone_factor(at),
             thickness=0.0 if tip is None else tip.thickness * self.module,
             lewis=0.0 if tip is None else tip.lewis_factor(self._radius(at) / self.module),
             tip_stress=self._pin_stress(own)
             if tip is None
-            else tip.stress(torque, self.width, self.module) * self._leaning_part,
+            else tip.stress(torque, self.width, self.module) * self._helical_bending_factor,
             shared_stress=shared,
             pressure=pressure,
             strength=None if strength is None else strength.si / _MPA,
@@ -217,7 +217,7 @@ class PairUnderLoad:
         )
 
     @property
-    def _leaning_part(self) -> float:
+    def _helical_bending_factor(self) -> float:
         """Bending stress of a helical tooth over that of a spur tooth with its transverse section and the whole load at
         one tip.
 
@@ -225,7 +225,7 @@ class PairUnderLoad:
         the load is larger.
         """
         load = self.load
-        return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, LeaningLoad) else 1.0
+        return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, HelicalContactLoad) else 1.0
 
     def _pin_stress(self, own: WheelUnderLoad) -> float:
         from geartrain.simulation.strength.iso_6336 import pin_stress
@@ -250,7 +250,7 @@ class PairUnderLoad:
         if own.teeth.pins is not None:
             return None, None
         tip = own.side.weakest_section(self._tip_load(own))
-        if load is None or isinstance(load, LeaningLoad):
+        if load is None or isinstance(load, HelicalContactLoad):
             return tip, None
         path = load.path
         low, high = load.single()

@@ -89,7 +89,7 @@ class TrainStrength(FrozenFields, Tabular, Result):
         not known.
         """
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
-        told = (
+        names = (
             "wheel",
             "material",
             "torque",
@@ -99,7 +99,7 @@ class TrainStrength(FrozenFields, Tabular, Result):
             "root_safety",
             "contact_safety",
         )
-        own = {each: [getattr(wheel, each) for _, wheel in rows] for each in told}
+        own = {each: [getattr(wheel, each) for _, wheel in rows] for each in names}
         return {"pair": [name for name, _ in rows]} | own
 
     @property

@@ -200,8 +200,8 @@ class StrengthQuestion:
         """Compute the strength of all pairs and arbors."""
         meshes = {mesh.name: mesh for mesh in self.meshes}
         forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes, self.swings)
-        told = tuple(forces.find())
-        points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, told)}
+        wheel_forces = tuple(forces.find())
+        points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, wheel_forces)}
         found: dict[str, PairStrength] = {}
         pins = dict(self._pins(meshes))
         for gear in self.declared.gears:
@@ -211,7 +211,7 @@ class StrengthQuestion:
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
                 found[gear.name] = pair.strength()
-        arbors = tuple(self._arbors(told, found))
+        arbors = tuple(self._arbors(wheel_forces, found))
         return TrainStrength(
             self.torques.state,
             self.torques.verdict,
@@ -220,7 +220,7 @@ class StrengthQuestion:
             self.turns,
             self.wear,
             self._all_left_out(),
-            told,
+            wheel_forces,
             points,
             self.over,
             pins,
@@ -238,7 +238,7 @@ class StrengthQuestion:
             self.left_out[name] for name in sorted(self.left_out, key=lambda name: order.get(name, len(order)))
         )
 
-    def _skew_pairs(self, forces: ToothForces, told: Sequence[WheelForce]) -> Iterator[SkewPair]:
+    def _skew_pairs(self, forces: ToothForces, wheel_forces: Sequence[WheelForce]) -> Iterator[SkewPair]:
         """Yield the pairs on crossed axes with complete data."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear" or not forces.is_crossed(circuit):
@@ -246,19 +246,19 @@ class StrengthQuestion:
             wheels = {name: self.declared.wheels[name][1] for name in circuit.wheels}
             names = [self._material_name(wheel) for wheel in wheels.values()]
             if lacking := [
-                *self._lacking_of_skew(wheels),
-                *self._lacking_of_all(wheels, self.torques.pairs[circuit.id]),
+                *self._missing_helix_angles(wheels),
+                *self._missing_for_any(wheels, self.torques.pairs[circuit.id]),
             ]:
                 self._leave_out(circuit.id, "; ".join(lacking))
                 continue
             first, second = ((name, material_named(self.declared, name)) for name in names)
-            both = [each for each in told if each.pair == circuit.id]
+            both = [each for each in wheel_forces if each.pair == circuit.id]
             is_worm = any(wheel.kind == "worm" for wheel in wheels.values())
             wheels_there = forces.crossed_wheels(circuit)
             yield SkewPair(wheels_there, (both[0], both[1]), (first, second), is_worm, forces.involute_of(circuit))
 
     @staticmethod
-    def _lacking_of_skew(wheels: Mapping[str, Wheel]) -> Iterator[str]:
+    def _missing_helix_angles(wheels: Mapping[str, Wheel]) -> Iterator[str]:
         for name, wheel in wheels.items():
             if wheel.helix_angle is None:
                 yield f"'{name}' has no `helix_angle`"
@@ -272,7 +272,7 @@ class StrengthQuestion:
             if not isinstance(mesh, DiscMesh):
                 continue
             wheels = {name: self.declared.wheels[name][1] for name in mesh.gears}
-            if lacking := list(self._lacking(mesh, wheels, torque)):
+            if lacking := list(self._missing_data(mesh, wheels, torque)):
                 self._leave_out(gear.name, "; ".join(lacking))
                 continue
             disc, ring = wheels.values()
@@ -310,7 +310,7 @@ class StrengthQuestion:
 
     def _pair(self, gear: GearPair, mesh: GearMesh | None, torque: PairTorque) -> PairUnderLoad | None:
         wheels = {name: self.declared.wheels[name][1] for name in gear.pair}
-        lacking = list(self._lacking(mesh, wheels, torque))
+        lacking = list(self._missing_data(mesh, wheels, torque))
         if lacking or mesh is None:
             self._leave_out(gear.name, "; ".join(lacking))
             return None
@@ -342,7 +342,7 @@ class StrengthQuestion:
         notes = tuple(
             f"teeth of '{name}' are cut for this pair only, because the teeth of pair '{other}' cannot turn"
             for name in gear.pair
-            if (other := self._spoilt_elsewhere(mesh, name))
+            if (other := self._pair_with_faults(mesh, name))
         )
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
@@ -350,14 +350,14 @@ class StrengthQuestion:
         """Return the teeth of a wheel as cut for all mates, or as this pair requires if faults of another pair prevent
         that.
         """
-        if (cut := self.teeth.get(name)) is not None or not self._spoilt_elsewhere(mesh, name):
+        if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:
             return mesh.requirement(name, 1.0 if mesh.own_size is None else mesh.own_size.scale, CHORD).cut()
         except GearTrainError:
             return None
 
-    def _spoilt_elsewhere(self, mesh: GearMesh, name: str) -> str | None:
+    def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
         """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates."""
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
@@ -365,7 +365,7 @@ class StrengthQuestion:
     def _leave_out(self, pair: str, why: str) -> None:
         self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
 
-    def _lacking(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
+    def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
         """Yield what is not known for a pair, or not supported."""
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
@@ -375,7 +375,7 @@ class StrengthQuestion:
             yield "its teeth are helical but not involute, which is not supported"
         elif faults := mesh.faults:
             yield f"its teeth cannot turn: {faults[0].what}"
-        yield from self._lacking_of_all(wheels, torque)
+        yield from self._missing_for_any(wheels, torque)
         if not torque.multiplier and not torque.loose:
             return
         for name, wheel in wheels.items():
@@ -385,7 +385,7 @@ class StrengthQuestion:
                 why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
                 yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
-    def _lacking_of_all(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
+    def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
         """Yield what is missing for a pair of any kind."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
@@ -438,13 +438,13 @@ class StrengthQuestion:
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
         """Return pairs of some wheels that carry a torque and whose forces are not known."""
-        told = {each.pair for each in forces}
+        known = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs
         return [
             gear.name
             for gear in loaded
-            if gear.name not in told and (torques[gear.name].multiplier or torques[gear.name].loose)
+            if gear.name not in known and (torques[gear.name].multiplier or torques[gear.name].loose)
         ]
 
 

@@ -267,7 +267,7 @@ class RunFigures:
             found[1, row] = pair.back(S) - q
         return found[0], found[1]
 
-    def told(self, coarse: RunFigures | None) -> TimeRun:
+    def result(self, coarse: RunFigures | None) -> TimeRun:
         """Return the result of this run, compared with a coarser one; None if only one run is available."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]

@@ -54,7 +54,7 @@ _NEARER = 0.2  # maximum ratio of successive changes while the rate converges; a
 _KEPT = 16, 6, 3  # numbers of positions that are refined with each shorter time step
 
 
-class PartingPlace(NamedTuple):
+class SeparationPosition(NamedTuple):
     """Position at which a pair may separate, with bounds of the rate."""
 
     pair: int
@@ -72,7 +72,7 @@ class PartingPlace(NamedTuple):
 
 
 @dataclass(frozen=True)
-class PartingSearch:
+class SeparationSearch:
     """Simulation of a train about single positions."""
 
     model: ContactModel
@@ -96,10 +96,10 @@ class PartingSearch:
             if self.advance(steps) is True:
                 raise StoppedSearchError
 
-        model = self.model.elsewhere(share, angle, speed)
+        model = self.model.restarted(share, angle, speed)
         return simulate(model, plan._replace(step=plan.step / share), self.fast, on_done)
 
-    def suspects(self, plan: StepPlan, share: float, most: int) -> list[PartingPlace]:
+    def candidates(self, plan: StepPlan, share: float, most: int) -> list[SeparationPosition]:
         """Return the positions at which pairs separate first in a whole run, in ascending order of the rate.
 
         The rates are extrapolated from two runs, at `share` of the model's rate and slightly below.
@@ -116,10 +116,10 @@ class PartingSearch:
         for rate, m, at in found[:most]:
             before = max(at - max(1, -(-_BEFORE // plan.stride)), 0)
             turns = plan.step * plan.stride * (at + 1) / self.turn
-            places.append(PartingPlace(m, quick.angles[before], quick.speeds[before] / share, turns, share, rate))
+            places.append(SeparationPosition(m, quick.angles[before], quick.speeds[before] / share, turns, share, rate))
         return places
 
-    def finer(self, place: PartingPlace, step: float) -> PartingPlace:
+    def finer(self, place: SeparationPosition, step: float) -> SeparationPosition:
         """Refine a position with a shorter time step [s at the model's rate].
 
         The rates bracket the one at which its pair carries no torque for several steps.
@@ -148,9 +148,9 @@ class PartingSearch:
             return place._replace(holds=0.0, parts=inf)
         before = max(at - _BEFORE, 0)
         turns = place.turns + (at - _BEFORE * FINER) * step / self.turn
-        return PartingPlace(place.pair, *self._state(place, run, before, low), turns, low, high)
+        return SeparationPosition(place.pair, *self._state(place, run, before, low), turns, low, high)
 
-    def _state(self, place: PartingPlace, run: SimulatedRun, at: int, share: float) -> tuple[Floats, Floats]:
+    def _state(self, place: SeparationPosition, run: SimulatedRun, at: int, share: float) -> tuple[Floats, Floats]:
         return place.angle + run.angles[at], run.speeds[at] / share
 
 
@@ -240,16 +240,16 @@ def find_stepped_separation(
     on_done     called with the fraction of the work that is done; the search stops if it returns True
     """
     if not predicted:
-        raise _unsought(predicted)
+        raise _search_error(predicted)
     plan = study.plan(1)
     plan = plan._replace(stride=max(FLIGHT, -(-plan.steps // _MOST)), skip=0)
     whole = 2 * plan.steps + _RUNS * sum(_KEPT) * STEPS
-    search = PartingSearch(study.of.model, 1 / predicted, study.is_fast, lambda steps: on_done(steps / whole))
+    search = SeparationSearch(study.of.model, 1 / predicted, study.is_fast, lambda steps: on_done(steps / whole))
     flight = (2 * plan.stride - 1) / study.per_turn
     none = (None,) * 6
     known = SteppedSeparation(study.of.problem.driving_link, study.turns, predicted, *none, flight)
     try:
-        share, places = _suspects(search, plan)
+        share, places = _candidates(search, plan)
         known = replace(known, holds=share * predicted)
         step, levels = plan.step, [places[0].parts] if places else []
         for kept in _KEPT:
@@ -260,23 +260,23 @@ def find_stepped_separation(
             levels.append(places[0].parts)
             if _is_noise(levels):
                 break
-            known = _told(known, search, places[0], step, levels[-2])
+            known = _refined(known, search, places[0], step, levels[-2])
     except StoppedSearchError:
         return replace(known, complete=False)
     return known
 
 
-def _unsought(predicted: float | None) -> QuestionError:
+def _search_error(predicted: float | None) -> QuestionError:
     what = "the separation rate cannot be found by time stepping"
     why = f"the closed-form condition predicts separation at {'no' if predicted is None else 'any'} rate"
     return QuestionError(Problem(what, why, "omit --find-rate"))
 
 
-def _suspects(search: PartingSearch, plan: StepPlan) -> tuple[float, Sequence[PartingPlace]]:
+def _candidates(search: SeparationSearch, plan: StepPlan) -> tuple[float, Sequence[SeparationPosition]]:
     """Return a fraction of the rate without separation at the long time step, and the positions to refine."""
     share = _BELOW
     for _ in range(_TRIES):
-        places = search.suspects(plan, share, _KEPT[0])
+        places = search.candidates(plan, share, _KEPT[0])
         if not places or places[0].parts > share:
             break
         share *= _SLOWER
@@ -291,8 +291,8 @@ def _is_noise(levels: Sequence[float]) -> bool:
     return last > _NEARER * before
 
 
-def _told(
-    known: SteppedSeparation, search: PartingSearch, place: PartingPlace, step: float, before: float
+def _refined(
+    known: SteppedSeparation, search: SeparationSearch, place: SeparationPosition, step: float, before: float
 ) -> SteppedSeparation:
     """Return the result with a time step [s].
 

@@ -159,12 +159,12 @@ class Simulation:
         late = self.time - float(self._state.clock[1]) * self.step
         turned = self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
         start = self._of.problem.angles
-        return self._seen(turned + np.array([start.get(link, 0.0) for link in self._of.index]))
+        return self._by_output(turned + np.array([start.get(link, 0.0) for link in self._of.index]))
 
     @property
     def speeds(self) -> dict[str, float]:
         """Speeds of outputs by name [rad/s]."""
-        return self._seen(self._of.speeds @ self._state.speed[self._place])
+        return self._by_output(self._of.speeds @ self._state.speed[self._place])
 
     @property
     def angle(self) -> float:
@@ -183,7 +183,7 @@ class Simulation:
         """Links of the outputs."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
-    def _seen(self, links: Floats) -> dict[str, float]:
+    def _by_output(self, links: Floats) -> dict[str, float]:
         index = self._of.index
         return {
             name: float(links[index[link]] - self._of.sense(link, base) * links[index[base]])
@@ -266,14 +266,14 @@ class Simulation:
         if steps <= 0:
             return
         record = empty_record(len(self._torque), len(self._names), samples=1, impacts=0)
-        first = self._jolt()
+        first = self._apply_new_speed()
         if first:
-            self._go(record, 1, steps)
+            self._run_steps(record, 1, steps)
             self._system.torque[:] = self._torque
-        self._go(record, steps - first, steps)
+        self._run_steps(record, steps - first, steps)
         self._read(record, steps)
 
-    def _jolt(self) -> int:
+    def _apply_new_speed(self) -> int:
         """Set prescribed coordinates to a new speed; return 1 if it changes, which requires a correction of the first
         step.
         """
@@ -289,7 +289,7 @@ class Simulation:
         self._system.torque[:] = self._torque - self._system.mass @ jump / self.step
         return 1
 
-    def _go(self, record: RunRecord, steps: int, stride: int) -> None:
+    def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
         """Advance some steps; one sample that is never complete accumulates all impulses."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)

@@ -119,7 +119,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
         from geartrain.simulation.contacts.separation_rate import separation_section
 
         section = separation_section(found.separation)
-        yield replace(section, paragraphs=(*section.paragraphs, *_unlike(run)))
+        yield replace(section, paragraphs=(*section.paragraphs, *_validity_notes(run)))
     if found.stepped is not None:
         yield Section("Separation rate by time stepping", (_stepped(found.stepped),))
     if run.contacts:
@@ -145,7 +145,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
         yield _inertia(found.inertias)
 
 
-def _unlike(run: TimeRun) -> Iterator[str]:
+def _validity_notes(run: TimeRun) -> Iterator[str]:
     """Yield reasons why teeth of this run may separate at rates below the predicted ones."""
     if run.driven != "rate":
         yield "These rates assume an input of constant speed; the speed of this input may vary."
@@ -295,7 +295,7 @@ def _converged(run: TimeRun) -> Section:
         text.append("± is half the 95 % confidence interval of a mean at h/2, from batch means over whole turns.")
     else:
         text.append("Confidence intervals of means require 5 turns or more.")
-    text += _unsettled(run)
+    text += _unconverged_notes(run)
     if any(each.apart for each in run.contacts):
         text.append(
             "Means over many turns (percentages of time, torque, power) are robust. Single flights and impacts are "
@@ -306,7 +306,7 @@ def _converged(run: TimeRun) -> Section:
     return Section("Convergence", text, (filled_table(header, cut([row for row in rows if row is not None]), 2),))
 
 
-def _unsettled(run: TimeRun) -> Iterator[str]:
+def _unconverged_notes(run: TimeRun) -> Iterator[str]:
     """Yield the figures that have not converged, their errors, and the options to improve them."""
     loose = [each for each in run.figures if not each.converged]
     if not loose:

@@ -87,7 +87,7 @@ class TimeStudy:
         swing = ceil(PER_SWING * self.of.fastest / abs(self.of.case.rate))
         found = max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])
         # a multiple, so that samples still coincide with beats
-        falls = (_PER_FALL * tau / abs(self.of.case.rate) / each / found for each in self.of.model.falls)
+        falls = (_PER_FALL * tau / abs(self.of.case.rate) / each / found for each in self.of.model.fall_times)
         most = int(_MOST_FALLING / found / (self.turns + self.skip))
         return found * max(1, min(most, ceil(max(falls, default=1.0))))
 
@@ -139,9 +139,9 @@ class TimeStudy:
         if not first.plan.steps:
             raise KeyboardInterrupt
         if stopped:
-            return first.told(None)
+            return first.result(None)
         second = RunFigures(self.of, self.outputs, simulate(model, plans[1], fast, advance, yields), peaks)
-        return first.told(None) if second.plan.steps < plans[1].steps else second.told(first)
+        return first.result(None) if second.plan.steps < plans[1].steps else second.result(first)
 
     def static_peaks(self) -> Sequence[float | None]:
         """Return the maximum quasi-static torque of each pair [N m], from a rigid run with nearly no inertia.

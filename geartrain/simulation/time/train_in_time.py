@@ -14,10 +14,10 @@ from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 from geartrain.numerics.labelled_array import labelled_array
 from geartrain.numerics.results import Result
+from geartrain.simulation.contacts.compliant_train import CompliantTrain
 from geartrain.simulation.contacts.link_inertia import find_link_inertias
 from geartrain.simulation.contacts.time_case import PowerInput, find_time_case
 from geartrain.simulation.contacts.train_model import TrainModel
-from geartrain.simulation.contacts.yielding_train import YieldingTrain
 from geartrain.simulation.time.time_study import TimeStudy
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class DrivenTrain:
         check_numbers(turns=turns, skip=skip, restitution=self.restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
-        seen, found = self._seen(), self._model(radians_per_second(self.rate), model == "compliant")
+        seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate), model == "compliant")
         return TimeStudy(found, seen, turns, skip, steps, samples, fast)
 
     def simulation(self, step: float | None, fast: bool | None) -> Simulation:
@@ -74,10 +74,10 @@ class DrivenTrain:
                     "give for example step=1e-4",
                 )
             )
-        seen, found = self._seen(), self._model(radians_per_second(self.rate))
+        seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate))
         return Simulation(found, seen, step or TimeStudy(found, seen, 1).plan(2).step, fast=is_fast(fast, inf))
 
-    def _seen(self) -> list[tuple[str, str, str]]:
+    def _recorded_outputs(self) -> list[tuple[str, str, str]]:
         """Return each recorded output as its name, its link, and its reference link."""
         own = self.train.planets_as_one.kinematics
         return [(name, *links) for name, links in own.seen_links(self.state, self.outputs).items()]
@@ -110,7 +110,7 @@ def model_in_time(
     inertia = {each.link: each.value for each in find_link_inertias(train, state, with_inputs=True) if each.value}
     found = find_time_case(declared, case, problem, train.tree, inertia, rate, restitution, scale)
     if yields:
-        return YieldingTrain(declared, problem, found, train.tree, case.state, restitution=restitution)
+        return CompliantTrain(declared, problem, found, train.tree, case.state, restitution=restitution)
     return TrainModel(declared, problem, found, train.tree, case.state)
 
 
@@ -152,7 +152,7 @@ def find_vibration_modes(
     [711.763]
     """
     found = model_in_time(train, state, without, None, None, yields=True, scale=1.0)
-    assert isinstance(found, YieldingTrain)
+    assert isinstance(found, CompliantTrain)
     return find_modes(found)
 
 
@@ -289,7 +289,7 @@ class VibrationModes(Result):
         return f"<p>{html.escape(self.train)}: angles of links in each mode</p><table><tr>{head}</tr>{rows}</table>"
 
 
-def find_modes(of: YieldingTrain) -> VibrationModes:
+def find_modes(of: CompliantTrain) -> VibrationModes:
     """Compute the vibration modes of a train in one case."""
     squares, modes = of.vibration
     speeds = np.sqrt(squares)

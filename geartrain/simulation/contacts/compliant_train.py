@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.simulation.contacts.contact_model import ToothYield
+from geartrain.simulation.contacts.contact_model import ToothCompliance
 from geartrain.simulation.contacts.train_model import TrainModel
 from geartrain.teeth.involute import Involute
 
@@ -48,27 +48,29 @@ _DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # ranges of 
 
 
 @dataclass(frozen=True)
-class YieldingTrain(TrainModel):
+class CompliantTrain(TrainModel):
     """Contact model of a train with compliant teeth in one case; `restitution` overrides the declared values."""
 
     restitution: float | None = None
 
     @cached_property
-    def table(self) -> ToothYieldTable:
+    def table(self) -> ToothComplianceTable:
         """Stiffness and damping of its pairs."""
         driven = {}
         for gear in self.train.gears:
             first, second = gear.pair
             driver = self.problem.drivers.get(gear.name)
             driven[gear.name] = first if driver is not None and driver.wheel == second else second
-        return ToothYieldTable(self.train, self._meshes, driven, self.restitution)
+        return ToothComplianceTable(self.train, self._meshes, driven, self.restitution)
 
     def _is_contact(self, circuit: Circuit) -> bool:
         # a pair without stiffness keeps its ratio unless the rigid model makes it a contact
         return circuit.id in self.table.pairs or super()._is_contact(circuit)
 
-    def _even_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
-        return None if self._gears[circuit.id].efficiency is None else super()._even_arms(circuit, transmission)
+    def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
+        return (
+            None if self._gears[circuit.id].efficiency is None else super()._constant_ratio_arms(circuit, transmission)
+        )
 
     @property
     def assumed(self) -> tuple[str, ...]:
@@ -93,7 +95,7 @@ class YieldingTrain(TrainModel):
         return self.train.restitution_of(parts[name]) is None
 
     @cached_property
-    def pair_yields(self) -> tuple[PairYield, ...]:
+    def pair_compliances(self) -> tuple[PairCompliance, ...]:
         """Stiffness and damping of each pair of the model.
 
         Raises `QuestionError` if a stiffness is missing, and for escapements.
@@ -112,17 +114,17 @@ class YieldingTrain(TrainModel):
         return tuple(self.table.pairs[pair.name] for pair in self.model.pairs)
 
     @cached_property
-    def yields(self) -> ToothYield:
+    def yields(self) -> ToothCompliance:
         """Stiffness and damping of each pair of the model, as arrays."""
-        stiffness = np.array([each.stiffness for each in self.pair_yields], dtype=np.float64)
+        stiffness = np.array([each.stiffness for each in self.pair_compliances], dtype=np.float64)
         damping = [
             2 * each.ratio * np.sqrt(each.stiffness * self._inertia(self._row(pair)))
             if each.damping is None
             # declared
             else each.damping
-            for pair, each in zip(self.model.pairs, self.pair_yields, strict=True)
+            for pair, each in zip(self.model.pairs, self.pair_compliances, strict=True)
         ]
-        return ToothYield(stiffness, np.array(damping, dtype=np.float64))
+        return ToothCompliance(stiffness, np.array(damping, dtype=np.float64))
 
     @cached_property
     def free(self) -> list[int]:
@@ -194,7 +196,7 @@ class YieldingTrain(TrainModel):
 
 
 @dataclass(frozen=True)
-class PairYield:
+class PairCompliance:
     """Torsional stiffness and damping of one pair about its driven wheel, with the driver fixed."""
 
     stiffness: float
@@ -207,7 +209,7 @@ class PairYield:
 
 
 @dataclass(frozen=True)
-class ToothYieldTable:
+class ToothComplianceTable:
     """Stiffness and damping of the pairs of a train."""
 
     train: Train
@@ -218,7 +220,7 @@ class ToothYieldTable:
     """Coefficient of restitution of every pair; None for the declared values."""
 
     @cached_property
-    def pairs(self) -> Mapping[str, PairYield]:
+    def pairs(self) -> Mapping[str, PairCompliance]:
         """Pairs and couplings whose stiffness is declared or can be estimated."""
         found = {}
         for gear in self.train.gears:
@@ -227,16 +229,16 @@ class ToothYieldTable:
             if stiffness is not None:
                 own = None if damping is None else self._about_driven(gear, damping, "damping")
                 value = self._about_driven(gear, stiffness, "stiffness")
-                found[gear.name] = PairYield(value, "declared", own, ratio)
+                found[gear.name] = PairCompliance(value, "declared", own, ratio)
             elif (estimate := self._estimate(gear)) is not None:
                 own = None if damping is None else self._about_driven(gear, damping, "damping")
-                found[gear.name] = PairYield(estimate[0], "estimated", own, ratio, estimate[1])
+                found[gear.name] = PairCompliance(estimate[0], "estimated", own, ratio, estimate[1])
         for coupling in self.train.couplings:
             stiffness, damping = self.train.stiffness, self.train.damping
             if stiffness is not None and stiffness.dimension == "torsional stiffness":
                 turning = damping is not None and damping.dimension == "torsional damping"
                 own = damping.si if damping is not None and turning else None
-                found[coupling.name] = PairYield(stiffness.si, "declared", own, self._ratio(coupling))
+                found[coupling.name] = PairCompliance(stiffness.si, "declared", own, self._ratio(coupling))
         return found
 
     def _ratio(self, part: GearPair | object) -> float:

@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 
-class YieldingTeeth(NamedTuple):
+class CompliantTeeth(NamedTuple):
     """Data of compliant teeth by pair; torques are those on driven sides."""
 
     stiffness: Floats
@@ -67,14 +67,14 @@ class YieldingTeeth(NamedTuple):
 
 
 @kernel
-def run_yielding_steps(
+def run_compliant_steps(
     system: ContactSystem,
     transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
     rules: StepRules,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
     steps: int,
     counted: bool,
 ) -> None:
@@ -93,7 +93,7 @@ def run_yielding_steps(
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += 1
             count_energy(system, state, here, record, rules, here.middle, 0.5)
-            count_yielding(system, state, here, record, rules, teeth)
+            count_compliant_contacts(system, state, here, record, rules, teeth)
         for d in range(len(here.v)):
             state.speed[d] = here.v[d]
             state.angle[d] += rules.step * here.middle[d]
@@ -115,7 +115,7 @@ def solve_midpoint_step(
     state: ContactState,
     here: StepEquations,
     rules: StepRules,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
 ) -> int:
     """Solve for the speeds at the end of a step; return the number of guesses."""
     find_midpoint_loads(system, state, here, rules.step)
@@ -157,7 +157,7 @@ def find_midpoint_bounds(
     transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
     step: float,
 ) -> None:
     """Compute ratios, arms and gaps in the middle of the step, and the row speeds at which P vanishes."""
@@ -192,13 +192,13 @@ def find_midpoint_bounds(
 
 
 @kernel
-def count_yielding(
+def count_compliant_contacts(
     system: ContactSystem,
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
     rules: StepRules,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
 ) -> None:
     """Add times in contact, losses of damping and friction, impacts and peaks, by pair.
 
@@ -222,7 +222,7 @@ def count_yielding(
             count_gap(counts, ahead, behind, 1.0 if state.touching[m] == OPEN else 0.0)
             for side in range(2):
                 opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
-                count_straightened(state, here, record, teeth, m, side, rules.step / 4 * opening)
+                count_released_energy(state, here, record, teeth, m, side, rules.step / 4 * opening)
         now = state.touching[m]
         if now == 0:
             teeth.impact[m] = -1
@@ -256,11 +256,11 @@ def count_yielding(
 
 
 @kernel
-def count_straightened(
+def count_released_energy(
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
     m: int,
     side: int,
     opened: float,

@@ -149,6 +149,7 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
         fit = _levenberg(start, meshes, z, pitch, residuals)
         if best is None or fit.residual < best.residual:
             best = fit
+        # only a symmetric configuration benefits from a random move
         if best.exact or not tangencies_dependent(axes, meshes):
             break
     assert best is not None
@@ -165,6 +166,7 @@ def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
     if len(meshes) > _MOST_DENSE:
         return False
     _, slopes = angle_rows(axes, meshes)
+    # numerical rank; one dimension is provided by the pitch
     values = np.linalg.svd(slopes.toarray(), compute_uv=False)
     return bool((values > 1e-9 * values[0]).sum() < len(meshes) - 1)
 
@@ -185,6 +187,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
         stalled = stalled + 1 if new > 0.9 * size else 0
         if better:
             axes, pitch, error, J, size = tried, width, there, slopes, min(new, size)
+        # Levenberg: less damping after a success, more after a failure
         damping = max(damping / 10, 1e-12) if better else damping * 100
         residuals.append(float(np.abs(error).max()))
         if size < 1e-15 or stalled > 12 or (stalled and size < 1e-13) or damping > 1e6:
@@ -208,6 +211,7 @@ def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) 
     """
     z = np.asarray(teeth, dtype=float)
     sums, _ = loop_sums(axes, corners, z)
+    # closing integers nearest to the given axes
     target = np.round(sums)
     residuals: list[float] = []
     best = (np.inf, axes)
@@ -237,6 +241,7 @@ def _phase_steps(
         residual = float(np.abs(sums - target).max(initial=0.0))
         residuals.append(residual)
         yield residual, axes
+        # converged, or limited by rounding
         if longest < 1e-12 or (longest < 1e-7 and longest > previous / 2 and residual < 1e-12):
             return
         previous = longest

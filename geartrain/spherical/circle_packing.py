@@ -115,6 +115,7 @@ class PlanarPacking:
         from scipy.sparse.linalg import splu
 
         near = np.ones(self.count, dtype=bool)
+        # the four circles through infinity are straight lines
         near[list(self.far)] = False
         place = np.cumsum(near) - 1
         pairs = [(i, j) for i in range(self.count) if near[i] for j in self.around[i]]
@@ -149,6 +150,7 @@ class PlanarPacking:
     def layout(self, u: Floats) -> Floats:
         """Place all circles on the sphere from radii in the plane, by breadth-first search from circle to circle."""
         r = np.exp(u)
+        # the layout starts at the largest finite circle
         start = int(np.argmax(np.where(np.isinf(u), -inf, u)))
         centre: dict[int, complex] = {start: 0j}
         lines: dict[int, tuple[complex, complex]] = {}
@@ -169,6 +171,7 @@ class PlanarPacking:
         beside = self.around[node]
         at = beside.index(first)
         beside = beside[at:] + beside[:at]
+        # half the angle that an orthogonal neighbour subtends
         half = np.arctan(r[beside] / r[node])
         turns = np.concatenate([[0.0], np.cumsum(half[1:] + half[:-1])])
         return [(other, towards * complex(np.exp(1j * turn))) for other, turn in zip(beside, turns, strict=True)]
@@ -177,6 +180,7 @@ class PlanarPacking:
         """Return vectors of all circles, after centring the rectangle between the four lines on the origin."""
         offsets = {node: (m, (m.conjugate() * p).real) for node, (m, p) in lines.items()}
         middle, scale = 0j, 0.0
+        # opposite sides of the rectangle of lines
         for one, other in (self.far[:2], self.far[2:]):
             (m, d), (_, e) = offsets[one], offsets[other]
             middle += m * (d - e) / 2
@@ -257,6 +261,7 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
         length = float(np.linalg.norm(v))
         if length < 1e-15:
             break
+        # a long boost would lose digits
         v *= min(1.0, _LONGEST / length, _descent_fraction(points, v))
         vectors = vectors @ boost(v)
         if length < 1e-14:
@@ -280,6 +285,7 @@ def _descent_fraction(points: Floats, v: Floats) -> float:
     The minimum of this function is the centred frame.
     """
     share = 1.0
+    # backtracking: the function is convex, so a short step always descends
     while share > 1e-6:
         made = boost(share * v)
         if np.log(points @ made[:3, 3] + made[3, 3]).sum() <= 1e-13 * len(points):
@@ -296,6 +302,7 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
     best = (inf, axes, cones)
     for _ in range(_MOST_POLISH):
         size, moves = _newton(axes, cones, tangent + square, len(tangent))
+        # quadratic convergence ends where the residual no longer falls by 4
         better, enough = size < best[0], size < 1e-13 and size > best[0] / 4
         if better:
             best = (size, axes, cones)

@@ -254,6 +254,7 @@ def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float],
     teeth that gears of kind k have inside one loop of meshes.
     """
     if all(isinstance(share, Fraction) for share in rule):
+        # integer arithmetic over the common denominator
         whole = lcm(*(Fraction(share).denominator for share in rule))
         total = sum(z * int(Fraction(share) * whole) for z, share in zip(teeth, rule, strict=True))
         return np.asarray(total % whole == 0)
@@ -285,6 +286,7 @@ def loops(configuration: Configuration) -> list[list[int]]:
     found = regions(configuration)
     gears, meshes = len(configuration.axes), configuration.meshes
     fundamental = list(fundamental_loops(gears, meshes))
+    # connected components by the cycle rank
     parts = gears - len(meshes) + len(fundamental)
     meshing = len({gear for mesh in meshes for gear in mesh})
     # Euler on the sphere; gears without a mesh bound no region
@@ -295,6 +297,7 @@ def regions(configuration: Configuration) -> list[list[int]]:
     """Return the counterclockwise boundary walks of the regions between the arcs of the meshes, by face tracing."""
     beside: dict[int, list[int]] = {}
     for i, j in configuration.meshes:
+        # adjacency of the meshes
         beside.setdefault(i, []).append(j)
         beside.setdefault(j, []).append(i)
     onward: dict[tuple[int, int], tuple[int, int]] = {}
@@ -362,6 +365,7 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
 
 def _shares(configuration: Configuration, loop: Sequence[int], kinds: Sequence[str]) -> tuple[Fraction | float, ...]:
     """Return the condition of one loop, modulo integers and up to sign."""
+    # one irregular gear makes the whole condition inexact
     exact = all(configuration.regular[gear] for gear in loop)
     total: dict[str, Fraction | float] = dict.fromkeys(kinds, Fraction(0) if exact else 0.0)
     for at, gear in enumerate(loop):
@@ -372,6 +376,7 @@ def _shares(configuration: Configuration, loop: Sequence[int], kinds: Sequence[s
         total[configuration.kinds[gear]] += -share if at % 2 else share
     if exact:
         shares = [Fraction(share) % 1 for share in total.values()]
+        # a loop traversed backwards gives the same condition
         return min(tuple(shares), tuple(-share % 1 for share in shares))
     # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule
     around = [round(float(wrapped(np.asarray(share))), 13) for share in total.values()]

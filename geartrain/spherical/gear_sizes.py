@@ -154,6 +154,7 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     if len(mesh_kinds(configuration)) == 1:
         # meshes of one kind have one pitch by symmetry; this removes the rounding of their axes
         pitches[:] = pitches[0]
+    # each mesh has its own operating cones on a common base pitch
     cones = np.stack([pitch_cone(S, z[i], z[j]), pitch_cone(S, z[j], z[i])], axis=1)
     c = base_pitch(pitches, mean_pressure)
     return SphereSizing(configuration, z, cones, pitches, c, pressure_angle(c, pitches))
@@ -244,6 +245,7 @@ class SphereSizing(Result):
         """Largest operating cone of each gear [rad], which gears that do not mesh with it must clear. Shape
         (gears,).
         """
+        # a gear without a mesh has the cone of the mean pitch
         alone = np.arcsin(np.minimum(self.teeth * self.pitch, 1))
         largest = np.zeros(len(self.teeth))
         for side in (0, 1):
@@ -269,6 +271,7 @@ class SphereSizing(Result):
     def collisions(self) -> tuple[TipCollision, ...]:
         """Pairs of gears that do not mesh and have less than two modules between their pitch circles, worst first."""
         room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
+        # each pair once; the tolerance keeps gears that just clear
         rows, columns = np.nonzero(np.triu(room < TIP_ROOM - 1e-9, 1))
         names = self.configuration.names
         found = [
@@ -329,6 +332,7 @@ def _solid_with_proof(configuration: Configuration) -> str:
     """Return the solid on whose faces the gears are placed, among those with a proof, by its counts and mesh angles."""
     counts = len(configuration.axes), len(configuration.meshes)
     phi = (1 + sqrt(5)) / 2
+    # counts of gears and meshes, and the two angles between adjacent faces
     angles = {(62, 120): (atan(1 / phi), atan(phi**-2)), (26, 48): (pi / 4, atan(sqrt(0.5)))}.get(counts, ())
     if not angles:
         return ""
@@ -339,5 +343,6 @@ def _solid_with_proof(configuration: Configuration) -> str:
     if counts == (62, 120):
         return "rhombicosidodecahedron"
     # the twisted cap keeps only one of the three rings of squares, so not every face has an opposite face
+    # faces opposite each other
     across = np.abs(separations(configuration.axes) - pi) < 1e-9
     return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"

@@ -102,6 +102,7 @@ class GearSphere(Result):
                 Problem("the sphere cannot be drawn", "its gears have no tooth numbers", "give --teeth")
             )
         angles = {} if self.closure is None else self.closure.angles
+        # phases are fractions of a pitch, which need the tooth numbers
         counts = zip(self.configuration.names, sizing.teeth.tolist(), strict=True)
         phases = [angles.get(name, 0.0) * z / (2 * pi) for name, z in counts]
         return self.configuration, sizing.outer, phases
@@ -157,6 +158,7 @@ class GearSphere(Result):
         kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
             return dict.fromkeys(kinds)
+        # gears of one kind have equal cones
         cones = dict(zip(self.configuration.kinds, self.sizing.outer.tolist(), strict=True))
         return {kind: cones[kind] for kind in kinds}
 

@@ -94,6 +94,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
         raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "leave that mesh out")
+    # a mesh is undirected
     counted = Counter(frozenset(pair) for pair in pairs)
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
     if twice:
@@ -140,6 +141,7 @@ def turning_senses(found: nx.Graph[Any], names: Sequence[Hashable]) -> Ints:
     """Return the sense of rotation of each gear, +1 or -1, by a two-colouring of the graph."""
     import networkx as nx
 
+    # meshing gears turn in opposite senses, so a two-colouring gives the senses
     colours = nx.bipartite.color(found)
     return np.array([1 if colours[name] else -1 for name in names], dtype=np.int64)
 
@@ -153,6 +155,7 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
     drawn: Any
     planar, drawn = nx.check_planarity(found, counterexample=True)
     if not planar:
+        # branch vertices of a subdivided K5 or K3,3
         corners = sorted((str(node) for node, degree in drawn.degree() if degree > 2))
         why = (
             "each is joined to all others"
@@ -180,6 +183,7 @@ def with_region_circles(
     meshes = Counter(gear for walk in regions for gear in walk)
     completed: list[tuple[int, ...]] = []
     for walk in regions:
+        # an idler has only two meshes, too few for a 3-connected map
         if any(meshes[gear] == 2 for gear in walk):
             completed += [(walk[k - 1], gear, gears) for k, gear in enumerate(walk)]
             gears += 1
@@ -294,6 +298,7 @@ def from_graph(
         z = choices[0]
         fit = fit_pitch(axes, meshes, z, float((np.sin(cones) / z).mean()))
     else:
+        # the rounding whose pitches remain most uniform when loops are closed
         z = min(choices[:_MOST_CHOICES], key=lambda z: forecast_spread(axes, meshes, z, corners))
         fit = fit_phases(axes, meshes, z, corners)
     return _answer(names, meshes, z, aim, packing, fit, corners_of(regions, side))
@@ -309,6 +314,7 @@ def _answer(
     corners: LoopCorners,
 ) -> GraphSet:
     labels = tuple(str(name) for name in names)
+    # a common rotation is removed, so that displacements are meaningful
     axes = kabsch_aligned(fit.axes, packing.axes[: len(names)])
     chosen = dict(zip(labels, z.tolist(), strict=True))
     title = f"{len(names)} gears on a planar graph"

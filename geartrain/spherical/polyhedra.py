@@ -147,6 +147,7 @@ class Polyhedron:
         A symmetry is determined by the image of one corner (three consecutive vertices of one face), so trying all
         corners that are congruent to the first finds every symmetry.
         """
+        # Gram matrices are invariant under rotation and reflection
         corners = self.vertices[[corner for face in self.faces for corner in _corners(face)]]
         gram = corners @ corners.transpose(0, 2, 1)
         alike = np.abs(gram - gram[0]).max(axis=(1, 2)) < NEAR * gram[0].max()
@@ -251,6 +252,7 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
     vertices = _checked(points)
     if recentre:
         vertices = vertices - vertices.mean(axis=0)
+    # tolerances are relative to the size of the solid
     scale = float(np.linalg.norm(vertices - vertices.mean(axis=0), axis=1).max())
     found = [_face(vertices, face, scale) for face in _flats(vertices, scale)]
     normals = np.array([normal for _, normal, _ in found])
@@ -319,6 +321,7 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
         hull = ConvexHull(vertices / scale)
     except QhullError:
         raise _refused("the points nearly lie in one plane", "a polyhedron has a positive volume") from None
+    # a point inside the hull would never carry a face
     inside = sorted(set(range(len(vertices))) - set(hull.vertices.tolist()))
     if inside:
         raise _not_a_corner(vertices, inside[0])
@@ -345,6 +348,7 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
     if area < NEAR * scale**2:
         raise _refused(f"face {index.tolist()} has no area", "its vertices lie on one line")
     lengths = np.linalg.norm(ways, axis=1)
+    # sines of the exterior angles: 0 for a point on an edge
     turns = np.cross(np.roll(ways, 1, axis=0), ways) @ normal / (np.roll(lengths, 1) * lengths)
     if turns.min() < NEAR:
         raise _not_a_corner(vertices, int(index[turns.argmin()]))
@@ -469,9 +473,11 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
     mirrors /= np.linalg.norm(mirrors, axis=1)[:, None]
     group = _group(p)
     if not distances:
+        # snubs are chiral: reflections would give both forms
         group = group[np.linalg.det(group) > 0]
     point = np.linalg.solve(mirrors, np.array(distances or _snub(p), dtype=np.float64))
     images = group @ point
+    # images of a point on a mirror coincide
     _, first = np.unique(np.round(images, 6) + 0.0, axis=0, return_index=True)
     found: Floats = images[first]
     return found
@@ -526,6 +532,7 @@ def _family_member(n: int, family: str) -> Polyhedron:
     dual = {"bipyramid": "prism", "trapezohedron": "antiprism"}.get(family)
     if dual:
         return _family_member(n, dual).dual(f"{n}-{family}")
+    # circumradius of an n-gon with edge 2, and half a step of rotation
     around, half = 1 / np.sin(np.pi / n), 0.5 * (family == "antiprism")
     # a lateral edge of an antiprism has length 2 and spans half the central angle of a cap's edge
     height = 1.0 if not half else np.sqrt(1 - (around * np.sin(np.pi / (2 * n))) ** 2)

@@ -104,9 +104,11 @@ def from_polyhedron(
     axes = _placed(plan, kinds, meshes, counts, exact)
     order = [at for at in in_order(plan, kinds) if at in kept]
     axes = axes[order]
+    # configurations are immutable
     axes.flags.writeable = False
     place = {at: new for new, at in enumerate(order)}
     meshes = sorted((min(pair), max(pair)) for a, b in meshes if (pair := (place[a], place[b])))
+    # faces with many sides have more contacts than the default limit of parts
     contacts = np.bincount(np.array(plan.meshes).ravel())
     result = Configuration(
         names=tuple(names[at] for at in order),
@@ -175,6 +177,7 @@ def _placed(
         own = [at for at, name in enumerate(kinds) if name == kind]
         touching = [(i, j) for i, j in plan.meshes if kind in (kinds[i], kinds[j])]
         if all(teeth[at] for pair in touching for at in pair):
+            # only the idlers move
             axes = equal_pitch(plan.movement, axes, touching, teeth, own)
     return axes
 
@@ -233,6 +236,7 @@ def _two_per_edge(
 ) -> PolyhedronPlaces:
     """Return the places of vertices, faces, and two gears on each edge, one near each end."""
     middles = _between(vertices[0], base.edges)
+    # one orbit each means that the solid is Platonic
     if any(base.orbits(points).any() for points in (faces[0], vertices[0], middles)):
         raise GearTrainError(
             Problem(
@@ -284,7 +288,9 @@ def kinds_of(layout: PolyhedronPlaces) -> list[str]:
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
     rank = np.argsort(from_the_top(layout.axes))
+    # names must not depend on the order of the vertices
     smallest = min(size, key=lambda orbit: (size[orbit], rank[orbit]))
+    # orbits of equal size are distinguished by their distance from the smallest
     steps = _steps(layout, [at for at, orbit in enumerate(orbits) if orbit == smallest])
     alike = defaultdict(list)
     for orbit in sorted(size, key=lambda orbit: (size[orbit], steps[orbit], rank[orbit])):
@@ -519,6 +525,7 @@ def least_drop(base: Polyhedron) -> int:
     paths: nx.Graph[int] = nx.Graph()
     for at, start in enumerate(odd):
         steps = nx.single_source_shortest_path_length(graph, start)
+        # complete graph of the odd vertices, weighted by distances
         paths.add_weighted_edges_from((start, end, steps[end]) for end in odd[at + 1 :])
     pairs = nx.min_weight_matching(paths)
     return int(sum(paths[a][b]["weight"] for a, b in pairs))

@@ -48,6 +48,7 @@ class SymmetricFreedom:
         The directions are perpendicular to the axis. Shape (0, 1 or 2, 3): none on an axis of rotation, one on a
         mirror, because the symmetries that fix the gear must fix its direction of motion too.
         """
+        # mean over the stabiliser: the projection onto its fixed vectors
         kept = self.matrices[self.images[:, gear] == gear].mean(axis=0) - np.outer(axis, axis)
         values, vectors = np.linalg.eigh((kept + kept.T) / 2)
         # the mean over a group of matrices is a projection: eigenvalues 0 and 1, but for rounding
@@ -69,6 +70,7 @@ def equal_pitch(
     within 1e-13. Raises `GearTrainError` if it finds no solution near the given axes.
     """
     places = _Places(movement, axes, movable)
+    # one equation for each kind of mesh suffices by symmetry
     _, kept = np.unique(movement.mesh_orbits(meshes), return_index=True)
     pairs = np.array(meshes, dtype=np.int64)[kept]
     z = np.array(teeth, dtype=np.float64)[pairs]
@@ -79,6 +81,7 @@ def equal_pitch(
         return missed
 
     start = np.zeros(places.free + 1)
+    # initial common pitch
     start[-1] = wrong(start).mean()
     unknown, left = _newton(wrong, start)
     if left > _SOLVED:
@@ -95,6 +98,7 @@ class _Places:
         first = [int(gear) for gear in np.unique(self.orbits) if int(gear) in movable]
         self.ways = {gear: movement.freedom(gear, axes[gear]) for gear in first}
         self.free = sum(map(len, self.ways.values()))
+        # a symmetry that maps the first gear of an orbit to each other one
         bringing = [int(np.argmax(movement.images[:, head] == gear)) for gear, head in enumerate(self.orbits)]
         self.carry = movement.matrices[bringing]
 

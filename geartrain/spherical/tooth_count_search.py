@@ -101,6 +101,7 @@ def suggest_tooth_counts(
     search = _Search(configuration, kinds, meshes, rules, tolerance, mismatch)
     kept = [search.kept(block) for block in _blocks(ranges)]
     rows = np.concatenate(kept) if kept else np.zeros((0, len(kinds)), dtype=np.int64)
+    # all sets, including those excluded by exact divisibility
     considered = (most - minimum + 1) ** sum(kind not in (fixed or {}) for kind in kinds)
     later = search.tips_removed + search.pitch_removed
     removed = {
@@ -122,6 +123,7 @@ def _ranges(
     ranges = []
     for kind, divisor in zip(kinds, divisors(rules, len(kinds)), strict=True):
         first, last = (fixed[kind], fixed[kind]) if kind in fixed else (max(minimum, 1), most)
+        # only multiples of the divisor can satisfy the exact rules
         ranges.append(np.arange(divisor * ceil(first / divisor), last + 1, divisor, dtype=np.int64))
     count = 1
     for numbers in ranges:
@@ -295,6 +297,7 @@ class _Search:
 
     def room(self, block: Sequence[NDArray[np.int64]]) -> Floats:
         """Return the minimum distance between the pitch circles of gears that do not mesh, for each set [modules]."""
+        # largest operating cone of each kind over its meshes
         outer = [np.zeros(len(block[0])) for _ in self.kinds]
         for a, b, S in self.meshes:
             outer[a] = np.maximum(outer[a], pitch_cone(S, block[a], block[b]))
@@ -376,6 +379,7 @@ def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, .
     for mesh in mesh_kinds(configuration):
         if mesh.a == mesh.b:
             continue
+        # nearest equal neighbours of each gear
         own, other = (nearest.get((kind, kind), pi) for kind in (mesh.a, mesh.b))
         lift = overlap_limit(mesh.angle, own)
         found.append(NeighbourRatioWindow(mesh.a, mesh.b, overlap_limit(mesh.angle, other), 1 / lift if lift else inf))

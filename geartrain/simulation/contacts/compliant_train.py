@@ -118,6 +118,7 @@ class CompliantTrain(TrainModel):
         """Stiffness and damping of each pair of the model, as arrays."""
         stiffness = np.array([each.stiffness for each in self.pair_compliances], dtype=np.float64)
         damping = [
+            # damping from the damping ratio: c = 2 zeta sqrt(k m)
             2 * each.ratio * np.sqrt(each.stiffness * self._inertia(self._row(pair)))
             if each.damping is None
             # declared
@@ -174,6 +175,7 @@ class CompliantTrain(TrainModel):
                 Problem(what, why, "declare the stiffness of a pair or of the train, such as `stiffness: 20 N m/rad`")
             )
         mass, _, stiffness = self.matrices
+        # the mass matrix is positive definite, as checked by `mass`
         squares, modes = eigh(stiffness, mass)
         # rigid-body rotation has frequency 0 except for rounding
         bound = 1e-12 * max(float(squares[-1]), 0.0)
@@ -188,6 +190,7 @@ class CompliantTrain(TrainModel):
         rates = [0.0]
         for pair, c in zip(self.model.pairs, self.yields.damping, strict=True):
             inertia = self._inertia(self._row(pair))
+            # a strongly damped pair decays at the rate c/m
             rates.append(float(c) / inertia / 2 if inertia else 0.0)
         return max(float(np.sqrt(self.vibration[0][-1])), *rates)
 
@@ -285,8 +288,10 @@ class ToothComplianceTable:
         moduli = [_youngs_modulus(each.density or self.train.density) for each in wheels]
         if None in widths or None in moduli:
             return None
+        # the narrower wheel limits the width of contact
         width = min(each.si for each in widths if each is not None)
         one, other = (each for each in moduli if each is not None)
+        # harmonic mean: the compliances of both teeth add
         elastic = 2 * one * other / (one + other)
         note = (
             f"stiffness of {gear.name} estimated: 14 N/(mm um) of face width, ISO 6336-1 for steel, times "

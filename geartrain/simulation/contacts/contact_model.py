@@ -68,6 +68,7 @@ class ContactPair:
 
         Whole periods of its transmission function are subtracted, because large angles cost digits.
         """
+        # large angles lose digits, and the transmission function is periodic
         S, q = (
             start + sum(float(angle[at]) * value for at, value in form.items())
             for start, form in zip(self.start, (self.driver, self.driven), strict=True)
@@ -150,6 +151,7 @@ class ContactModel:
         """Elimination order: a pair whose row has one unknown coordinate determines it; if none does, one coordinate is
         left free.
         """
+        # prescribed coordinates first, because nothing determines them
         order = list(self.given)
         owner = [-1] * len(order)
         left = list(range(len(self.pairs)))
@@ -164,6 +166,7 @@ class ContactModel:
                     order.append(unknown[0])
                     owner.append(m)
                     found = True
+            # no pair has a single unknown: free a coordinate, preferably one that no pair determines
             if not found and left:
                 driven = {each for m in left for each in self.pairs[m].row if self.pairs[m].could_determine(each)}
                 rows = [each for m in left for each in self.pairs[m].row if each not in order]
@@ -183,6 +186,7 @@ class ContactModel:
         free = [pair.row for m, pair in enumerate(self.pairs) if m not in owner]
         forms = [list(each.speed) for each in self.bearings]
         forms += [list(each.angle) for each in self.stops] + [list(each.angle) for each in self.springs]
+        # mass and damping couple coordinates even if no contact touches
         coupled = np.argwhere((self.mass != 0) | (self.viscous != 0)).tolist()
         for group in (*free, *forms, *coupled):
             places = sorted(place[each] for each in group)
@@ -191,6 +195,7 @@ class ContactModel:
         for d, m in enumerate(owner):
             if m >= 0:
                 near[d].update(place[each] for each in self.pairs[m].row if place[each] != d)
+        # symbolic elimination from the last coordinate to the first
         for d in range(len(order) - 1, -1, -1):
             for each in near[d]:
                 near[each].update(other for other in near[d] if other < each)
@@ -217,6 +222,7 @@ class ContactModel:
 
         It follows from the driving torque at the start, without resistance.
         """
+        # generalised torque and inertia of the mean motion, which has one degree of freedom
         torque = float(self.typical @ self.torque)
         for spring in self.springs:
             torque += spring.stiffness * spring.rest * sum(self.typical[at] * c for at, c in spring.angle.items())
@@ -236,6 +242,7 @@ class ContactModel:
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
         """Distinct functions, and for each pair the numbers of its transmission and friction functions."""
+        # functions shared by several pairs are tabulated once, by identity
         known: dict[int, int] = {}
         functions: list[TabledFunction] = []
 
@@ -254,6 +261,7 @@ class ContactModel:
         order, n = self.order, len(self.torque)
         place = {each: at for at, each in enumerate(order.coordinates)}
         mass, viscous = (matrix[np.ix_(order.coordinates, order.coordinates)] for matrix in (self.mass, self.viscous))
+        # implicit in drag and springs, so that stiff ones remain stable
         matrix = mass + step * viscous
         for spring in self.springs:
             c = np.zeros(n)
@@ -315,6 +323,7 @@ class ContactModel:
                 of.append(each)
                 S.append(float(pair.driver.get(back[each], 0.0)))
                 q.append(float(pair.driven.get(back[each], 0.0)))
+                # slot codes of the kernels: -2 without owner, -1 the owner itself
                 if m not in owner:
                     slot.append(-2)
                 elif each == owner[m]:

@@ -91,6 +91,7 @@ class InertialContacts:
     ) -> None:
         self.moving, self.acting, self.rubbing = moving, acting, rubbing or {}
         outputs = {link: (link, moving.frame) for link in moving.system.links}
+        # tables cost a setup but make every further evaluation cheaper
         if tolerance is None and len(moving.circuits) > _MANY:
             tolerance = _TABLES
         self.motion = Motion(moving, outputs, tolerance)
@@ -154,6 +155,7 @@ class InertialContacts:
     # ----------------------------------------------------------------------------------------------------- at positions
 
     def _state(self, turns: Floats) -> _State:
+        # errors of `motion` refer to outputs with offsets, which are removed here
         composition = self.motion.ahead
         found = self.motion.at(turns)
         offsets = np.array(composition.offsets or (0.0,) * len(self.motion.outputs))
@@ -186,6 +188,7 @@ class InertialContacts:
 
     def torques(self, turns: Floats) -> CarriedTorques:
         """Compute the torque terms that each pair must carry at positions of the input [revolutions]."""
+        # batches bound the memory of the dense matrices
         size = max(64, _NUMBERS // (4 * (len(self.pairs) + len(self.moving.system.links)) + 1))
         parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
         return CarriedTorques(*(np.concatenate(each, axis=1) for each in zip(*parts, strict=True)))
@@ -215,10 +218,12 @@ class InertialContacts:
         """Subtract the driving torque of the crank that keeps the input turning, so that it supplies all
         virtual work.
         """
+        # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
         crank = self.moving.system.links.index(self.acting.crank)
         force = requested.copy()
+        # the crank torque follows from zero total virtual power
         force[crank] -= (requested * speed).sum(axis=0) / speed[crank]
         return force
 
@@ -236,6 +241,7 @@ class InertialContacts:
         before, after = self._state(kinks - width), self._state(kinks + width)
         jump = after.speed - before.speed
         scale = np.maximum(1.0, np.abs(after.speed).max(axis=1, initial=0.0))[:, None]
+        # rounding of speeds must not count as an impact
         jump[np.abs(jump) <= _LEAP * scale] = 0.0
         (found,) = self._carried(after, [self._by_link(self.acting.inertia)[:, None] * jump])
         return found
@@ -256,6 +262,7 @@ class ErrorCoupling:
         found = given.copy()
         for block in self.blocks:
             rows = [self.pairs[at] for at in block]
+            # inside a block, rows must not see each other's new values
             known = found.copy() if len(block) > 1 else found
             right = np.stack([given[row] + slope[at] * (self._before(block, at) @ known)
                               for at, row in zip(block, rows, strict=True)])  # fmt: skip
@@ -280,6 +287,7 @@ class ErrorCoupling:
 
     def _solved(self, block: Sequence[int], slope: Floats, right: Floats, transposed: bool) -> Floats:
         own = self.gain[np.ix_(block, [self.pairs[at] for at in block])]
+        # blocks without internal feedback are the usual case and need no linear solve
         if not own.any():
             return right
         matrices = np.eye(len(block)) - slope[list(block)].T[:, :, None] * own
@@ -363,6 +371,7 @@ def loads_with_drive(
 ) -> dict[str, float]:
     """Add the steady driving torque at the crank to the loads, if the crank is not a prescribed input."""
     torque = None if case.drive is None else case.drive.steady_torque
+    # a torque on a prescribed input does no virtual work
     if torque is None or train.crank is None or train.crank in case.inputs:
         return loads
     way = -1 if speeds[train.crank] < 0 else 1
@@ -385,6 +394,7 @@ def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[s
 
     Loads on inputs do no virtual work unless a crank drives, so they are left out.
     """
+    # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}
     loads = {link: torque for link, torque in case.loads.items() if link not in still}
     bearings = ((link, part.bearing) for link, part in train.links.items() if link != train.frame)

@@ -54,6 +54,7 @@ def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: f
     """Compute the moments of a wheel of some module and thickness [m] and density [kg/m3], solid except for its pin
     holes.
     """
+    # moments are signed by the orientation of the contour
     outer, *holes = (contour.moments() for contour in teeth.contours(module / _MILLIMETRES))
     area = abs(outer[0]) - sum(abs(hole[0]) for hole in holes)
     polar = abs(outer[1]) - sum(abs(hole[1]) for hole in holes)
@@ -97,6 +98,7 @@ def find_link_inertias(
     >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in found]
     [('b', 'outlines', 2.2e-05)]
     """
+    # equal planets share the load, and their masses add
     train = train.planets_as_one
     declared, case = train.declaration, train.kinematics.case(state)
     prescribed = {declared.frame, *case.fixed} | (set() if with_inputs else set(case.inputs))
@@ -179,11 +181,13 @@ class _Bodies:
 
         tree = self.train.tree
         for circuit in self.train.circuits:
+            # only a gear pair on this carrier fixes the distance of the planet's axis
             ends = (circuit.i, circuit.j)
             if circuit.kind != "gear" or circuit.carrier != carrier or planet not in ends:
                 continue
             other = ends[1 - ends.index(planet)]
             module = self.modules.get(circuit.wheels[0])
+            # the mate must turn about the carrier's own axis
             if module is None or tree.axis_seen_from(carrier, other) != tree.axis(carrier):
                 continue
             sizes = find_sizes(mesh for mesh in self.train.meshes if mesh.name == circuit.id)
@@ -191,5 +195,6 @@ class _Bodies:
                 return sizes[circuit.id].distance * module
             first, second = (self.declared.wheels[wheel][1] for wheel in circuit.wheels)
             z1, z2 = first.count or 0, second.count or 0
+            # centre distance of standard gears without profile shift
             return module * (abs(z1 - z2) if first.internal or second.internal else z1 + z2) / 2
         return None

@@ -68,6 +68,7 @@ def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANC
     ratio = float(transmission.ratio)
     cuts = folded_kinks(transmission)
     table = fit(transmission.error, transmission.period, cuts, tolerance * (ratio or 1.0) * transmission.period)
+    # both sides of a kink, beyond the rounding of its position
     away = 1e-9 * transmission.period
     jumps = np.abs(transmission.speed(cuts + away) - transmission.speed(cuts - away))
     minimum = np.min(jumps[jumps > _SAME * (ratio or 1.0)], initial=inf)
@@ -120,8 +121,10 @@ def value_and_slope(transmissions: PairTables, which: int, S: float) -> tuple[fl
     if not 0.0 <= u < period:  # rounded up to the period, beyond the resolution of floats, or NaN
         u = 0.0
     cell = int(u * transmissions.cells[which] / period)
+    # rounding of the quotient may reach the number of cells
     cell = min(cell, transmissions.cells[which] - 1)
     piece = transmissions.first[transmissions.start[which] + cell]
+    # a uniform cell may contain several pieces, because kinks cut it
     while u >= transmissions.ends[piece]:
         piece += 1
     x = u - transmissions.middles[piece]

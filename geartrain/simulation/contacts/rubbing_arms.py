@@ -35,6 +35,7 @@ Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
 def tooth_arms(mesh: GearMesh) -> Arms | None:
     """Return the friction terms of the driver's arm of toothed wheels; None if no friction is known."""
     ahead, back = drive_flank_arms(mesh), _flank_arms(mesh, mesh.coast)
+    # the coast flank drives in the opposite sense, so its terms are swapped
     return None if ahead is None or back is None else (ahead[0], ahead[1], back[1], back[0])
 
 
@@ -78,6 +79,7 @@ def _friction_term(
     `way` -1 reverses the sliding. Raises `GearTrainError` if friction locks the teeth.
     """
     sliding, into, out = rubbing
+    # NaN marks tooth pairs that do not touch at this angle
     touching = ~np.isnan(out)
     f = way * np.asarray(coefficient(sliding))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -122,6 +124,7 @@ def pin_arms(transmission: PinTransmission) -> Arms | None:
         return None
 
     def more(S: Floats) -> Floats:
+        # r^2 + e^2 - 2 r e cos S in a form without cancellation
         half = np.sin(S / 2)
         square = (transmission.r - transmission.e) ** 2 + 4 * transmission.r * transmission.e * half**2
         return np.asarray(transmission.r * transmission.friction * transmission.e * np.abs(np.sin(S)) / square)
@@ -145,5 +148,6 @@ def constant_ratio_arms(transmission: TransmissionFunction, forward: float, back
     def constant(value: float) -> TabledFunction:
         return tabled_function(lambda S: np.full(np.shape(S), value), transmission)
 
+    # backwards the driven wheel drives, so losses reduce its torque on the driver
     ahead, back = constant(ratio * (1 / forward - 1)), constant(ratio * (max(backward, 0.0) - 1))
     return ahead, back, back, ahead

@@ -284,6 +284,7 @@ def find_separation_rates(
 ) -> SeparationRates:
     """Compute the rates over the train's period, or over fewer revolutions if a period has too many kinks."""
     period = contacts.motion.period
+    # without a common period one revolution is searched
     whole = 1.0 if period is None else float(period)
     if turns is None:
         kinks = KinkSearch(contacts.motion.ahead).rate
@@ -312,6 +313,7 @@ def find_pair_separations(contacts: InertialContacts, turns: float) -> tuple[Sep
     low, high = ends[:-1], ends[1:]
     wide = high - low > _NARROW * max(1.0, turns)
     low, high = low[wide], high[wide]
+    # Chebyshev nodes: denser at the ends, where the rate is often lowest
     shares = _INSIDE + (1 - 2 * _INSIDE) * (1 - np.cos(np.pi * np.arange(_SAMPLES) / (_SAMPLES - 1))) / 2
     at = low[:, None] + (high - low)[:, None] * shares
     rates = contacts.rates(at.ravel()).reshape(len(contacts.pairs), *at.shape)
@@ -338,6 +340,7 @@ def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Sepa
             if minimum[pair, row] < found[pair].rate:
                 found[pair] = found[pair]._replace(rate=float(minimum[pair, row]), turns=float(place[pair, row]))
         if zoom < _ZOOMS:
+            # the interval between the neighbours of the best sample
             left, right = (np.take_along_axis(at, np.clip(where + step, 0, _SAMPLES - 1), axis=2) for step in (-1, 1))
             at = left + (right - left) * shares
             # each pair at its own positions
@@ -350,6 +353,7 @@ def _jump_separations(contacts: InertialContacts, kinks: Floats, narrowest: floa
     if not len(kinks):
         return {}
     impulses = contacts.impulses(kinks, _INSIDE * max(narrowest, 1e-6))
+    # rounding must not make an impulse negative
     tolerance = 1e-9 * np.abs(impulses).max(axis=1, keepdims=True, initial=0.0)
     found = {}
     for pair, row in enumerate(impulses < -tolerance):

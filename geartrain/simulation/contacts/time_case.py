@@ -87,6 +87,7 @@ def find_time_case(
     turning = rate if rate is not None else _declared_rate(train, case, problem, passed, scale)
     bounces = {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()}
     if escapement is not None:
+        # a stop has only the restitution of the whole train
         own = 0.0 if train.restitution is None else float(train.restitution.value)
         bounces[escapement.link] = own if restitution is None else restitution
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
@@ -162,10 +163,12 @@ def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: Mo
             if len(case.inputs) == 1
             else PowerInput(driving_link, "rate", rate=rate)
         )
+    # a weight, spring or torque acts in the sense in which its link turns
     way = -1.0 if speed < 0 else 1.0
     hand = drive.hand
     inertia = 0.0 if hand is None or hand.inertia is None else hand.inertia.si
     if drive.weight is not None and drive.drum is not None:
+        # a falling weight adds m R^2 to the link of its drum
         inertia = drive.weight.si * drive.drum.si**2
     if drive.steady_torque is not None:
         return PowerInput(link, "torque", torque=way * drive.steady_torque, inertia=inertia)

@@ -192,6 +192,7 @@ class TrainModel:
         for row in self.problem.system.equations:
             if row.label not in free and row.kind != "input":
                 rows.append({symbols.get(self.index[link], self.index[link]): Fraction(c) for link, c in row.terms})
+        # exact rationals: ideal pairs must not add rounding to the constraints
         solved = eliminate(rows)
         if solved.conditions:
             what = f"the prescribed speeds of {', '.join(self.prescribed)} depend on each other"
@@ -199,6 +200,7 @@ class TrainModel:
         pivots = solved.forms()
         columns = [each for each in range(len(self.index)) if each not in pivots and each not in symbols]
         place = {symbol: at for at, symbol in enumerate((*symbols.values(), *columns))}
+        # one row for each link, over the prescribed and the free coordinates
         speeds = np.zeros((len(self.index), len(place)))
         for link in range(len(self.index)):
             own = symbols.get(link, link)
@@ -229,6 +231,7 @@ class TrainModel:
         inertia = np.array([self.case.inertia.get(link, 0.0) for link in self.index])
         inertia[self.index[self.case.drive.link]] += self.case.drive.inertia
         found: Floats = self.speeds.T @ (inertia[:, None] * self.speeds)
+        # the diagonal of M is the inertia that turns with a coordinate
         lacking = [
             name for at, name in enumerate(self.coordinates) if found[at, at] <= 0 and name not in self.prescribed
         ]
@@ -252,6 +255,7 @@ class TrainModel:
         for circuit in self.contacts:
             restitution = self.case.restitution.get(circuit.id, 0.0)
             driver, driven = self._sides(circuit)
+            # a pair with constant ratio has neither a phase nor a second flank
             if circuit.id not in self.sources:
                 transmission = self._even(circuit)
                 front = self._tabled(transmission)
@@ -261,6 +265,7 @@ class TrainModel:
             front, back, arms, first = self._flanks(circuit)
             S = self.sources[circuit.id].phase
             start = S, float(first.angle(S))
+            # with a dwell the driven side cannot drive
             free = first.speed_range()[0] > _FREE * float(first.ratio)
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
@@ -272,6 +277,7 @@ class TrainModel:
             if not clearance:
                 front = self._tabled(transmission)
                 return front, front, pin_arms(transmission), transmission
+            # with clearance the two sides of the slot are two flanks
             before, behind = SlackPin(transmission, clearance, -1), SlackPin(transmission, clearance, 1)
             return self._tabled(before), self._tabled(behind), pin_arms(transmission), before
         mesh = self._meshes[circuit.id]
@@ -303,6 +309,7 @@ class TrainModel:
     def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
         ways = self._gears[circuit.id].efficiency
         passed = float(ways.forward.base), float(ways.backward.base)
+        # efficiencies are declared for the first wheel as driver
         if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
         return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
@@ -318,6 +325,7 @@ class TrainModel:
             if not scale or not sticking:
                 continue
             first = form[np.argmax(np.abs(form) > 1e-12 * scale)]
+            # bearings with proportional forms have one relative speed, so their friction adds up
             scale = float(first)
             key = tuple((at, round(value / scale, 12)) for at, value in _sparse(form).items())
             joined.setdefault(key, []).append((link, abs(scale) * sliding, abs(scale) * sticking))

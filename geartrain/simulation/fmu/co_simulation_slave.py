@@ -56,6 +56,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._units: dict[str, str] = {}
         self.modelName = re.sub(r"\W|^(?=\d)", "_", train.name, flags=re.ASCII)
         self.description = train.declaration.title or None
+        # the identifier depends only on content and version, so that equal units are identical
         self.guid = uuid5(NAMESPACE_URL, sha256("\0".join((version("geartrain"), *text)).encode()).hexdigest())
         self._register()
         part_in_order(folder.parent / "binaries" / "linux64" / f"{self.modelName}.so")
@@ -148,6 +149,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
     def simulation(self) -> Simulation:
         """Simulation of the train; rebuilt if its initial conditions change before the first step."""
         if self._changed:
+            # before the first step new parameters restart the simulation
             if not self._begun:
                 bounces = self._restitution
                 self._simulation = self._simulation.anew(
@@ -182,6 +184,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
     def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
         """Return the model description with units and bounds, and without the generation date."""
         root: Element = super().to_xml(model_options or {})
+        # a date would make identical units differ
         del root.attrib["generationDateAndTime"]
         root.set("generationTool", f"geartrain {version('geartrain')} by {root.get('generationTool')}")
         units = Element("UnitDefinitions")

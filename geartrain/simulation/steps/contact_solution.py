@@ -170,6 +170,7 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
             if turning != 0:
                 b[system.bearing_of[x]] -= step * system.sliding[m] * turning * system.bearing_c[x]
             else:
+                # a stuck bearing is viscous up to its sticking torque at the creep speed
                 stiff = step * system.sticking[m] / creep * system.bearing_c[x]
                 for y in range(system.bearing_at[m], system.bearing_at[m + 1]):
                     A[system.bearing_of[x], system.bearing_of[y]] += stiff * system.bearing_c[y]
@@ -214,6 +215,7 @@ def eliminate_coordinates(system: ContactSystem, state: ContactState, here: Step
             continue
         side = state.touching[m] - 1
         first = system.pair_at[m]  # the determined coordinate is first in its row
+        # the row of speeds uses the ratio, that of forces the lever arm with friction
         lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
         lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
         for x in range(low, high):
@@ -293,6 +295,7 @@ def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
     """Correct the wrong contact states, all or only the one of lowest index (Murty's method); return their number."""
+    # with `single` the first wrong state ends the search, pairs before bearings before stops
     found = correct_pairs(system, state, here, slack, single)
     if len(system.sliding) > 0 and (found == 0 or not single):
         found += correct_bearings(system, state, here, creep, single)
@@ -350,6 +353,7 @@ def correct_bearings(
             elif rate < -creep:
                 want = -1
         elif rate * now < 0.0:
+            # a fast reversal changes the sense at once; with `single` the bearing sticks first
             want = 0 if single or rate * now > -creep else -now
         if want != now:
             state.turning[m] = want

@@ -106,6 +106,7 @@ def simulate(
     samples = (plan.skip + plan.steps) // plan.stride
     record = empty_record(n, len(model.pairs) + len(model.stops), samples, _ROOM)
     teeth = _teeth(model, yields)
+    # counting must start at a sample
     skip = plan.skip - plan.skip % plan.stride
     rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps))
     given = system, model.transmissions, state, here, record, rules
@@ -139,6 +140,7 @@ def simulate(
         marks.append(_mark(record, state))
         if done < end - begin:
             break
+    # energy still stored in teeth is not dissipated
     pressed = _stored(system, model.transmissions, state, yields) - pressed
     record.energy[STEP] -= pressed
     order = np.argsort(model.order.coordinates)
@@ -190,7 +192,9 @@ def check_convergence(state: ContactState, record: RunRecord, step: float) -> No
 def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duration: float) -> StepRules:
     """Return the numerical parameters of a run of some duration [s], with tolerances for the rounding of its speeds."""
     fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
+    # a train at rest has no speed scale
     fastest = fastest or 1.0
+    # rounding of angles grows with time and is divided by the step
     slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + fastest * duration) / plan.step)
     rounds = _ROUNDS + 6 * (len(model.pairs) + len(model.stops) + len(model.bearings))
     return StepRules(plan.step, plan.stride, _CREEP * fastest, slack, rounds)
@@ -212,11 +216,13 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
                 model.transmissions, int(system.tables[m, side]), float(system.start_driver[m])
             )
     for d, m in enumerate(model.order.owner):
+        # speeds that follow from prescribed ones through touching front flanks
         if m >= 0 and model.given:
             row = slice(system.pair_at[m] + 1, system.pair_at[m + 1])
             lead = system.pair_driven[row.start - 1] - ratio[m, 0] * system.pair_driver[row.start - 1]
             others = speed[system.pair_of[row]]
             speed[d] = (ratio[m, 0] * system.pair_driver[row] - system.pair_driven[row]) @ others / lead
+    # a continued run overrides the consistent initial speeds
     if model.start is not None:
         speed = np.array([model.start[each] for each in model.order.coordinates], dtype=np.float64)
     touching = np.full(pairs, FRONT, dtype=np.int64)
@@ -288,6 +294,7 @@ def _midpoint_system(model: ContactModel, system: ContactSystem, step: float, yi
     """Return the arrays for the midpoint rule: no pair determines a coordinate, and each is a compliant row."""
     springs = system.matrix - system.mass - step * system.viscous  # step^2 K
     return system._replace(
+        # the midpoint rule weighs drag by h/2 and springs by h^2/4
         matrix=system.mass + step / 2 * system.viscous + springs / 4,
         owner=np.full(len(model.torque), -1, dtype=np.int64),
         stiff=step**2 / 4 * yields.stiffness + step / 2 * yields.damping,

@@ -111,7 +111,9 @@ def count_contacts(
             continue
         side = now - 1
         sign = 1.0 - 2.0 * side
+        # work against the contact: impulse times mean opening speed
         taken = -here.P[m] * sign * (mean_q - here.ratio[m, side] * mean_S)
+        # friction is the difference between the speed ratio and the lever arm of forces
         rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
         record.energy[FRICTION] += rubbed
         counts[RUBBED] += rubbed
@@ -119,6 +121,7 @@ def count_contacts(
         if now != here.before[m] and here.before[m] != 0:
             counts[CHANGES] += 1.0
         struck = now != here.before[m] or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)
+        # scale of rounding errors of the closing speed
         minimum = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
         if struck and system.two_sided[m] == 0 and here.closing[m, side] > minimum:
             state.struck[m] = 1

@@ -113,15 +113,18 @@ def run_steps(
     while done < steps:
         if idle > 1:
             before[:, :] = record.counts
+        # the previous contact state is the first guess
         rounds = solve_step(system, transmissions, state, here, rules)
         if diverges(here.v, rules.step):
             record.numbers[DIVERGED] = 1
             break
         rests = rounds == 1 and is_at_rest(state.speed, here.v, still)
+        # only a step that changed nothing may be repeated
         times = idle if rests and idle > 1 else 1
         if rounds > rules.rounds:
             record.numbers[UNSOLVED] += 1
         for d in range(len(here.v)):
+            # mean speeds make the work of impulses equal to the change of kinetic energy
             here.middle[d] = (state.speed[d] + here.v[d]) / 2
         if counted:
             record.numbers[PIVOTS] += rounds - 1
@@ -139,6 +142,7 @@ def run_steps(
         for d in range(len(here.v)):
             state.speed[d] = here.v[d]
             state.angle[d] += rules.step * here.v[d]
+        # time is counted in steps, so that rounding does not accumulate
         state.clock[1] += times
         state.clock[0] = state.clock[1] * rules.step
         done += times
@@ -234,6 +238,7 @@ def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, 
             here.load[d] += system.mass[d, o] * state.speed[o]
             here.load[o] += system.mass[o, d] * state.speed[d]
     for m in range(len(system.spring_stiffness)):
+        # implicit Euler: the rest angle at the end of the step
         pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + step)
         for x in range(system.spring_at[m], system.spring_at[m + 1]):
             pull -= system.spring_c[x] * state.angle[system.spring_of[x]]
@@ -260,6 +265,7 @@ def find_bounds(
             q += system.pair_driven[x] * state.angle[o]
             dS += system.pair_driver[x] * state.speed[o]
             dq += system.pair_driven[x] * state.speed[o]
+            # the driver's angle at the end of the step, extrapolated
             on += system.pair_driver[x] * here.ahead[o]
         at = S + step * on
         way = 0 if dS >= 0 else 1

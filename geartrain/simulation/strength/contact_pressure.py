@@ -125,6 +125,7 @@ class ContactLoad:
     def tooth_pairs(self, X: float) -> list[float]:
         """Return the displacements of all tooth pairs in contact while one touches at X."""
         p, (approach, recess) = self.path.pitch.p, self.path.arcs
+        # rounding must not lose a pair at the ends of the path
         slack = 1e-9 * p
         first, last = ceil((-approach - X - slack) / p), floor((recess - X + slack) / p)
         return [X + k * p for k in range(first, last + 1)] or [X]
@@ -136,6 +137,7 @@ class ContactLoad:
         cosines, counts = [], []
         for each in X.tolist():
             found = self.path.at(np.clip(self.tooth_pairs(each), -self.path.arcs[0], self.path.arcs[1])).cos_psi
+            # equal forces: the torque divides by the sum of the cosines of all pairs in contact
             cosines.append(float(found.sum()))
             counts.append(len(found))
         return self.tangential / np.array(cosines), np.array(counts)
@@ -153,6 +155,7 @@ class ContactLoad:
         """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         low, high = recess - p, p - approach
+        # with a contact ratio below 1 one pair carries the load all the time
         return (low, high) if low <= high else (-approach, recess)
 
     @property
@@ -164,6 +167,7 @@ class ContactLoad:
     def single_pressure(self) -> float:
         """Return the maximum pressure [MPa] while one tooth pair carries the whole load, as in ISO 6336-2."""
         low, high = self.single()
+        # inside the interval, because the load jumps at its ends
         nudge = min(1e-7 * self.path.pitch.p, (high - low) / 4)
         return float(self.pressures(np.linspace(low + nudge, high - nudge, _POSITIONS))[0].max())
 
@@ -182,6 +186,7 @@ class ContactLoad:
         # load sharing jumps between two positions: the named positions are evaluated on the side of the higher load
         X = np.concatenate((X, [each for name, each in named.items() if name != "pitch point"]))
         pressure, force, counts = self.pressures(X)
+        # infinite pressure at a cusp is reported by name, not as the worst position
         worst = int(np.argmax(np.where(np.isfinite(pressure), pressure, -1.0)))
         found = [self._place(name, each) for name, each in sorted(named.items(), key=lambda each: each[1])]
         far = "worst" if not self.has_cusp else f"worst, excluding {_CUSP:g} pitch about the pitch point"
@@ -205,6 +210,7 @@ def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
 
     contact_ratio   transverse contact ratio; `overlap`, overlap ratio
     """
+    # fractional parts of both ratios: whole pitches do not change the minimum
     first, second = contact_ratio - floor(contact_ratio), overlap - floor(overlap)
     if not overlap:
         return float(floor(contact_ratio))
@@ -284,6 +290,7 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
         K, E = ellipkm1(k2), ellipe(1 - k2)
         return float(np.log((E / k2 - K) / (K - E)) - np.log(wanted))
 
+    # equal curvatures: the ellipse is a circle, where the equation of its axes is singular
     if apart <= 1e-9 * total:
         k = 1.0
     elif ratio(-34.0) < 0:
@@ -294,7 +301,9 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
             )
         )
     else:
+        # in logarithms, because long ellipses have axis ratios down to 1e-15
         k = float(np.exp(brentq(ratio, -34.0, -1e-7)))
+    # contact modulus E* from ZE
     modulus = pi * factor**2
     pressure = ((total * modulus / float(ellipe(1 - k**2))) ** 2 * 3 * force * k / (2 * pi)) ** (1 / 3)
     longer = sqrt(3 * force / (2 * pi * pressure * k))
@@ -393,6 +402,7 @@ class CrossedWheels:
         """Return the ellipse of maximum pressure among all positions with the fewest tooth pairs in contact."""
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
+        # the ends of the path are excluded: a pair carries no load there
         fewest = min(self.tooth_pairs(place) for place in places)
         found = [self.ellipse(place, force, factor) for place in places if self.tooth_pairs(place) == fewest]
         return max(found)
@@ -406,6 +416,7 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
 
     The energy through the pair times this is the integral of force over sliding distance. None for teeth that lock.
     """
+    # the limit at friction 0, evaluated at a small coefficient
     wheels = replace(mesh.wheels, friction=_SLIGHT, friction_law=None)
     path = mesh.path
     angle = None if path is None or not path.pitch.bevel else path.pitch.R1 + path.pitch.R2
@@ -424,6 +435,7 @@ def deepest_passage(load: ContactLoad, gear: int) -> float:
     force, _ = load.forces(X)
     found = load.path.at(X)
     own = found.U1 if gear == 1 else found.U2
+    # a point at rest relative to its flank has no sliding path
     with np.errstate(divide="ignore", invalid="ignore"):
         passed = force / load.width * np.abs(found.U1 - found.U2) / np.abs(own)
     return float(passed[np.isfinite(passed)].max(initial=0.0))

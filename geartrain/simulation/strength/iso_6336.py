@@ -169,6 +169,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
     far = [sqrt((each.tip / (each.z / 2 * cos(a))) ** 2 - 1) for each in (pair.first, pair.second)]
     M1 = tan(aw) / sqrt((far[0] - 2 * pi / z1) * (far[1] - (eps - 1) * 2 * pi / z2))
     M2 = tan(aw) / sqrt((far[1] - 2 * pi / z2) * (far[0] - (eps - 1) * 2 * pi / z1))
+    # the gear ratio of the standard
     u = z2 / z1
     nominal = ZH * elasticity * Zeps * Zbeta * sqrt(tangential * (u + 1) / (module * z1 * width * u))
     stress = pair.lean.single(M1) * nominal, pair.lean.single(M2) * nominal
@@ -191,12 +192,14 @@ def root_stress(
     load_radius   radius of the point of application [module]
     """
     z, rho, hf = wheel.z, wheel.corner, wheel.dedendum
+    # auxiliary values E, G, H and theta of the standard
     E = pi / 4 - hf * tan(angle) - (1 - sin(angle)) * rho / cos(angle)
     G = rho - hf + wheel.shift
     H = 2 / z * (pi / 2 - E) - pi / 3
     th = _tangent(2 * G / z, H)
     chord = z * sin(pi / 3 - th) + sqrt(3) * (G / cos(th) - rho)
     radius = rho + 2 * G**2 / (cos(th) * (z * cos(th) ** 2 - 2 * G))
+    # pressure angle at the point of load, and its direction at the tooth axis
     ae = acos(z / 2 * cos(angle) / load_radius)
     gamma = (pi / 2 + 2 * wheel.shift * tan(angle)) / z + _inv(angle) - _inv(ae)
     aF = ae - gamma
@@ -223,6 +226,7 @@ def helical_root_stress(
     contact_ratio = pair.contact_ratio / cos(lean.base) ** 2
     if contact_ratio >= 2:
         return None
+    # virtual number of teeth in the normal section
     z = wheel.z / (cos(lean.base) ** 2 * cos(lean.helix))
     stands_in = replace(wheel, z=z, tip=z / 2 + wheel.tip)
     radius = outer_single_contact(stands_in, angle, contact_ratio)
@@ -297,6 +301,7 @@ class ToothSide:
         upper = points[points[:, 1] >= -1e-12]
         # along a tip or a root circle the azimuth increases
         radius, azimuth = np.hypot(*upper.T), np.arctan2(upper[:, 1], upper[:, 0])
+        # points ordered from the tip to the root, also along circular arcs
         order = np.lexsort((azimuth, -np.round(radius, 9) * outward))
         return cls(upper[order], outward)
 
@@ -324,6 +329,7 @@ class ToothSide:
         """Return a force at some radius whose line of action passes the wheel's axis at a distance `arm`:
         docs/strength.md (4).
         """
+        # rounding may put the point of load inside the base circle
         pressure = acos(min(arm / radius, 1.0))
         angle = pressure - self.outward * self.half(radius)
         return ToothLoad(radius, arm / cos(angle), angle)
@@ -360,8 +366,10 @@ class ToothSide:
         x, y = self.points.T
         steps = np.hypot(np.diff(x), np.diff(y))
         s = np.concatenate(([0.0], np.cumsum(steps)))
+        # sections between the points of the outline, which are sparse on straight flanks
         fine = np.union1d(s, np.linspace(0, s[-1], max(int(s[-1] / _STEP), 2)))
         x, y = np.interp(fine, s, x), np.interp(fine, s, y)
+        # a section at the point of a tooth has no thickness
         keep = y > 1e-9
         return x[keep], y[keep]
 

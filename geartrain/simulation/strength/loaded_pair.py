@@ -139,6 +139,7 @@ class PairUnderLoad:
     def tangential(self) -> float:
         """Force along the pitch line [N], the larger of both wheels, because friction reduces the other."""
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
+        # friction reduces the torque on one wheel, so the larger force is used for both
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
 
     @property
@@ -152,6 +153,7 @@ class PairUnderLoad:
         path = self.path
         if path is None:
             return None
+        # torque on gear 1 that gives this force, also for bevels
         torque = self.tangential * path.pitch.R1 * self.module
         if self.lean.helix:
             lean = self.lean.base, self.lean.overlap
@@ -164,6 +166,7 @@ class PairUnderLoad:
         helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
         if not helix or not isinstance(form, Involute):
             return HelixData()
+        # the declared module is transverse
         normal = self.module * cos(helix)
         return HelixData(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
 
@@ -194,6 +197,7 @@ class PairUnderLoad:
     def _wheel(self, at: int, roots: tuple[IsoRoot | None, IsoRoot | None] | None) -> WheelStrength:
         own = self.wheels[at]
         torque = self.tangential * self._radius(at)
+        # at a cusp the pressure is infinite, so a safety factor does not exist
         bounded = self.load is not None and not self.load.has_cusp
         pressure = self.load.single_pressure() if bounded and self.load is not None else None
         strength = own.material.strength
@@ -264,6 +268,7 @@ class PairUnderLoad:
 
     def _stress_at(self, own: WheelUnderLoad, load: ContactLoad, X: float) -> float:
         place = np.array([X])
+        # one position of contact at a time
         force = float(load.forces(place)[0][0])
         (radius,), _ = load.path.pitch.polar(own.gear, load.path.flank(own.gear, place))
         arm = abs(load.path.pitch.axle_of(own.gear)) * float(load.path.at(place).cos_psi[0])
@@ -322,8 +327,10 @@ class PairUnderLoad:
         loss = loss_over_friction(self.mesh)
         if loss is None:
             return None
+        # wear follows from the mean torque
         slid = abs(own.torque) / self.swing * 2 * pi * own.turns * loss * _MM  # N mm
         per = slid / (hardness / _MPA)  # mm3 for K = 1
+        # total area of the worn flanks, one flank of each tooth
         flank = self.mesh.wheels.counts[at] * self.width * abs(own.teeth.tip - own.teeth.root) * self.module
         deep = None
         if self.load is not None and not self.lean.helix:

@@ -54,6 +54,7 @@ class PinnedDisc:
         circle, offset, pin = (
             float(millimetres(each)) for each in (coupling.pin_radius, coupling.offset, coupling.pin_diameter)
         )
+        # the pin with the largest share at the worst phase
         force = hole_share(coupling.pins) * abs(self.torque) * _MM / circle
         bent = held_pin_stress(force, self.width, pin)
         return self._contact(coupling.name, coupling.pins, force, 2 / pin - 2 / (pin + 2 * offset), bent)
@@ -63,6 +64,7 @@ class PinnedDisc:
     ) -> PinContact:
         (own, material), (_, of_pins) = self.materials
         strength = [None if each.strength is None else each.strength.si / _MPA for each in (material, of_pins)]
+        # yielding begins in the weaker material, because both have the same pressure
         weaker = min((each for each in strength if each is not None), default=None)
         pressure = hertz_pressure(self.factor, force, self.width, curvature)
         return PinContact(
@@ -89,6 +91,7 @@ def lobe_load(disc: CycloidalDisc) -> PinLoad:
     (0.326, 1.821)
     """
     phase = np.linspace(0, 2 * pi / disc.pins, _PHASES, endpoint=False)
+    # pressure depends on the product of force and curvature
     force, curvature = disc.loads(phase), 1 / disc.pin + disc.curvature(disc.angles(phase))
     at = np.unravel_index(int((force * curvature).argmax()), force.shape)
     return PinLoad(float(force[at]), float(curvature[at]))

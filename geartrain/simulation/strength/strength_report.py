@@ -154,6 +154,7 @@ def strength_sections(found: TrainStrength) -> Iterator[Section]:
         yield Section(_title(head, "Contact at a point"), (_POINT, *notes), tuple(_points([*found.points.values()])))
     if found.pins:
         yield Section(_title(head, "Pins"), (_PINS,), (_pins([*found.pins.values()]),))
+    # pairs without a path of contact have no pressures
     contacts = [_contact(pair) for pair in pairs if pair.contact]
     if contacts:
         yield Section(_title(head, "Contact pressure"), (_CONTACT,), tuple(contacts))
@@ -278,6 +279,7 @@ def _strength(strength: float | None, spread: float | None) -> str:
 
 
 def _iso(pairs: Sequence[PairStrength]) -> Iterator[Table]:
+    # the standard covers external involutes only
     covered = [pair for pair in pairs if pair.iso is not None]
     rows = []
     for pair in covered:

@@ -105,6 +105,7 @@ class TrainStrength(FrozenFields, Tabular, Result):
     @property
     def weakest(self) -> WeakestPart | None:
         """Part with the minimum safety; None if no strength is known."""
+        # parts without a known strength have no safety factor and are skipped
         found = [
             WeakestPart(wheel.wheel, what, safety)
             for pair in self.pairs.values()

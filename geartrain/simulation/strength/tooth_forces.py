@@ -52,11 +52,13 @@ class ToothForces:
             if circuit.kind != "gear":
                 continue
             torque = self.pairs[circuit.id]
+            # an undetermined torque has no force
             if torque.multiplier and not torque.loose and all(wheel in self.modules for wheel in circuit.wheels):
                 yield from self._of_pair(circuit, torque)
 
     def _of_pair(self, circuit: Circuit, torque: PairTorque) -> Iterator[WheelForce]:
         wheels = [self.setting.train.wheels[name][1] for name in circuit.wheels]
+        # the pitch point of a contrate wheel varies along its face
         if any(wheel.kind == "contrate" for wheel in wheels):
             return
         loads = [float(each) * _MM * self.swings.get(circuit.id, 1.0) for each in torque.torques[:2]]
@@ -143,6 +145,7 @@ class ToothForces:
 
     def _parallel(self, circuit: Circuit, at: int, push: float) -> WheelParts:
         wheel, mesh = self._wheel(circuit, at), self.meshes.get(circuit.id)
+        # a ring is pushed outwards
         outwards = -1 if wheel.internal else 1
         if mesh is None:
             force = helical_force(push, wheel.helix, self._angle(circuit))
@@ -158,6 +161,7 @@ class ToothForces:
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
         sliding = 0.0 if friction is None or friction.sliding is None else friction.sliding
+        # friction opposes sliding, whose sense depends on both helix angles
         sense = (1 if tan(helix[0]) + tan(helix[1]) >= 0 else -1) * (-1 if drives else 1)
         return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
@@ -165,6 +169,7 @@ class ToothForces:
         """Return the middle of the teeth of a bevel, or its outer pitch circle if the width is not known."""
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
         widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
+        # angles of the pitch cones depend only on the tooth numbers and the shaft angle
         cones = PitchSurfaces.cones(own.count or 1, mate.count or 1, crossing)
         return ConeMiddle(cones, _MM * self.modules[circuit.wheels[at]], min(widths, default=0.0))
 

@@ -70,6 +70,7 @@ def solve_strength(
     cycle = solve_over_turns(train, state, over)
     if not cycle.parts:
         return TrainStrength(found.state, cycle.verdict)
+    # wear still uses the mean torques of the first solution
     maximum = {name: part.maximum for name, part in cycle.parts.items()}
     return replace(question, over=over, maximum=maximum).answer()
 
@@ -121,6 +122,7 @@ class Service:
             return turns / speed
         case, unit = train.kinematics.case(state), declared.unit_speed
         assert years is not None
+        # a declared rate takes precedence over the unit of speeds
         if case.rate is not None and case.rate.unit is not None:
             return years * _YEAR * float(case.rate.base) / speed
         if unit is None:
@@ -192,6 +194,7 @@ class StrengthQuestion:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
             if pair is None or maximum is None or circuit.kind != "gear" or pair.driver not in circuit.wheels:
                 continue
+            # both refer to the torque on the driven wheel
             mean = abs(float(pair.torques[1 - circuit.wheels.index(pair.driver)]))
             found[circuit.id] = max(maximum / mean, 1.0) if mean else 1.0
         return found
@@ -206,6 +209,7 @@ class StrengthQuestion:
         pins = dict(self._pins(meshes))
         for gear in self.declared.gears:
             mesh = meshes.get(gear.name)
+            # discs and crossed wheels are treated separately
             if gear.name in self.left_out or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
                 continue
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
@@ -337,6 +341,7 @@ class StrengthQuestion:
             for at, ((name, wheel), cut) in enumerate(zip(wheels.items(), teeth, strict=True))
             if cut is not None
         ]
+        # bevels are calculated at mid-width
         middle = module if spurs is None else module * spurs.middle.shrunk
         swing = self.swings.get(gear.name, 1.0)
         notes = tuple(
@@ -359,6 +364,7 @@ class StrengthQuestion:
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
         """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates."""
+        # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
 
@@ -417,6 +423,7 @@ class StrengthQuestion:
 
     def _arbors(self, forces: Sequence[WheelForce], pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
         """Yield the strength of arbors with known forces."""
+        # the normal force in single contact exceeds the mean force only for spur teeth
         straight = {each.pair for each in forces if not each.axial}
         steepest = {
             name: max((each.force for each in pair.contact if each.tooth_pairs == 1), default=0.0)
@@ -474,6 +481,7 @@ class ArborLoad:
         axial = [each.axial for each in own]
         return cls(
             sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in own),
+            # the arbor carries the larger sum of axial forces, its shoulders the resultant
             max(sum(part for part in axial if part > 0), -sum(part for part in axial if part < 0)),
             abs(sum(axial)),
             sum(abs(each.axial) * each.radius for each in own),
@@ -487,8 +495,10 @@ def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: Arbor
     """
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
+    # a pivot without a declared length is as long as its diameter
     length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
     bending = bending_stress(maximum_moment(load.across, load.couple, span), diameter)
+    # axial stress adds to the bending stress
     bending += 4 * load.along / (pi * diameter**2)
     torsion = torsional_stress(load.torque, diameter)
     strength = None if material.strength is None else material.strength.si / 1e6
@@ -525,6 +535,7 @@ def maximum_moment(force: float, couple: float, span: float) -> float:
     >>> maximum_moment(10.0, 0.0, 40.0), maximum_moment(0.0, 50.0, 40.0)
     (100.0, 50.0)
     """
+    # the maximum is then at a bearing, otherwise between them
     if couple >= force * span:
         return couple
     return (force * span + couple) ** 2 / (4 * force * span)

@@ -97,6 +97,7 @@ class VirtualSpurs:
         """Reason why the virtual pair does not exist; "" if it exists."""
         if self.middle.shrunk <= 1 / 2:
             return "the width of its teeth exceeds the cone distance"
+        # the virtual number of teeth goes to infinity for a crown wheel
         if min(cos(self.middle.cone(gear)) for gear in (1, 2)) < _FLATTEST:
             return "the cone of one wheel is flat or internal, so its virtual spur wheel does not exist"
         return ""
@@ -151,6 +152,7 @@ class NormalSpurs:
         if self._pair is None:
             return None
         form, module = self.form, self.crossed.module
+        # bottom clearance of the form, or the default one
         free = form.bottom_clearance(WheelPair(self._pair.path.pitch.z1, self._pair.path.pitch.z2), at + 1)
         clearance = CLEARANCE if free is None else max(free, 0.0)
         try:
@@ -158,9 +160,11 @@ class NormalSpurs:
         except GearTrainError:
             return None
         side = ToothSide.of(tooth.tooth)
+        # base radius of the virtual wheel in modules
         arm = self.crossed.normal_count(at) / 2 * cos(self.crossed.pressure_angle)
         load = side.load_at(tooth.tip, arm)
         section = side.weakest_section(load)
+        # the load spreads at 45 degrees to both sides of the point of contact
         width = min(self.crossed.tooth_length(at), _SPREAD * (load.apex - section.x) * module)
         return section.stress(force * arm * module, width, module)
 
@@ -204,6 +208,7 @@ class SkewPair:
         bent = self._spurs.root_stress(at, normal)
         if strength is None:
             return FlankStrength(wheel, name, None, None, None, bent)
+        # yield stress of the material
         bears = strength.si / _MPA
         return FlankStrength(wheel, name, bears, float(material.spread.value), YIELD_AT_POINT * bears / pressure, bent)
 

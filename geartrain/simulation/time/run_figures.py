@@ -95,6 +95,7 @@ class RunFigures:
     @cached_property
     def turned(self) -> Floats:
         """Angles of all links since the start [rad]. Shape (links, samples)."""
+        # angles of links are the same linear forms of the coordinates as speeds
         found: Floats = self.of.speeds @ self.run.angles.T
         return found
 
@@ -163,6 +164,7 @@ class RunFigures:
         """Torque at the power input [N m], positive in the sense of rotation of its link."""
         source = self.of.case.drive
         way = -1.0 if self.of.typical(source.link) < 0 else 1.0
+        # a prescribed speed needs the constraint torque of the run
         if source.kind == "rate":
             return np.asarray(way * self.run.drive[:, self.of.coordinates.index(source.link)])
         if source.kind == "torque":
@@ -177,6 +179,7 @@ class RunFigures:
         if source.kind == "torque":
             return float(abs(source.torque))
         angle = abs(float(self.of.speeds[self.of.index[source.link]] @ self.run.turned))
+        # other prescribed links do work, too
         work = energy.drive - self._other_work if source.kind == "rate" else energy.springs
         return float(work / angle) if angle else 0.0
 
@@ -188,6 +191,7 @@ class RunFigures:
         others = {
             link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
         }
+        # samples inside the counted part
         begin, end = (self.plan.step * each for each in (self.plan.skip, self.plan.skip + self.plan.steps))
         counted = self.run.drive[(self.time > begin) & (self.time < end + self.plan.step / 2)]
         if not others or not len(counted):
@@ -202,6 +206,7 @@ class RunFigures:
         """Angle by which each output is ahead of the motion in which all drive flanks touch [rad]."""
         motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
         names = list(motion.outputs)
+        # the last entry is the error at the start, which is subtracted
         at = motion.at(np.append(turns, 0.0)).error if motion.ahead.used else np.zeros((len(names), len(turns) + 1))
         found = {}
         for name, link, base in self.outputs:
@@ -212,6 +217,7 @@ class RunFigures:
                 touching = mean + at[row, :-1] - at[row, -1]
                 parts.append(self.turned[self.of.index[each]] - forwards * touching)
             sense = self.of.sense(link, base)
+            # positive in the output's own sense of rotation
             way = -1.0 if self.of.typical(link) - sense * self.of.typical(base) < 0 else 1.0
             found[name] = way * (parts[0] - sense * parts[1])
         return found
@@ -310,6 +316,7 @@ class RunFigures:
 
     def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
         """Yield every figure together with its value at the longer time step."""
+        # a contact may have impacts in only one of the runs
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
         rows += [(coarse_extremes.get(each[0], (*each[:2], 0.0, each[3])), each, None) for each in self.extremes()]
@@ -331,6 +338,7 @@ class RunFigures:
     def _peaks(self, name: str) -> Iterator[SpectrumPeak]:
         angle = self.angle_of(name)
         cycles = {source.id: float(source.cycles) for source in self.of.sources.values()}
+        # time of one revolution of the driving link
         turn = tau / abs(self.of.case.rate)
         cycles |= {f"beat of {link}": turn / beat for link, (_, beat) in self.of.case.escapements.items()}
         return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
@@ -338,6 +346,7 @@ class RunFigures:
 
 def _converged(one: _Figure, other: _Figure, interval: float | None) -> bool:
     _, unit, value, kind = one
+    # fractions of time have an absolute tolerance
     share = _AGREE[kind] * max(abs(value), abs(other[2])) if unit else _SHARE
     near = max(share, _ANGLE if unit == "rad" else 0.0)
     return bool(max(abs(value - other[2]), interval or 0.0) <= near)
@@ -373,6 +382,7 @@ def batch_half_width(means: Floats) -> float | None:
     squares = float(off @ off)
     if not squares:
         return 0.0
+    # 1/n corrects the bias of the estimated correlation
     lag = min(max(float(off[1:] @ off[:-1]) / squares + 1 / n, 0.0), _CORRELATED)
     wide = float(stdtrit(n - 1, (1 + _CONFIDENCE) / 2)) * sqrt(squares / (n - 1) / n)
     return wide * sqrt((1 + lag) / (1 - lag))
@@ -412,8 +422,10 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
     """
     if len(time) < 16:
         return np.zeros(0), np.zeros(0)
+    # a linear fit removes the mean motion, whose leakage would hide the lines
     swing = angle - np.polyval(np.polyfit(time - time[0], angle, 1), time - time[0])
     window = np.hanning(len(swing))
+    # amplitude: both halves of the spectrum, over the gain of the window
     size = np.abs(np.fft.rfft(swing * window)) * 2 / window.sum()
     return np.arange(len(size)) / (len(swing) * (time[1] - time[0])), size
 

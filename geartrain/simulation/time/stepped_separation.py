@@ -104,6 +104,7 @@ class SeparationSearch:
 
         The rates are extrapolated from two runs, at `share` of the model's rate and slightly below.
         """
+        # two rates determine D and A of the quadratic
         low = 0.9 * share
         slow, quick = self.run(low, plan), self.run(share, plan)
         found = []
@@ -114,6 +115,7 @@ class SeparationSearch:
         found.sort()
         places = []
         for rate, m, at in found[:most]:
+            # samples are before the position, so that the refined run includes it
             before = max(at - max(1, -(-_BEFORE // plan.stride)), 0)
             turns = plan.step * plan.stride * (at + 1) / self.turn
             places.append(SeparationPosition(m, quick.angles[before], quick.speeds[before] / share, turns, share, rate))
@@ -129,6 +131,7 @@ class SeparationSearch:
         low, high = 0.0, inf
         guess = min(place.parts, 4 * place.holds)
         run, at = None, 0
+        # two rates below the guess, at which the pair still touches
         tries = iter((0.9 * guess, 0.98 * guess))
         for _ in range(_PLACE_TRIES):
             share = next(tries, None) or _next(known, low, high)
@@ -163,6 +166,7 @@ def _next(known: Sequence[tuple[float, float]], low: float, high: float) -> floa
     if len(known) > 1:
         (one, first), (other, second) = sorted(known)[-2:]
         found = float(_vanishing(np.array([first]), one, np.array([second]), other)[0])
+        # slightly to both sides of the extrapolated root, to bracket it
         for near in (found * (1 - _SURE / 3), found * (1 + _SURE / 3)):
             if low < near < high and near < 4 * low:
                 return near
@@ -175,12 +179,14 @@ def _vanishing(first: Floats, slow: float, second: Floats, quick: float) -> Floa
     """Return the rate at which a torque D + A w^2 vanishes, from two values; infinite if it never does."""
     fall = first - second
     with np.errstate(divide="ignore", invalid="ignore"):
+        # root of D + A w^2 from its values at two rates
         square = (first * quick**2 - second * slow**2) / fall
     return np.where((fall > 0) & (square > 0), np.sqrt(np.maximum(square, 0.0)), inf)
 
 
 def _minimum(forces: Floats) -> tuple[float, int]:
     """Return the minimum torque that a pair carries during consecutive steps, and the middle step."""
+    # a separation lasts several steps, so the maximum over consecutive steps must vanish
     spans = np.lib.stride_tricks.sliding_window_view(forces, FLIGHT).max(axis=1)[_SETTLE:]
     at = int(spans.argmin())
     return float(spans[at]), at + _SETTLE + FLIGHT // 2
@@ -245,6 +251,7 @@ def find_stepped_separation(
     plan = plan._replace(stride=max(FLIGHT, -(-plan.steps // _MOST)), skip=0)
     whole = 2 * plan.steps + _RUNS * sum(_KEPT) * STEPS
     search = SeparationSearch(study.of.model, 1 / predicted, study.is_fast, lambda steps: on_done(steps / whole))
+    # a flight between two samples must contain a whole sample
     flight = (2 * plan.stride - 1) / study.per_turn
     none = (None,) * 6
     known = SteppedSeparation(study.of.problem.driving_link, study.turns, predicted, *none, flight)
@@ -274,6 +281,7 @@ def _search_error(predicted: float | None) -> QuestionError:
 
 def _candidates(search: SeparationSearch, plan: StepPlan) -> tuple[float, Sequence[SeparationPosition]]:
     """Return a fraction of the rate without separation at the long time step, and the positions to refine."""
+    # below the prediction, because the stepped rate may be lower
     share = _BELOW
     for _ in range(_TRIES):
         places = search.candidates(plan, share, _KEPT[0])
@@ -285,6 +293,7 @@ def _candidates(search: SeparationSearch, plan: StepPlan) -> tuple[float, Sequen
 
 def _is_noise(levels: Sequence[float]) -> bool:
     """Return whether rates with ever shorter time steps no longer converge, because rounding grows."""
+    # the convergence needs three changes
     if len(levels) < 4:
         return False
     before, last = (abs(one - other) for one, other in zip(levels[-3:], levels[-2:], strict=False))
@@ -301,6 +310,7 @@ def _refined(
 
     before   minimum rate of separation with the longer time step, over the predicted one
     """
+    # Richardson's estimate for a first-order error
     error = abs(before - place.parts) / (FINER - 1)
     return replace(
         known,

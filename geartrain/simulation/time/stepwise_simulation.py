@@ -212,6 +212,7 @@ class Simulation:
         before, self.drive = self.drive, value
         if self.drive_kind == "hand":
             self._system.spring_rate[0] = value
+            # the rest angle of the hand must be continuous in time
             self._system.spring_rest[0] += (before - value) * self._state.clock[0]
         elif self.drive_kind == "torque":
             self._set_torques()
@@ -262,6 +263,7 @@ class Simulation:
                 Problem(f"cannot advance by {seconds:g} s", "time must not decrease", "give a duration of 0 or more")
             )
         self.time += seconds
+        # the number of steps depends only on the time, not on the calls
         steps = floor(self.time / self.step + _EARLY) - int(self._state.clock[1])
         if steps <= 0:
             return
@@ -292,6 +294,7 @@ class Simulation:
     def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
         """Advance some steps; one sample that is never complete accumulates all impulses."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
+        # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)
         self._run(self._system, self._model.transmissions, self._state, self._room, record, rules, steps, True)
         check_convergence(self._state, record, self.step)
@@ -310,5 +313,6 @@ class Simulation:
             self.torque = way * self.drive
         else:
             case, rate = self._of.case.drive, float(self._system.spring_rate[0])
+            # rest angle of the spring at the present time
             rest = float(self._system.spring_rest[0]) + rate * float(self._state.clock[0])
             self.torque = way * case.stiffness * (rest - self.angle)

@@ -133,6 +133,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
                 for peak in peaks
             ]
             header = (f"per turn of {run.driving_link}", "Hz", "amplitude (deg)", "pair and harmonic")
+            # a Hann window resolves two bins
             apart = figure(2 * tau / (abs(run.rate) * run.duration), 2)
             text = (
                 "The strongest lines of its angle about the mean motion, under a Hann window, which resolves orders "
@@ -163,6 +164,7 @@ def _summary(run: TimeRun) -> Iterator[str]:
         "hand": f"a compliant hand drives '{run.link}'",
     }
     state = "" if run.state is None else f", in state {run.state}"
+    # rounding of the duration must not show
     turns = round(abs(run.rate) * run.duration / tau, 6)
     if run.driven == "torque" and not turns:
         yield f"'{run.driving_link}' DOES NOT MOVE: the drive at '{run.link}' does not overcome the resistance."
@@ -238,6 +240,7 @@ def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
 
 
 def _outputs(run: TimeRun) -> Section:
+    # only a prescribed speed has its power in `drive`
     power = (run.energy.drive if run.driven == "rate" else run.energy.put_in) / run.duration
     word = "power returned" if power < 0 else "input power"
     text = [
@@ -260,6 +263,7 @@ def _angle(angle: float) -> str:
 
 def _energy(run: TimeRun) -> Section:
     energy = run.energy
+    # percentages refer to the total input
     whole = sum(max(each, 0.0) for each in (energy.drive, energy.loads, energy.springs))
     amounts = {
         "input by the drive": energy.drive,
@@ -278,6 +282,7 @@ def _energy(run: TimeRun) -> Section:
         for name, value in amounts.items()
         if abs(value) > 1e-12 * whole
     ]
+    # a balance cannot be better than rounding
     closure = max(energy.closure, 1e-15)
     if not rows:
         return Section(
@@ -316,6 +321,7 @@ def _unconverged_notes(run: TimeRun) -> Iterator[str]:
     sizes = {each.name: abs(each.fine - each.coarse) / abs(each.fine) for each in loose if each.unit and each.fine}
     name = max(sizes, key=lambda each: sizes[each], default=None)
     if name is not None and sizes[name] > _CLOSE:
+        # the error is of the first order in the time step
         steps = tau / abs(run.rate) / run.step / 2 * sizes[name] / _CLOSE
         yield (
             f"The discretisation error, estimated from h and h/2, is at most {percent_text(sizes[name])} ({name}): "

@@ -301,8 +301,10 @@ class EnergyAccount(Result):
     @property
     def closure(self) -> float:
         """Relative error of the balance, over the sum of all its terms and the stored energy."""
+        # the balance is closed by the numerical dissipation `steps`
         taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
+        # the scale includes stored energy: a free motion has neither input nor losses
         scale = sum(abs(each) for each in (self.put_in, taken, kept, self.stored))
         return abs(self.put_in - taken - kept) / scale if scale else 0.0
 

@@ -78,6 +78,7 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     >>> [axes.get_title("left").split(":")[0] for axes in time_run_figure(run).axes]
     ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'outputs', 'spectrum; lines of moon are labelled']
     """
+    # contacts that are not pairs are escapements
     pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
     moving = _moving(run)
     leading = [each.output for each in run.deviations if degrees(max(each.ahead, each.behind)) > _FLAT]
@@ -161,6 +162,7 @@ def _stretch(run: TimeRun, pairs: list[str]) -> slice:
     if pairs:
         open_ = np.max([np.minimum(run.gaps[pair], run.coast_gaps[pair])[first:] for pair in pairs], axis=0)
         if len(open_) and open_.max() > _OPEN:
+            # centred on the maximum gap
             middle = first + int(open_.argmax())
     end = min(max(middle + _STRETCH // 2, first + _STRETCH), whole)
     return slice(max(first, end - _STRETCH), end)
@@ -199,6 +201,7 @@ def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
     if not own.any():
         return
     across = _across(run)
+    # impacts lie between samples
     at = np.interp(run.impacts.time[own], run.time, across)
     energy = run.impacts.energy[own]
     near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
@@ -240,6 +243,7 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
         frequency, size = find_amplitudes(run.time[first:], run.outputs[name][first:])
         drawn.append(np.array([frequency[1:], np.degrees(size[1:])]))
         panel.plot(*drawn[-1], linewidth=0.8, **series_look(place), label=short(name))
+    # all outputs share one axis
     top = max(float(size.max(initial=0.0)) for _, size in drawn)
     if top:
         legend_above(panel, 4)

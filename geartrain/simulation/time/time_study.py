@@ -84,6 +84,7 @@ class TimeStudy:
         fewest = _FEWEST_TOUCHING if self.of.model.pairs else _FEWEST
         found = max(fewest, ceil(PER_TOOTH * self.busiest * _UNEVEN))
         # a released escape wheel moves much faster than on average
+        # the fastest mode must be resolved even if it is not excited by teeth
         swing = ceil(PER_SWING * self.of.fastest / abs(self.of.case.rate))
         found = max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])
         # a multiple, so that samples still coincide with beats
@@ -98,10 +99,12 @@ class TimeStudy:
 
     def plan(self, finer: int) -> StepPlan:
         """Return the time steps of one run; `finer` is 1 or 2."""
+        # the finer run has exactly twice the steps
         steps, skip = (round(each * self.per_turn) * finer for each in (self.turns, self.skip))
         often = max([_SAMPLES * self.busiest, *(_A_BEAT * each for each in self.beats)])
         samples = self.samples or min(_MOST_SAMPLES, max(_FEWEST_SAMPLES, ceil(often * (self.turns + self.skip))))
         stride = max(1, (steps + skip) // finer // max(samples, 2)) * finer
+        # counting begins at a sample
         skip -= skip % stride
         # a block ends at a sample, so it may differ from whole revolutions by at most one sample
         block = round(ceil(self.turns / _MOST_BLOCKS) * self.per_turn * finer / stride) * stride
@@ -153,5 +156,6 @@ class TimeStudy:
             return [None] * len(model.pairs)
         steps = max(_FEWEST, ceil(PER_TOOTH * self.busiest))
         plan = StepPlan(tau / abs(self.of.case.rate) / steps, round(self.skip * steps), round(self.turns * steps), 1)
+        # nearly without inertia a rigid train is quasi-static
         run = simulate(replace(model, mass=_MASSLESS * model.mass), plan, self.is_fast)
         return [float(each) for each in np.abs(run.forces[plan.skip :]).max(axis=0, initial=0.0)]

@@ -106,6 +106,7 @@ def model_in_time(
         find_motion_problem(train, state, without),
     )
     if rate is not None:
+        # a given rate is positive; the sense follows from the declared inputs
         rate *= problem.way
     inertia = {each.link: each.value for each in find_link_inertias(train, state, with_inputs=True) if each.value}
     found = find_time_case(declared, case, problem, train.tree, inertia, rate, restitution, scale)
@@ -218,6 +219,7 @@ def step_to_separation(
     check_numbers(turns=turns)
     check_whole_numbers(steps=steps)
     train = train.planets_as_one
+    # the prediction over the same range, for comparison
     predicted = find_separation(train, state, without, turns).rate
     found = model_in_time(train, state, without, tau * (predicted or 1.0), 0.0)
     own = found.case
@@ -293,10 +295,12 @@ def find_modes(of: CompliantTrain) -> VibrationModes:
     """Compute the vibration modes of a train in one case."""
     squares, modes = of.vibration
     speeds = np.sqrt(squares)
+    # damping ratio of each mode, neglecting coupling of modes by damping
     losses = np.einsum("im,ij,jm->m", modes, of.matrices[1], modes)
     damping = np.divide(losses, 2 * speeds, out=np.zeros_like(speeds), where=speeds > 0)
     shapes = of.speeds[:, of.free] @ modes
     for column in shapes.T:
+        # the largest angle becomes +1, which fixes scale and sign
         column /= column[np.argmax(np.abs(column))]
     shapes += 0.0  # turns -0.0 into 0.0
     names = [str(at + 1) for at in range(len(speeds))]

@@ -76,6 +76,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
+    # both outputs must not overwrite each other
     check_distinct_outputs(to, picture)
     if csv and to.path is not None:
         raise typer.BadParameter(
@@ -89,6 +90,7 @@ def run(
     if csv or to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
     else:
+        # after an interruption a second long computation is not wanted
         if find_rate and found.complete:
             stepped = _stepped(train, found, requested)
         report = collect_time_report(train, found, requested["without"], stepped)

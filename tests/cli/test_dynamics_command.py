@@ -56,7 +56,7 @@ def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_conver
     lines = text.splitlines()
     heads = [line for line, below in pairwise(lines) if line and below == "-" * len(line)]
     assert heads[:4] == ["Separation rate", "Contacts", "Drive and outputs", "Energy"]
-    assert "Valid up to 0.44067 turn/s of 'a'" in text
+    assert "The motion is valid up to 0.44067 turn/s of 'a'" in text
     assert "'a' makes 1 turn at 0.3 turn/s" in text
     assert "no dynamic factor" in text
     assert "All figures converged." in text

@@ -271,8 +271,8 @@ def _first_separation(found: SeparationRates) -> str:
             "in contact."
         )
     return (
-        f"Valid up to {first.rate:.5g} turn/s of '{found.input}': above this rate the teeth of {first.pair} separate, "
-        f"{where}, because the driven side runs ahead."
+        f"The motion is valid up to {first.rate:.5g} turn/s of '{found.input}': above this rate the teeth of {first.pair} separate, "
+        f"first {where}, because the driven side runs ahead."
     )
 
 

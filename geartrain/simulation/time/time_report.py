@@ -329,7 +329,7 @@ def _unconverged_notes(run: TimeRun) -> Iterator[str]:
             "and extremes do not converge."
         )
     if any((each.interval or 0.0) > abs(each.fine - each.coarse) for each in loose):
-        yield "Where ± is larger than this error, increase `--turns`: four times as many halve ±."
+        yield "If ± exceeds the difference of h and h/2, increase `--turns`: four times as many halve ±."
 
 
 def _compared(each: ConvergedFigure) -> tuple[str, ...] | None:

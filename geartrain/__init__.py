@@ -1,4 +1,4 @@
-"""geartrain: what does this gear train do?
+"""Analysis of gear trains: exact speeds, losses, motion with real teeth, and search for tooth counts.
 
 >>> import geartrain
 >>> train = geartrain.load("planetary-24-18-60")

@@ -1,4 +1,4 @@
-"""`python -m geartrain`."""
+"""Entry point of `python -m geartrain`."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Errors: one exception for a user to catch, and its problems with place, what, why and fix.
+"""Exceptions of geartrain: one base class, whose problems have a place, a description, a reason and a fix.
 
-In: a fault found by a reader, a check or a method. Out: `GearTrainError` or a subclass; users see no other exception.
-A train that is locked or contradictory is not an error: a verdict is a result (`geartrain.kinematics.Verdict`).
+All errors that are reported to users are `GearTrainError` or a subclass. A train that is locked or contradictory is not
+an error: a verdict is a result (`geartrain.kinematics.Verdict`).
 """
 
 from __future__ import annotations
@@ -15,27 +15,29 @@ from numbers import Integral, Real
 __all__ = ["DeclarationError", "GearTrainError", "MissingExtraError", "Problem", "QuestionError", "RangeError"]
 
 Loc = tuple[str | int, ...]
-"""Where in a declaration: the keys and list positions that lead to a value."""
+"""Path of a value in a declaration: its keys and list indices."""
 
 Marks = Callable[[Loc], str]
-"""Turns a `Loc` into a place a reader can open, such as `file.yaml:12`."""
+"""Function that converts a `Loc` to a place that a user can open, such as `file.yaml:12`."""
 
 
 _STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""Control characters but tab and line feed, other ends of a line, turns of the writing direction, lone surrogates."""
+"""Characters that could control a terminal: control characters except tab and line feed, other line ends, changes of
+the writing direction, lone surrogates.
+"""
 
 
 def printable(text: str) -> str:
-    """Text of a user as it may be shown: what could steer a terminal, or hide what follows, is written out.
+    r"""Replace the characters of a text that could control a terminal or hide other text by escapes.
 
-    >>> printable("sun\\x1b[2J")
-    'sun\\\\x1b[2J'
+    >>> printable("sun\x1b[2J")
+    'sun\\x1b[2J'
     """
     return _STEERING.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
 
 
 def dotted(loc: Loc) -> str:
-    """The path of a declared value when no file is known: `gears[3].pair`."""
+    """Return the path of a declared value, such as `gears[3].pair`, for data without a file."""
     text = ""
     for step in loc:
         text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else step
@@ -43,18 +45,17 @@ def dotted(loc: Loc) -> str:
 
 
 def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[str]:
-    """The known names that may be meant by an unknown one, the most alike first.
+    """Return the known names that are most similar to an unknown one, the most similar first.
 
-    wide   where names are long and made of parts, as those of periods and files: less likeness will do, and one more
-           is named
+    wide   True for long names with several parts, such as those of periods and files: one more name, less similarity
     """
-    from difflib import get_close_matches  # most runs misspell nothing
+    from difflib import get_close_matches  # slow to import, and most runs have no unknown name
 
     return get_close_matches(name, tuple(dict.fromkeys(known)), n=3 if wide else 2, cutoff=0.5 if wide else 0.6)
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """What to write instead of an unknown name: the nearest known ones, else `otherwise`, else all if they are few."""
+    """Return a suggestion for an unknown name: similar known names, else `otherwise`, else all if few."""
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
         return f"did you mean {' or '.join(map(repr, close))}?"
@@ -63,7 +64,7 @@ def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = F
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing that is wrong, in four parts.
+    """One problem of the input, described in four parts.
 
     Examples
     --------
@@ -74,17 +75,17 @@ class Problem:
     """
 
     what: str
-    """What is wrong, in a few words."""
+    """Description of the problem in a few words."""
     why: str = ""
-    """Why it cannot stand; empty where that is plain."""
+    """Rule or cause; empty if it is obvious."""
     fix: str = ""
-    """What to do about it."""
+    """Instruction to solve the problem."""
     place: str = ""
-    """Where: `file.yaml:12`, the path of a declared value such as `gears[3].pair`, or a file; may be empty."""
+    """Place of the problem: `file.yaml:12`, the path of a value such as `gears[3].pair`, or a file; may be empty."""
 
     @property
     def text(self) -> str:
-        """What, why and what to do on one line, without the place."""
+        """Description, reason and fix on one line, without the place."""
         return "; ".join(filter(None, (self.what, self.why, self.fix)))
 
     def __str__(self) -> str:
@@ -97,37 +98,38 @@ class Problem:
         return printable("\n".join(lines))
 
 
-MOST_TOLD = 20
-"""Problems reported at once; the others are seen when these are mended."""
+MOST_REPORTED = 20
+"""Maximum number of problems reported at once."""
 
 
 def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:
-    """The first `MOST_TOLD` of some problems, and one that says how many more there are (of `count` in all, if known).
+    """Return the first `MOST_REPORTED` problems, and one more that reports the number of the others (of `count`, if
+    known).
 
-    An iterator is not asked for more than it takes to know that there are more.
+    An iterator is consumed only as far as is needed to know that there are more.
     """
     if count is None and isinstance(problems, list | tuple):
         count = len(problems)
-    told = tuple(islice(problems, MOST_TOLD + 2))
-    if len(told) <= MOST_TOLD + 1:  # one more is told sooner than said
-        return told
-    more = "more problems were found" if count is None else f"{count - MOST_TOLD} more problems were found"
-    rest = Problem(f"and {more}", f"only the first {MOST_TOLD} are told", "mend these, and ask again")
-    return (*told[:MOST_TOLD], rest)
+    first = tuple(islice(problems, MOST_REPORTED + 2))
+    if len(first) <= MOST_REPORTED + 1:  # one further problem is reported itself
+        return first
+    more = "more problems were found" if count is None else f"{count - MOST_REPORTED} more problems were found"
+    rest = Problem(f"and {more}", f"only the first {MOST_REPORTED} are reported", "correct these, and run again")
+    return (*first[:MOST_REPORTED], rest)
 
 
 class GearTrainError(Exception):
-    """Input that cannot be read or used. Everything that geartrain raises at a user is one of these.
+    """Base class of all exceptions that geartrain raises for invalid input.
 
     Parameters
     ----------
     problems : Problem or iterable of Problem
-        What is wrong. All that could be collected, of which the first 20 are kept, and how many more there are.
+        All problems that were found. The first 20 are kept, and the number of the others.
 
     Attributes
     ----------
     problems : tuple of Problem
-        Those that are kept.
+        The problems that are kept.
 
     Examples
     --------
@@ -146,7 +148,7 @@ class GearTrainError(Exception):
 
 
 class DeclarationError(GearTrainError):
-    """The declaration cannot be read, or does not describe a gear train.
+    """Declaration that cannot be read or does not describe a gear train.
 
     See Also
     --------
@@ -155,7 +157,7 @@ class DeclarationError(GearTrainError):
 
 
 class QuestionError(GearTrainError):
-    """The train is sound, but it was asked for something it does not have: a link, a state, a method.
+    """Request for something that a valid train does not have, such as a link, a state or a method.
 
     See Also
     --------
@@ -164,11 +166,11 @@ class QuestionError(GearTrainError):
 
 
 class RangeError(GearTrainError):
-    """A method of calculation cannot answer within its range; another one can.
+    """Request outside the range of a method, which another method may be able to answer.
 
     See Also
     --------
-    geartrain.kinematics.FloatSpeeds : raises it for a speed that float64 does not hold
+    geartrain.kinematics.FloatSpeeds : raises it for a speed outside the range of float64
     """
 
 
@@ -185,13 +187,14 @@ _MEGABYTES = {
     "sympy": 80,
     "watch": 7,
 }
-"""What each extra adds to the core on the disk, rounded up to 1; measured by docs/scripts/make_extras.py."""
+"""Disk space of the packages of each extra [MB], at least 1; measured by docs/scripts/make_extras.py."""
 
 
 def install_command(extra: str) -> str:
-    """The command that installs the packages of an extra, by the names that the metadata of geartrain list.
+    """Return the command that installs the packages of an extra, as listed by the metadata of geartrain.
 
-    The name of an extra is not used: it works only where an index has this distribution.
+    The packages are named individually, because the name of an extra is only valid if geartrain is in the package
+    index.
     """
     from importlib.metadata import PackageNotFoundError, requires
 
@@ -199,22 +202,23 @@ def install_command(extra: str) -> str:
         needs = requires("geartrain") or ()
     except PackageNotFoundError:  # a copy of the sources that is not installed
         needs = ()
+    # requirements have the form `numpy>=2; extra == "fast"`
     split = [need.replace('"', "'").partition(";") for need in needs]
     packages = [f"'{package.strip()}'" for package, _, marker in split if f"extra == '{extra}'" in marker]
     return f"pip install {' '.join(packages)}" if packages else f"pip install -e '.[{extra}]'"
 
 
 class MissingExtraError(GearTrainError):
-    """An optional library is not installed.
+    """Optional library that is not installed.
 
     Parameters
     ----------
     library : str
-        The library as it is imported.
+        Name of the library for `import`.
     extra : str
-        The extra of geartrain that brings it.
+        Extra of geartrain that installs it.
     purpose : str
-        What needs it.
+        Feature that needs it.
 
     Examples
     --------
@@ -235,19 +239,19 @@ class MissingExtraError(GearTrainError):
 
 
 def check_choice(kind: str, name: str, known: Iterable[str]) -> None:
-    """Raise `QuestionError` for a name that is none of those known."""
+    """Raise `QuestionError` if a name is not one of the known names."""
     known = tuple(known)
     if name not in known:
-        raise QuestionError(Problem(f"there is no {kind} '{name}'", "it is not known here", suggest(name, known)))
+        raise QuestionError(Problem(f"unknown {kind} '{name}'", "names must match exactly", suggest(name, known)))
 
 
 def check_numbers(**given: object) -> None:
-    """Raise `QuestionError` for an argument that is no number; None is one that is not given."""
+    """Raise `QuestionError` for arguments that are not numbers; None is accepted."""
     _check_kind(given, Real, "a number")
 
 
 def check_whole_numbers(**given: object) -> None:
-    """Raise `QuestionError` for an argument that is no whole number; None is one that is not given."""
+    """Raise `QuestionError` for arguments that are not integers; None is accepted."""
     _check_kind(given, Integral, "a whole number")
 
 

@@ -1,7 +1,7 @@
-"""Access to wings: packages of large capabilities, which the core of geartrain knows only by name.
+"""Access to the optional packages ("wings") of geartrain, which its core imports only by name.
 
-The core of geartrain (declaration, kinematics, dynamics, tooth forms, scenes, reports) imports no wing. Where one of
-its commands offers what a wing adds, it asks `wing` for the public names of that wing, when they are needed.
+The core of geartrain (declaration, kinematics, dynamics, tooth forms, scenes, reports) imports no wing. Commands that
+use one import it at run time by `wing`.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from typing import Any
 from geartrain.errors import GearTrainError, Problem
 
 WINGS = ("search", "workshop", "simulation")
-"""Packages of geartrain that can be left out of an installation."""
+"""Packages of geartrain that can be omitted from an installation."""
 
 
 def has_wing(name: str) -> bool:
-    """True if the wing `name` is installed."""
+    """Return whether the optional package `name` is installed."""
     return find_spec(f"geartrain.{name}") is not None
 
 
 def wing(name: str) -> Any:
-    """The package `geartrain.NAME`, or a module of it such as "simulation.time.time_run".
+    """Import the package `geartrain.NAME`, or a module of it such as "simulation.time.time_run".
 
     Raises
     ------
@@ -33,7 +33,9 @@ def wing(name: str) -> Any:
     package = name.partition(".")[0]
     if not has_wing(package):
         what = f"this needs the package geartrain.{package}"
-        raise GearTrainError(Problem(what, "this installation of geartrain lacks it", "install the whole of geartrain"))
+        raise GearTrainError(
+            Problem(what, "it is not part of this installation", "install geartrain with all its packages")
+        )
     return import_module(f"geartrain.{name}")
 
 
@@ -44,8 +46,8 @@ class WingResult:
     wing: str
     """Name of the wing."""
     name: str
-    """Public name of the class of the result in that wing."""
+    """Public name of the class of the result."""
 
     def kind(self) -> type | None:
-        """The class; None if the wing is not installed."""
+        """Return the class of the result; None if the wing is not installed."""
         return getattr(wing(self.wing), self.name) if has_wing(self.wing) else None

@@ -303,12 +303,12 @@ class Run:
 
 def hung(motion: Motion, turns: float, samples: int) -> dict[str, TransmissionErrorCurve]:
     """The ripple of every output as its teeth hold it, no pointer set: what the equations below say."""
-    composition, at = motion.hung, np.arange(samples)
+    composition, at = motion._unset, np.arange(samples)
     parts = [composition.at(turns * (each / (samples - 1))) for each in np.split(at, range(30_000, samples, 30_000))]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
     return {
         tally.name: TransmissionErrorCurve(tally.name, tally.ratio, error[row], tally.mean + rate[row])
-        for row, tally in enumerate(motion.tallies())
+        for row, tally in enumerate(motion._statistics())
     }
 
 

@@ -68,13 +68,21 @@ def layout(name: str) -> Layout:
     return lay_out(train(name))
 
 
-@cache
 def scene(name: str, state: str | None = None) -> Scene:
-    """Its scene."""
+    """Its scene in a state, by default the first."""
+    return _scene(name, train(name).declaration.state_or_first(state))
+
+
+def built(name: str, state: str | None = None) -> Scene:
+    """Its scene as it is built, which pages show, in a state, by default the first."""
+    return _built(name, train(name).declaration.state_or_first(state))
+
+
+@cache
+def _scene(name: str, state: str | None) -> Scene:
     return make_scene(train(name), state, layout(name))
 
 
 @cache
-def built(name: str, state: str | None = None) -> Scene:
-    """Its scene as it is built, which pages show."""
+def _built(name: str, state: str | None) -> Scene:
     return build_scene(train(name), state)

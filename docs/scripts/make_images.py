@@ -48,10 +48,10 @@ def main() -> None:
 
 
 def turning() -> None:
-    """A worm, whose wheel and crank stand as before after half a turn of the wheel; left as it is without a browser."""
+    """Draw a quarter of a year of the Antikythera mechanism; keep the file if there is no browser."""
     if can_draw():
-        turns = [Fraction(15 * n, 100) for n in range(100)]
-        pictures = list(stills(build_scene(geartrain.load("worm")), (360, 270), turns, "white"))
+        turns = [Fraction(73, 10) + Fraction(n, 192) for n in range(48)]
+        pictures = list(stills(build_scene(geartrain.load("freeth-2021")), (420, 320), turns, "white"))
         (IMAGES / "turning.gif").write_bytes(gif(pictures, 10))
         print("wrote docs/images/turning.gif")
 

@@ -1,12 +1,12 @@
-"""The entry to the library: a file, a name or plain data in, a `GearTrain` out, which answers questions.
+"""Entry to the library: `load` reads a file, a name or plain data and returns a `GearTrain` that answers questions.
 
-gear_train                   `load`, and the one class whose methods call the functions of the rooms below
-gearbox, gear_series         all states of a train with clutches; all gears that its elements could give
-train_graph, train_variants  the train as a graph; many tooth counts at once
-accuracy                     error against run time of the methods on one train
+gear_train                   `load`, and the class whose methods call the functions of the other packages
+gearbox, gear_series         all states of a train with clutches; all gears that its shift elements can produce
+train_graph, train_variants  the train as a networkx graph; the outputs of many tooth counts at once
+accuracy                     error and run time of the methods on one train
 
-Each part of an answer is made when it is first requested and kept. The equations are those of the rooms below:
-docs/theory.md for speeds, docs/torques.md, docs/motion.md.
+Results are computed at the first request and cached. The equations are in docs/theory.md for speeds,
+docs/torques.md for torques and docs/motion.md for motion.
 """
 
 from __future__ import annotations

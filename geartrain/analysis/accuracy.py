@@ -1,21 +1,22 @@
-"""Error against run time of the methods on one train: speeds, transmission functions, motion, torques.
+"""Error and run time of the methods on one train: speeds, transmission functions, motion, torques.
 
-Each method is held against the best of its stage: exact speeds, transmission functions evaluated directly, motion
-composed from them, torque over a turn at many positions. docs/scripts/studies/ measures whole families of trains.
+Each method is compared with the most accurate method of its stage: exact speeds, transmission functions evaluated
+directly, motion composed from them, torque over a revolution at many positions. The scripts in docs/scripts/studies/
+measure whole families of trains.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Shown, Tabular, TrainResult
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
@@ -24,26 +25,26 @@ if TYPE_CHECKING:
 
 Stage = Literal["speeds", "transmission functions", "motion", "torques"]
 
-_TURNS = 20.0  # of the input, over which motion is followed
-_TOLERANCES = (1e-6, 1e-12)  # of tables, in pitches
-_SAMPLES = (20_000, 2_000, 200, 20)  # of torque over a turn; the others are held against the first
-_PASSAGES = 6_000  # teeth that pass in a run, times the pairs that are evaluated at each
-_ENOUGH, _LONG = 0.1, 5.0  # seconds after which a task is not repeated, even if it ran but once
-_REFERENCE = "the others are held against it"
-_NO_FORM = "no pair has a tooth form, and no pin its sizes"
+_TURNS = 20.0  # revolutions of the input over which motion is computed
+_TOLERANCES = (1e-6, 1e-12)  # tolerances of tables [pitch]
+_SAMPLES = (20_000, 2_000, 200, 20)  # numbers of positions per revolution for torque; the first is the reference
+_PASSAGES = 6_000  # tooth engagements in a run, times the number of evaluated pairs
+_ENOUGH, _LONG = 0.1, 5.0  # [s] total time after which a task is not repeated; the second even after one run
+_REFERENCE = "reference for the other methods"
+_NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 
 @dataclass(frozen=True, slots=True)
-class MethodAccuracy:
+class MethodAccuracy(Shown):
     """Run time and error of one method of one stage.
 
     See Also
     --------
-    find_accuracy : Measures it.
+    find_accuracy : Measures them.
     """
 
     stage: Stage
-    """What is computed."""
+    """Stage of the computation."""
     method: str
     """Name of the method."""
     seconds: float
@@ -53,30 +54,48 @@ class MethodAccuracy:
     unit: Literal["relative", "pitches", "deg"]
     """Unit of the error."""
     reference: str
-    """What the error is the difference from."""
+    """Values with which the method is compared."""
     prepared: float | None = None
-    """Time of what is done once before the run, such as making tables [s]."""
+    """Time of the preparation before the run, such as the computation of tables [s]."""
     ratio: float = 1.0
-    """`seconds` divided by that of the fastest method of the stage."""
+    """Quotient of `seconds` and the run time of the fastest method of the stage."""
 
 
 @dataclass(frozen=True, slots=True)
-class TrainAccuracy(Result):
+class TrainAccuracy(Tabular, TrainResult):
     """Run time and error of all methods on one train in one state.
 
     See Also
     --------
-    find_accuracy : Gives it.
+    find_accuracy : Returns it.
     """
 
+    KEYS = ("state", "positions", "methods", "left_out")
+    ROW = "MethodAccuracy"
+    MEANINGS: ClassVar = {
+        "error": "Maximum error; empty for the reference method [see `unit`].",
+        "ratio": "Run time over the run time of the fastest method of the stage [1].",
+    }
+
+    PAGE = "report.accuracy_report:accuracy_document"
+
     state: str | None
-    """The state."""
+    """Name of the state."""
     positions: int
-    """Angles of each pair, and positions of the input."""
+    """Number of angles of each pair, and of positions of the input."""
     methods: tuple[MethodAccuracy, ...]
-    """In the order of the stages."""
+    """Methods in the order of the stages."""
     left_out: dict[str, str]
-    """Reason for each stage that the train does not have."""
+    """Stage -> reason for which it does not apply to the train."""
+
+    def _summary(self) -> str:
+        return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """Table with a row for each method: time, error and reference."""
+        names = [field.name for field in fields(MethodAccuracy)]
+        return {name: [getattr(each, name) for each in self.methods] for name in names}
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
@@ -89,12 +108,12 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     state : str, optional
         One of its states.
     positions : int
-        Angles of each pair, and positions of the input.
+        Number of angles of each pair, and of positions of the input.
 
     Returns
     -------
     TrainAccuracy
-        All methods; exact speeds and composed motion are what others are compared with.
+        All methods. The references are exact speeds and composed motion.
 
     Examples
     --------
@@ -119,11 +138,14 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
             left_out[stage] = error.problems[0].what
         fastest = min((row.seconds for row in rows), default=0.0)
         methods += [replace(row, ratio=row.seconds / fastest) for row in rows]
-    return TrainAccuracy(state, positions, tuple(methods), left_out)
+    return TrainAccuracy(state, positions, tuple(methods), left_out, _declaration=train.declaration)
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
-    """The minimum time of a task, and what it returned; the first run may have had to load a library."""
+    """Return the minimum run time of several runs of a task [s], and its result.
+
+    The minimum excludes the time that the first run needs to import libraries.
+    """
     times: list[float] = []
     while not times or sum(times) < _ENOUGH or (len(times) < 2 and sum(times) < _LONG):
         start = time.perf_counter()
@@ -133,14 +155,14 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Exact elimination and sparse LU, from the declaration to the speeds of all links."""
+    """Yield the methods for speeds: exact elimination and sparse LU factorisation, each from the declaration on."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
 
     def solve(method: Any) -> Answer:
         answer = GearTrain(train.declaration).solve(state, method=method)
-        list(answer.speeds.values())  # each is multiplied out when read
+        list(answer.speeds.values())  # speeds are computed when they are read
         return answer
 
     exact: Mapping[str, Any] = {}
@@ -152,22 +174,22 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
     off = [abs(Fraction(floats[link]) / Fraction(speed) - 1) for link, speed in exact.items() if speed]
     if not exact:
         off = [abs(each.estimate / floats[link]) for link, each in floats.accuracy.items() if floats[link]]
-    reference = "exact speeds" if exact else "its own forecast"
+    reference = "exact speeds" if exact else "its error estimate"
     yield MethodAccuracy("speeds", "floats", seconds, float(max(off, default=0.0)), "relative", reference)
 
 
 def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Every pair's transmission function evaluated directly, and interpolated in tables."""
+    """Yield the methods for transmission functions: direct evaluation and interpolation in tables."""
     transmissions = {mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
     transmissions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
     if not transmissions:
-        what = "each pair with a tooth form has its exact ratio" if train.meshes else _NO_FORM
+        what = "every pair with a tooth form keeps its exact ratio" if train.meshes else _NO_FORM
         raise QuestionError(Problem(what))
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
-    # equal steps could fall on the nodes of the tables, and miss their error; seeded, so that it is the same each time
+    # equal steps could coincide with the nodes of the tables, where their error is 0; seeded, so that results repeat
     random = np.random.default_rng(1)
     S = {name: random.uniform(0, 10 * transmission.period, positions) for name, transmission in transmissions.items()}
     pitches = {
@@ -186,18 +208,18 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
     stage: Stage = "transmission functions"
     seconds, direct = _best_of(partial(evaluate, transmissions))
-    yield MethodAccuracy(stage, f"direct, {len(transmissions)} laws", seconds, None, "pitches", _REFERENCE)
+    yield MethodAccuracy(stage, f"direct, {len(transmissions)} functions", seconds, None, "pitches", _REFERENCE)
     for tolerance in _TOLERANCES:
         prepared, tables = _best_of(partial(tabulate, tolerance))
         seconds, read = _best_of(partial(evaluate, tables))
         off = {name: float(np.nanmax(np.abs(read[name] - direct[name]))) / pitches[name] for name in transmissions}
         name = max(off, key=lambda each: off[each])
-        method, reference = f"tabulated, {tolerance:.0e}", f"direct, of {name}"
+        method, reference = f"tabulated, {tolerance:.0e}", f"direct, pair {name}"
         yield MethodAccuracy(stage, method, seconds, off[name], "pitches", reference, prepared)
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Errors composed in the solved order (by numpy, compiled, from tables), and superposed to first order."""
+    """Yield the methods for motion: composition (by numpy, compiled, from tables) and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -208,37 +230,37 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
     def compose(tolerance: float | None = None) -> Motion:
         motion = train.motion(state, tolerance=tolerance)
-        motion.hung.at(np.zeros(2))  # functions and tables are made when first needed
+        motion._unset.at(np.zeros(2))  # functions and tables are built at the first use
         return motion
 
     prepared, motion = _best_of(compose)
-    if not motion.ahead.used:
-        raise QuestionError(Problem("no error reaches an output"))
+    if not motion._forward.used:
+        raise QuestionError(Problem("no transmission error affects an output"))
     turns: Floats = np.arange(positions, dtype=float) * (_TURNS / positions)
-    seconds, direct = _best_of(lambda: motion.hung.at(turns).error)
+    seconds, direct = _best_of(lambda: motion._unset.at(turns).error)
     ripple = np.degrees(np.ptp(direct, axis=1))
     yield MethodAccuracy("motion", "composed", seconds, None, "deg", _REFERENCE, prepared)
 
     def row(method: str, evaluate: Callable[[], Floats], prepared: float) -> MethodAccuracy:
         seconds, found = _best_of(evaluate)
         off = np.degrees(np.abs(found - direct).max(axis=1))
-        at = int(np.lexsort((ripple, off))[-1])  # of outputs equally far off the one with the largest ripple
-        reference = f"composed, of {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
+        at = int(np.lexsort((ripple, off))[-1])  # ties are broken by the largest ripple
+        reference = f"composed, output {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
         return MethodAccuracy("motion", method, seconds, float(off[at]), "deg", reference, prepared)
 
-    if usable() and (kernel := compiled_composition(motion.hung)) is not None:
+    if usable() and (kernel := compiled_composition(motion._unset)) is not None:
         kernel.at(turns[:1])  # compiled, or loaded from disk
-        prepared, _ = _best_of(partial(compiled_composition, motion.hung))
+        prepared, _ = _best_of(partial(compiled_composition, motion._unset))
         yield row("composed, compiled", lambda: kernel.at(turns).error, prepared)
     prepared, tabulated = _best_of(partial(compose, _TOLERANCES[-1]))
-    yield row("composed, tabulated laws", lambda: tabulated.hung.at(turns).error, prepared)
-    prepared, superposed = _best_of(partial(Superposition, motion.ahead))
+    yield row("composed, tabulated functions", lambda: tabulated._unset.at(turns).error, prepared)
+    prepared, superposed = _best_of(partial(Superposition, motion._forward))
     yield row("superposed with lag", partial(superposed.at, turns, lagged=True), prepared)
     yield row("superposed", partial(superposed.at, turns, lagged=False), prepared)
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """The exact balance with losses, and the mean torque over a turn by its samples."""
+    """Yield the methods for torques: the exact balance with losses, and mean torque over a revolution by samples."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     seconds, found = _best_of(lambda: GearTrain(train.declaration).torques(state))
@@ -246,9 +268,9 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
         raise QuestionError(Problem(f"{found.verdict.kind}: {found.verdict.text}"))
     through = max(map(abs, found.powers.values()), default=0)
     missed = abs(sum(found.powers.values()) - found.loss) / through if through else 0
-    reference = "power in, out and lost"
+    reference = "power balance"
     yield MethodAccuracy("torques", "balance with losses", seconds, float(missed), "relative", reference)
-    used = train.motion(state, tuple(train.declaration.links)).ahead.used
+    used = train.motion(state, tuple(train.declaration.links))._forward.used
     passages = sum(float(each.cycles) for each in used)
     span = min(1.0, _PASSAGES / (len(used) * passages)) if passages else 0.0
     mean = None
@@ -257,7 +279,7 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
         if not found.mean:
             return
         error = None if mean is None else abs(found.mean / mean - 1)
-        reference = _REFERENCE if mean is None else f"{_SAMPLES[0]} samples, the mean"
+        reference = _REFERENCE if mean is None else f"mean of {_SAMPLES[0]} samples"
         yield MethodAccuracy(
             "torques", f"over {span:.3g} turns, {samples} samples", seconds, error, "relative", reference
         )

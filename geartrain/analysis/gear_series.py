@@ -1,4 +1,4 @@
-"""All gears that a gearbox has, whichever elements are closed, and series of them by their steps."""
+"""All gears that a gearbox can produce by any choice of closed shift elements, and series of gears by their steps."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from math import comb, log, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
@@ -21,66 +21,75 @@ if TYPE_CHECKING:
 
 MOST_COMBINATIONS = 20_000
 _JOINER = "+"
-_FIGURES = 12  # digits past the point to which sums of squares are compared
+_FIGURES = 12  # decimals to which sums of squares are compared, so that rounding does not decide ties
 
 
 @dataclass(frozen=True)
 class PossibleGear(Result):
-    """What closing some elements gives."""
+    """Gear that results if some shift elements are closed."""
 
     engaged: tuple[str, ...]
-    """Elements that are closed, in the order declared."""
+    """Closed shift elements, in the order of declaration."""
     ratio: Fraction | None
-    """Input over output; None where the output stands still."""
+    """Speed of the input over speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Declared states in which just these are closed."""
+    """Declared states in which exactly these elements are closed."""
 
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Forward gears, from the lowest."""
+    """Series of forward gears, from the lowest."""
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
     gears: tuple[PossibleGear, ...]
-    """Ratios fall."""
+    """Gears by decreasing ratio."""
 
     @property
     def ratios(self) -> tuple[Fraction, ...]:
-        """Input over output."""
+        """Speed of the input over speed of the output, for each gear."""
         return tuple(each.ratio for each in self.gears if each.ratio is not None)
 
     @property
     def steps(self) -> tuple[Fraction, ...]:
-        """Each ratio over the next."""
+        """Ratio of each gear over the ratio of the next."""
         return tuple(a / b for a, b in zip(self.ratios, self.ratios[1:], strict=False))
 
     @property
     def spread(self) -> Fraction:
-        """The first ratio over the last."""
+        """Ratio of the first gear over the ratio of the last."""
         return self.ratios[0] / self.ratios[-1]
 
     @property
     def deviation(self) -> float:
-        """How uneven the steps are: standard deviation of their logarithms."""
+        """Standard deviation of the logarithms of the steps."""
         logs = [log(step) for step in self.steps]
         mean = sum(logs) / len(logs)
         return sqrt(sum((each - mean) ** 2 for each in logs) / len(logs))
 
     @property
     def double_shifts(self) -> int:
-        """Shifts in which more than one element opens, or closes."""
+        """Number of shifts in which more than one element opens or more than one closes."""
         return sum(not _is_single(a, b) for a, b in zip(self.gears, self.gears[1:], strict=False))
 
 
 @dataclass(frozen=True)
 class GearSearch(Tabular, Result):
-    """All gears of a gearbox, and the series asked for.
+    """All gears of a gearbox, and the requested series.
 
     See Also
     --------
-    find_gears : gives it.
+    find_gears : returns it.
     """
+
+    MEANINGS: ClassVar = {
+        "closed": "Engaged clutches and brakes.",
+        "ratio": "Speed of the input over speed of the output; empty if the output is at rest [1].",
+        "exact": "The ratio as a fraction [1].",
+        "states": "Declared states that engage the same elements.",
+    }
+
+    PAGE = "report.gearbox_report:describe_gear_search"
 
     KEYS = (
         *("name", "title", "input", "output", "closed", "combinations"),
@@ -92,31 +101,40 @@ class GearSearch(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """The link that drives."""
+    """Driving link."""
     output: str
-    """The link that is driven."""
+    """Driven link."""
     closed: int
-    """How many elements must be closed for the inputs to determine all speeds."""
+    """Number of elements that must be closed so that the inputs determine all speeds."""
     combinations: int
-    """Ways to close so many."""
+    """Number of ways to close `closed` elements."""
     gears: tuple[PossibleGear, ...]
-    """Those that determine the output and let it turn, or hold it; forward from the lowest, backward, held."""
+    """Combinations that determine the speed of the output: forward gears from the lowest, reverse gears, output at
+    rest.
+    """
     free: tuple[tuple[str, ...], ...] = ()
-    """Number of other combinations of this size that leave the train free."""
+    """Combinations of `closed` elements that leave the train free."""
     locked: tuple[tuple[str, ...], ...] = ()
-    """Number of other combinations of this size that lock the train."""
+    """Combinations of `closed` elements that lock the train."""
     requested: int = 0
-    """Gears of the series asked for; 0 where none was."""
+    """Number of gears of the requested series; 0 if none was requested."""
     series: int = 0
-    """How many series there are with all steps inside the window, shifts as asked; 0 where none was asked for."""
+    """Number of series whose steps and shifts satisfy the request; 0 if none was requested."""
     widest: GearSeries | None = None
-    """Of these series, one with the greatest spread."""
+    """Series with the maximum spread."""
     evenest: GearSeries | None = None
-    """Of these series, one whose steps differ least."""
+    """Series with the minimum deviation of the steps."""
+
+    def _summary(self) -> str:
+        return (
+            f"{self.name}: {len(self.gears)} gears of {self.combinations} combinations of {self.closed} closed elements"
+        )
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each gear: what is closed, its ratio, if the output turns, and the states declared so."""
+        """Table with a row for each gear: closed elements, ratio (None if the output is at rest), exact ratio, declared
+        states.
+        """
         return {
             "closed": [", ".join(gear.engaged) for gear in self.gears],
             "ratio": [None if gear.ratio is None else as_float(gear.ratio) for gear in self.gears],
@@ -132,7 +150,7 @@ def find_gears(
     steps: tuple[float, float] = (1.05, 2.0),
     single: bool = False,
 ) -> GearSearch:
-    """Every gear that closing elements gives, declared or not, and series of gears.
+    """Find every gear that closed elements can produce, declared or not, and series of gears.
 
     Parameters
     ----------
@@ -141,21 +159,21 @@ def find_gears(
     output : str, optional
         One of the declared outputs, by default the first that is not the input.
     gears : int
-        Forward gears of a series; below 2 none is looked for.
+        Number of forward gears of a series; below 2 no series is searched for.
     steps : tuple of float
-        Least and greatest ratio of a gear over the next.
+        Minimum and maximum ratio of a gear over the ratio of the next.
     single : bool
-        Only shifts in which one element opens and one closes.
+        True to admit only shifts in which one element opens and one closes.
 
     Returns
     -------
     GearSearch
-        Complete and exact: all ways to close as many elements as are needed, and no more.
+        Complete and exact: all ways to close the minimum number of elements that determines the speeds.
 
     Raises
     ------
     QuestionError
-        As of `GearTrain.gearbox`, and where there are too many ways.
+        In the cases of `GearTrain.gearbox`, and if there are too many combinations.
 
     Examples
     --------
@@ -194,7 +212,7 @@ _Choice = tuple[str, ...]
 
 
 class _AllGears(NamedTuple):
-    """How many elements are closed at once, every gear with so many, and what else closing so many does."""
+    """Number of elements closed at once, gears, and the combinations that leave the train free or lock it."""
 
     closed: int
     gears: list[PossibleGear]
@@ -203,21 +221,22 @@ class _AllGears(NamedTuple):
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
-    """Every gear.
+    """Find every gear with the smallest number of closed elements that determines the speeds.
 
-    All sets of rows that just suffice have one size, for they are the bases of a matroid.
+    All such combinations have the same size, because they are the bases of a matroid.
     """
     elements = tuple(train.declaration.clutches)
     names: dict[frozenset[str], list[str]] = {}
     for name, state in train.declaration.states.items():
         names.setdefault(frozenset(state.engaged), []).append(name)
+    # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(elements) + 1):
         if comb(len(elements), size) > MOST_COMBINATIONS:
             what = f"{comb(len(elements), size):,} ways to close {size} of {len(elements)} elements"
-            why = f"more than {MOST_COMBINATIONS:,} are too many"
+            why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
         choices = list(combinations(elements, size))
-        answers = _answered(train, choices)
+        answers = _solve_choices(train, choices)
         found = list(_gears(choices, answers, (source, link), names))
         if found:
             free = _with_verdict({"free"}, choices, answers)
@@ -226,8 +245,8 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     return _AllGears(len(elements), [])
 
 
-def _answered(train: GearTrain, choices: Sequence[_Choice]) -> list[Answer]:
-    """What the train does with each choice closed."""
+def _solve_choices(train: GearTrain, choices: Sequence[_Choice]) -> list[Answer]:
+    """Solve the speeds of the train with each choice of closed elements."""
     first = next(iter(train.declaration.states.values()))
     states = {_JOINER.join(each) or "none": State(engaged=each, inputs=first.inputs) for each in choices}
     return list(GearTrain(train.declaration.model_copy(update={"states": states})).answers())
@@ -253,7 +272,7 @@ def _with_verdict(kinds: Collection[str], choices: Sequence[_Choice], answers: S
 # ------------------------------------------------------------------------------------------------- series, as paths
 
 Links = Mapping[int, Sequence[int]]
-"""By gear, those that may come next."""
+"""Adjacency list: index of a gear -> indices of the gears that may follow it in a series."""
 
 
 def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single: bool) -> Links:
@@ -277,7 +296,7 @@ def _count(gears: Sequence[PossibleGear], links: Links, number: int) -> int:
 
 
 def _widest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
-    """Backwards from the ends: by gear and length, the way on that ends with the least ratio."""
+    """Find the series with the maximum spread, by dynamic programming from the last gear backwards."""
     ratios = [each.ratio or Fraction(0) for each in gears]
     best: list[tuple[Fraction, tuple[int, ...]] | None] = [(ratio, (at,)) for at, ratio in enumerate(ratios)]
     for _ in range(number - 1):
@@ -290,7 +309,10 @@ def _widest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSer
 
 
 def _evenest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
-    """By ends: between two of them the mean step is given, so that the least sum of squares of steps is most even."""
+    """Find the series with the minimum variance of the logarithms of the steps.
+
+    For given first and last gears the mean step is fixed, so the minimum sum of squared steps has the minimum variance.
+    """
     logs = [log(each.ratio or 1) for each in gears]
     best: tuple[float, int, tuple[int, ...]] | None = None
     for start in range(len(gears)):
@@ -307,7 +329,10 @@ _Way = tuple[float, int, tuple[int, ...]]
 def _evenest_from(
     start: int, gears: Sequence[PossibleGear], links: Links, number: int, logs: Sequence[float]
 ) -> dict[int, _Way]:
-    """By end, the way with the least sum of squares; of equal ones that with the fewest double shifts."""
+    """Find the path to every last gear with the minimum sum of squared steps, by dynamic programming.
+
+    Ties are broken by the number of double shifts.
+    """
     reach: dict[int, _Way] = {start: (0.0, 0, (start,))}
     for _ in range(number - 1):
         after: dict[int, _Way] = {}

@@ -1,15 +1,15 @@
-"""A train that answers: the whole package on one page. Each part of an answer is made when it is first requested."""
+"""Gear train with methods for all computations of the package. Results are computed at the first request and cached."""
 
 from __future__ import annotations
 
 import html
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, final, overload
 
-from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.results import picture_maker
@@ -38,12 +38,12 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True, eq=False, repr=False)
 class GearTrain:
-    """A declared train that answers questions. Parts are made once, when first requested, and kept.
+    """Declared train with methods for all computations. Results are computed at the first request and cached.
 
     Raises
     ------
     DeclarationError
-        By the first question that needs a part which the declaration cannot give, such as a tree of turning pairs.
+        By the first method that needs a part which the declaration does not determine, such as a tree of turning pairs.
 
     See Also
     --------
@@ -51,13 +51,13 @@ class GearTrain:
 
     Notes
     -----
-    Speeds follow from the Willis equation of each gear pair, docs/theory.md (4); torques from the transpose of that
-    system, docs/torques.md (1) to (3); motion with real teeth from their transmission functions, composed in the
-    solved order of the train, docs/motion.md (3).
+    Speeds follow from the Willis equation of each gear pair, docs/theory.md (4). Torques follow from the transpose of
+    that system, docs/torques.md (1) to (3). Motion with real teeth follows from their transmission functions, composed
+    in the solved order of the train, docs/motion.md (3).
 
     Examples
     --------
-    A pinion of 20 turns a wheel of 60, against a torque of 3 on it; teeth without losses pass on the whole power.
+    A pinion with 20 teeth drives a wheel with 60 against a torque of 3. Without losses all power is transmitted.
 
     >>> train = GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 60}}},
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
@@ -71,34 +71,35 @@ class GearTrain:
     """
 
     declaration: Train
-    """What is declared, checked already: `geartrain.load` and `declare` make it from files and plain data."""
+    """Validated declaration. `geartrain.load` and `declare` build it from files and plain data."""
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Speeds and judged outputs in one state, by propagation along components and exact elimination.
+        """Solve the speeds in one state, by propagation along components and exact elimination, and evaluate the
+        outputs.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
         output : str, optional
-            An output or a link: only the circuits that drive it are solved.
+            An output or a link; only the circuits that drive it are solved.
         method : {"auto", "exact", "sparse"}
-            "auto" is exact unless the coupled system is too dense for it. "sparse" factorises `equations().matrix()` in
-            float64 and reports residuals, condition numbers and errors; "floats" is its older name. Speeds in radians
-            beside others in turns are rounded to floats in any case.
+            "auto" is exact unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in
+            float64 and reports residuals, condition numbers and errors; "floats" is its older name. If a train mixes
+            speeds in radians and in turns, those in radians are rounded to floats with any method.
 
         Returns
         -------
         Answer
-            Speeds by link, outputs judged against what is expected and wanted, and the verdict: a train that is locked
-            or free is not an error.
+            Speeds by link, outputs compared with their expected and requested values, and the verdict. A locked or free
+            train is not an error.
 
         Raises
         ------
         QuestionError
-            For a state, an output or a method that does not exist.
+            If the state, the output or the method does not exist.
         """
-        return self.kinematics.solve(state, output, method)
+        return replace(self.kinematics.solve(state, output, method), _declaration=self.declaration, _output=output)
 
     @overload
     def torques(self, state: str | None = None) -> Torques: ...
@@ -123,39 +124,42 @@ class GearTrain:
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
     ) -> Torques | TorqueCycle:
-        """Torques on links and pairs, and the flow of power, under the loads of one state: means, or over a turn.
+        """Compute torques on links and pairs, and the power flow, under the loads of one state: mean values, or over a
+        run.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
         turns : float, optional
-            Turns of the input, above 0: the torque at every position of this run, with the ratio and the friction that
-            real teeth, pins and bearings have there. Without it exact torques at mean speeds.
+            Revolutions of the input, above 0. The torque is computed at every position of this run, with the
+            instantaneous ratio and friction of real teeth, pins and bearings. Without it, torques are exact at mean
+            speeds.
         samples : int
-            Positions of such a run, 2 or more; corners and jumps come on top.
+            Number of positions of such a run, at least 2; kinks and jumps are added.
         of : str, optional
-            The link whose torque over a turn is requested, by default the crank or input.
+            Link whose torque over the run is requested, by default the crank or input.
         on_done : callable, optional
-            Called with the number of positions that have been worked out since.
+            Progress function, called with the number of positions computed since the last call.
 
         Returns
         -------
         Torques or TorqueCycle
-            With a verdict: self-locking, or loads that do not balance, are not errors.
+            Result with a verdict. Self-locking, or loads that do not balance, are not errors.
 
         Raises
         ------
         QuestionError
-            If the train does not move, or turns or link cannot be used.
+            If the train does not move, or the number of revolutions or the link is invalid.
         """
         if turns is not None:
             from geartrain.dynamics.turn import train_turn
 
-            return train_turn.solve(self.mechanics, state, turns, samples, of, on_done)
+            cycle = train_turn.solve(self.mechanics, state, turns, samples, of, on_done)
+            return replace(cycle, _declaration=self.declaration)
         from geartrain.dynamics.torques import train_torques
 
-        return train_torques.solve(self.mechanics, state)
+        return replace(train_torques.solve(self.mechanics, state), _declaration=self.declaration)
 
     def motion(
         self,
@@ -165,27 +169,29 @@ class GearTrain:
         tolerance: float | None = None,
         fast: bool | None = None,
     ) -> Motion:
-        """The motion of some outputs or links with real teeth and pins: transmission functions, composed.
+        """Compute the motion of some outputs or links with real teeth and pins, by composition of transmission
+        functions.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
         outputs : sequence of str
-            Outputs or links; by default all outputs, and all links of a train without any.
+            Outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs left out, so that real teeth do not contradict each other around a loop.
+            Pairs to ignore, so that real teeth do not contradict each other around a loop.
         tolerance : float, optional
-            Read transmission functions from tables of this accuracy [pitch], several times faster.
+            Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
+            evaluation.
         fast : bool, optional
-            Whether compiled kernels follow the motion, the same to 1e-12 rad and about ten times as fast; by default
-            where numba is installed and there are so many positions that it pays to load it. Pairs that depend on each
-            other are followed without kernels.
+            True to use compiled kernels, equal to 1e-12 rad and about ten times as fast. By default they are used if
+            numba is installed and there are enough positions to justify loading it. Pairs that depend on each other
+            never use them.
 
         Returns
         -------
         Motion
-            A function of the position of the input.
+            Motion as a function of the position of the input.
 
         Raises
         ------
@@ -196,15 +202,17 @@ class GearTrain:
         from geartrain.dynamics.motion.motion_problem import find_motion_problem
 
         wanted = self.kinematics.seen_links(state, outputs)
-        return Motion(find_motion_problem(self.mechanics, state, without), wanted, tolerance, fast)
+        motion = Motion(find_motion_problem(self.mechanics, state, without), wanted, tolerance, fast)
+        motion._declaration, motion._state, motion._without = self.declaration, state, tuple(without)
+        return motion
 
     def report(self) -> Any:
-        """Everything about the train as one document: answers, structure, teeth, torques, motion, doubts and errata.
+        """Build a document about the train: speeds, structure, teeth, torques, motion, uncertain data and errata.
 
         Returns
         -------
         geartrain.report.Document
-            Its text is Markdown, `geartrain.report.to_html` makes a page of it.
+            Document whose text is Markdown; `geartrain.report.to_html` converts it to HTML.
 
         Examples
         --------
@@ -223,32 +231,32 @@ class GearTrain:
         labels: bool = True,
         outputs: Sequence[str] = (),
     ) -> Any:
-        """A picture of the train, as a figure of matplotlib that notebooks show: `geartrain.drawing.picture`.
+        """Draw the train as a matplotlib figure, which notebooks display; see `geartrain.drawing.picture`.
 
         Parameters
         ----------
         kind : {"plan", "stick", "graph", "lever", "dials"}
-            What kind of picture.
+            Kind of picture.
         state : str, optional
-            Its name; by default the first, of "lever" all.
+            Name of a state; by default the first, for "lever" all states.
         turns : Fraction
-            Of the input since the pose where all angles are zero [turn]; counts for "plan" and "dials".
+            Revolutions of the input since the pose in which all angles are zero [turn]; used by "plan" and "dials".
         labels : bool
-            Names and numbers beside what is drawn.
+            True to add names and numbers.
         outputs : sequence of str
-            Those whose dials are drawn; by default all.
+            Outputs whose dials are drawn; by default all.
         """
         return picture_maker("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
 
     def view(self, state: str | None = None, height: int = 620) -> Any:
-        """The train as it turns, for a notebook: `geartrain.viewer.EmbeddedPage`.
+        """Return an animated view of the train for a notebook, a `geartrain.viewer.EmbeddedPage`.
 
         Parameters
         ----------
         state : str, optional
-            One of its states; by default all, to be chosen among.
+            Name of a state; by default all states can be selected.
         height : int
-            Of the frame [px].
+            Height of the frame [px].
         """
         return picture_maker("viewer", "EmbeddedPage")(self, state, height)
 
@@ -256,7 +264,7 @@ class GearTrain:
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
-        """A train from plain data; circuits and cases are found no sooner than they are requested.
+        """Build a train from plain data; circuits and cases are found when they are first requested.
 
         Parameters
         ----------
@@ -266,9 +274,9 @@ class GearTrain:
         Raises
         ------
         DeclarationError
-            With the place of everything that is wrong.
+            If the data are invalid. The message names the place of every error.
         """
-        if "extends" in data or "reconstruct" in data:  # evidence is refused there
+        if "extends" in data or "reconstruct" in data:  # `read_declaration` rejects evidence
             from geartrain.train.declaration_files import read_declaration
 
             return cls(read_declaration(data))
@@ -276,24 +284,24 @@ class GearTrain:
 
     @property
     def name(self) -> str:
-        """The declared name."""
+        """Declared name of the train."""
         return self.declaration.name
 
     @property
     def states(self) -> tuple[str, ...]:
-        """Names of the declared states; empty for a train that has only one way to run."""
+        """Names of the declared states; empty if the train has only one."""
         return tuple(self.declaration.states)
 
     @property
     def circuits(self) -> tuple[Circuit, ...]:
-        """One fundamental circuit for each gear pair and coupling."""
+        """Fundamental circuits, one for each gear pair and coupling."""
         return self.kinematics.circuits
 
     @cached_property
     def graph(self) -> Graph:
-        """The networkx graph in the first state: links are nodes; turning pairs, gear pairs and couplings edges.
+        """Graph of networkx in the first state: links are nodes; turning pairs, gear pairs and couplings are edges.
 
-        What they carry is said in `geartrain.analysis.build_train_graph`, which gives the graph of any state.
+        `geartrain.analysis.build_train_graph` documents the attributes, and builds the graph of any state.
         """
         from geartrain.analysis.train_graph import build_train_graph
 
@@ -301,16 +309,17 @@ class GearTrain:
 
     @property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth, each with its transmission function; empty where none declares a form.
+        """Gear pairs with real teeth, each with its transmission function; empty if no pair declares a tooth form.
 
-        Each is driven as in the first state that tells who drives it; `mechanics.meshes_in` has those of another.
+        The driving side of each pair is that of the first state in which it is determined. `mechanics.meshes_in`
+        returns the pairs of another state.
         """
         return self.mechanics.meshes
 
     # ------------------------------------------------------------------------------------------ speeds and equations
 
     def answers(self) -> Iterator[Answer]:
-        """The answer of every state, in the order declared."""
+        """Yield the solved speeds of every state, in the order of declaration."""
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
@@ -319,34 +328,34 @@ class GearTrain:
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:
-        """The labelled Willis system of one state (docs/theory.md, 6).
+        """Return the labelled Willis system of one state (docs/theory.md, 6).
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
         """
         return self.kinematics.equations(state)
 
     def formula(self, output: str, state: str | None = None) -> OutputFormula:
-        """An output as a function of the tooth counts of the wheels and the speeds of the inputs.
+        """Return an output as a function of the tooth counts of the wheels and the speeds of the inputs.
 
         Parameters
         ----------
         output : str
             One of the declared outputs.
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
 
         Returns
         -------
         OutputFormula
-            As text, LaTeX or an expression of sympy, in lowest terms; exact.
+            Exact formula in lowest terms, available as text, LaTeX or a sympy expression.
 
         Raises
         ------
         QuestionError
-            For an output or a state that does not exist, or where the inputs do not determine the output.
+            If the output or the state does not exist, or if the inputs do not determine the output.
 
         Examples
         --------
@@ -360,32 +369,32 @@ class GearTrain:
         found = next(speed_formulas(self.declaration, self.declaration.single_state(state), (output,)), None)
         if found is None:
             what, why = f"output '{output}' has no formula", "the inputs do not determine it"
-            raise QuestionError(Problem(what, why, "see `geartrain check` for what is missing"))
+            raise QuestionError(Problem(what, why, "`geartrain check FILE` shows which inputs are missing"))
         return found
 
     def variants(
         self, counts: Mapping[str, Iterable[int]], outputs: Sequence[str] = (), state: str | None = None
     ) -> TrainVariants:
-        """Outputs of all trains that have some of these tooth counts: every combination, by exact formulas at once.
+        """Compute outputs for every combination of some tooth counts at once, by exact formulas.
 
         Parameters
         ----------
         counts : mapping of str to iterable of int
-            Counts to try, by wheel.
+            Wheel -> tooth counts to evaluate.
         outputs : sequence of str
-            Some outputs; by default all.
+            Names of outputs; by default all.
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
 
         Returns
         -------
         TrainVariants
-            A table in float64 with bounds of its errors; `exact` gives fractions.
+            Table in float64 with error bounds; its method `exact` returns fractions.
 
         Raises
         ------
         QuestionError
-            For wheels, outputs or states that do not exist, and for more than 10^8 combinations.
+            If a wheel, output or state does not exist, or if there are more than 10^8 combinations.
 
         Examples
         --------
@@ -399,7 +408,7 @@ class GearTrain:
         return find_variants(self.declaration, self.declaration.single_state(state), counts, outputs)
 
     def gearbox(self, output: str | None = None) -> Gearbox:
-        """All states of a train with clutches: ratios, steps, speeds, slip and torques of elements, circulating power.
+        """Compute ratios, steps, speeds, slips, torques and recirculating power of all states of a train with clutches.
 
         Parameters
         ----------
@@ -409,12 +418,12 @@ class GearTrain:
         Returns
         -------
         Gearbox
-            A state that is free or locked is one like others: neutral, and park.
+            Results of all states. Free and locked states are included: neutral and park.
 
         Raises
         ------
         QuestionError
-            For a train that declares no clutches, no states, or no input that turns.
+            If the train declares no clutches, no states, or no input that turns.
 
         Examples
         --------
@@ -431,34 +440,39 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """What of the train cannot be built, and what is unwise, by the declaration alone (docs/buildability.md)."""
+        """Parts of the train that cannot be built or are inadvisable, by its declaration (docs/buildability.md)."""
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Whether the teeth of every loop meet, where positions of axes are declared, and angles to put wheels in."""
+        """Phasing of the teeth of every loop if positions of axes are declared, and the angles at which to mount the
+        wheels.
+        """
         from geartrain.kinematics.phasing import find_phasing
 
         backlash = {mesh.name: mesh.backlash for mesh in self.mechanics.teeth}
-        return find_phasing(self.declaration, self.kinematics.tree, self.circuits, backlash)
+        found = find_phasing(self.declaration, self.kinematics.tree, self.circuits, backlash)
+        _ = found.kind  # judged here, so that its line at the prompt computes nothing
+        return found
 
     # ------------------------------------------------------------------------------------ loads, and motion in time
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
-        """Torques while a unit of power leaves at one link, driven from another: efficiency, or self-locking.
+        """Compute torques for a unit of output power at one link, driven from another: efficiency, or self-locking.
 
         Parameters
         ----------
         load, source : str
-            Two links: where the power leaves, and where it enters.
+            Links at which the power leaves and enters.
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
         """
         from geartrain.dynamics.torques import train_torques
 
-        return train_torques.solve_driven(self.mechanics, load, source, state)
+        found = train_torques.solve_driven(self.mechanics, load, source, state)
+        return replace(found, _declaration=self.declaration)
 
     def strength(
         self,
@@ -469,34 +483,37 @@ class GearTrain:
         wear: tuple[float, float] | None = None,
         over: float | None = None,
     ) -> Any:
-        """Pressures, root stresses, safety factors and wear under the loads of one state (docs/strength.md).
+        """Compute contact pressures, root stresses, safety factors and wear under the loads of one state
+        (docs/strength.md).
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
         turns : float, optional
-            Turns of the input over which wear is counted, above 0.
+            Revolutions of the input over which wear accumulates, above 0.
         years : float, optional
-            The same by years of 365.25 days, where the unit of speeds or a `rate` says how fast the train runs.
+            The same duration in years of 365.25 days; the unit of speeds or a `rate` must determine the speed of the
+            train.
         wear : tuple of float, optional
-            Least and greatest wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
+            Minimum and maximum wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
         over : float, optional
-            Turns of the input: stresses are those of the greatest torque of each pair in them, with the ratios and the
-            friction that teeth and pins have at every position; by default those of its mean torque.
+            Revolutions of the input from which the maximum torque of each pair is taken, with the instantaneous ratios
+            and friction of teeth and pins. By default stresses are computed from the mean torque.
 
         Returns
         -------
         geartrain.simulation.TrainStrength
-            With a verdict: where torques do not follow from the loads there is nothing else.
+            Result with a verdict. If the loads do not determine the torques, all else is empty.
 
         Raises
         ------
         QuestionError
-            If loads have no unit, time is given twice or cannot be calculated, or K is not a range.
+            If loads have no unit, if the duration is given twice or cannot be calculated, or if K is not a range.
         """
         strength = wing("simulation.strength.train_strength")
-        return strength.solve_strength(self.mechanics, state, strength.Service(turns, years, wear), over)
+        found = strength.solve_strength(self.mechanics, state, strength.Service(turns, years, wear), over)
+        return replace(found, _declaration=self.declaration)
 
     def dynamics(
         self,
@@ -514,59 +531,59 @@ class GearTrain:
         on_done: Callable[[float], object] = lambda _: None,
         model: Literal["rigid", "compliant"] = "rigid",
     ) -> Any:
-        """Motion in time: inertia, backlash, impacts, drag and friction (docs/dynamics.md).
+        """Simulate the motion in time with inertia, backlash, impacts, drag and friction (docs/dynamics.md).
 
-        Rigid teeth by nonsmooth time stepping; teeth that yield by their stiffness and damping, with peaks of torque
-        and dynamic factors in place of impulses.
-
-        Two runs are made, of steps h and h/2; what differs between them is marked, and all else is of the second.
+        Rigid teeth are simulated by nonsmooth time stepping. Compliant teeth have stiffness and damping; their results
+        are peak torques and dynamic factors instead of impulses. Two runs are made, with steps h and h/2. Figures that
+        differ between the runs are marked, and all results are those of the second run.
 
         Parameters
         ----------
         rate : str or float, optional
-            Speed of the first input that turns, the way it is declared to, as text such as "1 turn/s" or a number
-            [rad/s]; by default the declared drive.
+            Speed of the first input that turns, in its declared sense, as text such as "1 turn/s" or a number [rad/s];
+            by default the declared drive.
         turns : float
-            Turns of that input that are counted, in its mean motion.
+            Revolutions of that input that are evaluated, in its mean motion.
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only if the train has no states.
         skip : float
-            Turns before, which are not counted.
+            Preceding revolutions that are not evaluated.
         steps : int, optional
-            Steps of the first run in a turn; by default 200 in the shortest period of a pair.
+            Steps of the first run per revolution; by default 200 in the shortest period of a pair.
         restitution : float, optional
-            Of all impacts, in place of what is declared.
+            Coefficient of restitution of all impacts; it overrides the declared values.
         outputs : sequence of str
-            Outputs or links; by default all outputs, and all links of a train without any.
+            Outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs left out, so that real teeth do not contradict each other around a loop.
+            Pairs to ignore, so that real teeth do not contradict each other around a loop.
         samples : int, optional
-            Samples that are kept; by default 12 in the shortest period of a pair, 40000 at most.
+            Number of samples to record; by default 12 in the shortest period of a pair, at most 40000.
         fast : bool, optional
-            Whether kernels are compiled, by the extra `fast`; by default if the run is long and numba is installed.
+            True to compile kernels (extra `fast`); by default if the run is long and numba is installed.
         on_done : callable
-            Called with the share of the work that each stretch adds [0 to 1]. Where it returns True, no more is done,
-            and what was found in the first run is reported.
+            Progress function, called with the additional share of the work that is done [0 to 1]. If it returns True,
+            the run stops and the results of the first run are reported.
         model : {"rigid", "compliant"}
-            Whether teeth yield; then each pair that is not to keep its ratio needs a `stiffness`.
+            Model of the teeth. With "compliant" each pair that does not keep its ratio needs a `stiffness`.
 
         Returns
         -------
         geartrain.simulation.TimeRun
-            Angles, speeds, torques, shares of time apart, impacts, energy.
+            Angles, speeds, torques, shares of time without contact, impacts, energy.
 
         Raises
         ------
         QuestionError
-            If the train does not move, nothing says how fast, a link that can move by itself has no inertia, or nothing
-            says how stiff teeth are that are to yield.
+            If the train does not move, its speed is not given, a link that can move by itself has no inertia, or the
+            stiffness of compliant teeth is not given.
         GearTrainError
-            If redundant loops have teeth that cannot turn together, or friction locks teeth.
+            If redundant loops have teeth that cannot turn together, or if friction locks teeth.
         """
         driven = wing("simulation.time.train_in_time").DrivenTrain(
             self.mechanics, state, rate, restitution, outputs, without
         )
-        return driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
+        found = driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
+        return replace(found, _declaration=self.declaration, _without=tuple(without))
 
     def simulation(
         self,
@@ -579,28 +596,29 @@ class GearTrain:
         without: Sequence[str] = (),
         fast: bool | None = False,
     ) -> Any:
-        """A train that moves in time step by step, and may be steered on the way; the steps are those of `dynamics`.
+        """Build a simulation that advances step by step and can be controlled in between; the steps are those of
+        `dynamics`.
 
         Parameters
         ----------
         rate, state, restitution, outputs, without
-            As of `dynamics`; teeth are rigid.
+            The same as for `dynamics`; teeth are rigid.
         step : float, optional
-            Length of a step [s]; by default that of the finer run of `dynamics`.
+            Length of a step [s]; by default the step of the finer run of `dynamics`.
         fast : bool, optional
-            Whether kernels are compiled, by the extra `fast`; None: if numba is installed.
+            True to compile kernels (extra `fast`); None to do so if numba is installed.
 
         Returns
         -------
         geartrain.simulation.Simulation
-            At time 0.
+            Simulation at time 0.
 
         Raises
         ------
         QuestionError
-            As from `dynamics`.
+            In the cases of `dynamics`.
         GearTrainError
-            As from `dynamics`.
+            In the cases of `dynamics`.
         """
         driven = wing("simulation.time.train_in_time").DrivenTrain(
             self.mechanics, state, rate, restitution, outputs, without
@@ -608,30 +626,30 @@ class GearTrain:
         return driven.simulation(step, fast)
 
     def _driven(self, *requested: Any) -> Any:
-        """The train driven in time in one state, from the wing `simulation`."""
+        """Return the train driven in time in one state, from the optional package `simulation`."""
         return wing("simulation.time.train_in_time").DrivenTrain(self.mechanics, *requested)
 
     # ----------------------------------------------------------------------------------------------------- other trains
 
     def with_teeth(self, counts: Mapping[str, int] | None = None, **more: int) -> GearTrain:
-        """The train with other tooth counts on some wheels.
+        """Return the train with other tooth counts on some wheels.
 
         Parameters
         ----------
         counts : mapping of str to int, optional
-            Tooth count by wheel.
+            Wheel -> tooth count.
         **more : int
-            The same for wheels whose names are words of Python.
+            Tooth counts of wheels whose names are Python identifiers.
 
         Returns
         -------
         GearTrain
-            A new one; what is expected of outputs stays as declared.
+            A new train. Expected values of outputs remain as declared.
 
         Raises
         ------
         QuestionError
-            For wheels that do not exist, and for what is not a tooth count.
+            If a wheel does not exist or a value is not a tooth count.
 
         Examples
         --------
@@ -644,26 +662,26 @@ class GearTrain:
         return GearTrain(with_counts(self.declaration, {**(counts or {}), **more}))
 
     def with_changes(self, changes: Mapping[str, Any] | None = None, **more: Any) -> GearTrain:
-        """The train with other values of any keys of its declaration.
+        """Return the train with other values of any keys of its declaration.
 
         Parameters
         ----------
         changes : mapping, optional
-            Keys of a declaration with their values, laid over this one as by `extends`: entries of `links`, `gears`,
-            `outputs` and the like are merged by name, other values such as `inputs` and `tooth_form` replace the old
-            ones, None unsets a key, and `remove` takes entries away.
+            Keys of a declaration with their values, applied in the same way as by `extends`. Entries of `links`,
+            `gears`, `outputs` and the like are merged by name, other values such as `inputs` and `tooth_form` are
+            replaced, None deletes a key, and `remove` deletes entries.
         **more : object
-            The same for keys as words of Python.
+            The same for keys that are Python identifiers.
 
         Returns
         -------
         GearTrain
-            A new one; what is expected of outputs stays as declared, and states that declare inputs keep them.
+            A new train. Expected values of outputs remain as declared, and states that declare inputs keep them.
 
         Raises
         ------
         DeclarationError
-            For changes that a declaration does not allow.
+            If a declaration does not allow the changes.
 
         Examples
         --------
@@ -678,10 +696,64 @@ class GearTrain:
 
         return GearTrain(change_declaration(self.declaration, {**(changes or {}), **more}))
 
+    def with_tooth_form(self, form: str, pairs: Sequence[str] = (), **parameters: Any) -> GearTrain:
+        """Return the train with teeth of another form.
+
+        Parameters
+        ----------
+        form : str
+            Name of the form: "involute", "cycloidal", "triangular" or another one listed by `geartrain mesh -h`;
+            "ideal" for teeth without errors and losses.
+        pairs : sequence of str
+            Names of gear pairs; by default all pairs of the train, including those that declare a form.
+        **parameters : object
+            Parameters of the form as in a declaration, such as ``pressure_angle="25 deg"``; by default those of the
+            form. Triangular teeth have no defaults in a declaration. Here their `half_angle` is 30 deg, the
+            equilateral tooth of figures 3 to 5 of F. Sorge, "A note on the mechanics of ancient gear systems". Without
+            another clearance their `window` is 0.5, the middle between jamming and loss of contact (docs/teeth.md,
+            section 5).
+
+        Returns
+        -------
+        GearTrain
+            A new train.
+
+        Raises
+        ------
+        QuestionError
+            If the form or a pair does not exist.
+        DeclarationError
+            If a parameter is unknown or has an invalid value.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> train = geartrain.load("planetary-24-18-60").with_tooth_form("triangular")
+        >>> [mesh.verdict.text for mesh in train.meshes]
+        ['the wheels turn', 'the wheels turn']
+        >>> train.with_tooth_form("involute", pairs=["s~p"], pressure_angle="25 deg").meshes[0].form
+        'involute'
+        """
+        from geartrain.teeth.any_tooth_form import tooth_forms
+
+        known = tooth_forms()
+        check_choice("tooth form", form, known)
+        declared = {gear.name: gear for gear in self.declaration.gears}
+        for pair in pairs:
+            check_choice("gear pair", pair, declared)
+        teeth = {"form": form, **known[form].with_defaults(parameters)}
+        own = None if not pairs else teeth
+        changes: dict[str, Any] = {} if pairs else {"tooth_form": teeth}
+        changes["gears"] = [
+            {**({"id": gear.id} if gear.id else {}), "pair": list(gear.pair), "tooth_form": own}
+            for gear in (declared[name] for name in pairs or declared)
+        ]
+        return self.with_changes(changes)
+
     @property
     def unfolded(self) -> GearTrain:
-        """The train with each of its equal planets declared; itself where no link stands for several (`copies`)."""
-        # not kept where it is the train itself: that would hold itself
+        """Train with each of its equal planets declared; the train itself if no link represents several (`copies`)."""
+        # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
     @cached_property
@@ -692,12 +764,12 @@ class GearTrain:
 
     @cached_property
     def kinematics(self) -> TrainKinematics:
-        """What follows without teeth: tree, signs of axes, cases, gridlock, speeds in floats, sensitivity."""
+        """Results that do not depend on teeth: tree, signs of axes, cases, gridlock, speeds in floats, sensitivity."""
         return TrainKinematics(self.declaration)
 
     @cached_property
     def mechanics(self) -> TrainMechanics:
-        """What follows from teeth and loads: who drives each pair, faults, pins, the case of torques."""
+        """Results that depend on teeth and loads: driving side of each pair, tooth errors, pins, torques."""
         from geartrain.dynamics.train_mechanics import TrainMechanics
 
         return TrainMechanics(self.kinematics)
@@ -721,28 +793,29 @@ class GearTrain:
 
 
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
-    """A train from a YAML file, the name of a shipped train, YAML text, or plain data.
+    """Load a train from a YAML file, the name of a shipped train, YAML text, or plain data.
 
-    All circuits and cases are found here, so that whatever is wrong with the declaration is reported at once.
+    All circuits and cases are found here, so that every error of the declaration is reported at once.
 
     Parameters
     ----------
     source : str, Path or mapping
-        A path; the name of a shipped train, see `geartrain.shipped`; YAML of several lines; or its keys as plain data.
+        A path, the name of a shipped train (see `geartrain.shipped`), YAML of several lines, or its keys as plain data.
 
     Returns
     -------
     GearTrain
-        Only its circuits and cases are worked out yet.
+        Train whose circuits and cases are computed; all else is computed at the first request.
 
     Raises
     ------
     DeclarationError
-        With the place (`file:line`) of everything that is wrong, and what to do about it.
+        If the declaration is invalid. The message names the place (`file:line`) and the fix of every error.
 
     Examples
     --------
-    A planetary gear of 24, 18 and 60 teeth whose ring is held: the carrier makes 24 / (24 + 60) of a turn.
+    A planetary gear set with 24, 18 and 60 teeth and a fixed ring: the carrier makes 24 / (24 + 60) revolutions per
+    revolution of the sun.
 
     >>> train = load("planetary-24-18-60")
     >>> train.solve()["carrier"]

@@ -1,4 +1,4 @@
-"""Gearboxes: all states of a train with clutches side by side, as an engineer lays them out."""
+"""Gearbox analysis: ratios, steps, slip, torques and power flow of all states of a train with clutches."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.dynamics.torques.power_flow import PowerNode, PowerStream, find_circulation, find_power_flow
 from geartrain.dynamics.torques.train_torques import solve_driven
@@ -27,7 +27,7 @@ ElementKind = Literal["brake", "clutch"]
 
 @dataclass(frozen=True)
 class GearState(Result):
-    """One state of a gearbox."""
+    """Results of one state of a gearbox."""
 
     KEYS = (
         "state",
@@ -45,37 +45,40 @@ class GearState(Result):
     )
 
     state: str
-    """Its name."""
+    """Name of the state."""
     engaged: tuple[str, ...]
-    """Elements that are closed."""
+    """Closed shift elements."""
     verdict: Verdict
-    """Neutral is free, park is locked."""
+    """Verdict of the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
-    """Input over output; None where one of them is at rest or the output is not determined."""
+    """Speed of the input over speed of the output; None if one of them is at rest or the output is not determined."""
     step: Fraction | None
-    """This ratio over that of the next state; None where one of them runs backwards."""
+    """Ratio of this state over the ratio of the next; None if their senses differ or one of them has no ratio."""
     driven_by: str
-    """The link whose speed is the unit of `speeds` and `slips`: the input, or where that is at rest in this state
-    the first input that turns; empty if none does, and speeds are those declared."""
+    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first input that turns if that is at
+    rest. Empty if no input turns; speeds are then those declared.
+    """
     speeds: Mapping[str, Fraction]
-    """Speed of each determined link, over that of `driven_by`."""
+    """Determined link -> its speed over the speed of `driven_by`."""
     slips: Mapping[str, Fraction]
-    """By open element, speed of the link it fixes, or of the first it locks relative to the second, over that of
-    `driven_by`."""
+    """Open element -> slip over the speed of `driven_by`: the speed of the link that it fixes, or of the first link
+    that it locks relative to the second.
+    """
     torques: Mapping[str, Fraction | None]
-    """By closed element, what it exerts on the link it fixes, or on the first it locks, over the input's torque;
-    None where statics leaves it open."""
+    """Closed element -> torque that it exerts on the link that it fixes, or on the first link that it locks, over the
+    torque of the input; None if it is statically indeterminate.
+    """
     efficiency: Fraction | float | None
-    """Power out over power in."""
+    """Output power over input power."""
     recirculating: Fraction | None
-    """Power that runs round between gear sets, over power in."""
+    """Power that recirculates between gear sets, over input power."""
     inner: Fraction | None
-    """The same inside gear sets, where a carrier runs free."""
+    """Power that recirculates within gear sets, over input power; it occurs if a carrier turns freely."""
 
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """From one state to the next."""
+    """Shift from one state to the next."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -90,40 +93,52 @@ class Shift(Result):
 
     @property
     def is_double(self) -> bool:
-        """Whether more than one element must open, or more than one close: a double-transition shift."""
+        """True if more than one element opens or more than one closes (double-transition shift)."""
         return max(len(self.released), len(self.applied)) > 1
 
 
 @dataclass(frozen=True)
 class ShiftElement(Result):
-    """A clutch or a brake over all states."""
+    """Maximum torque and slip of a clutch or a brake over all states."""
 
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
     name: str
-    """Its name."""
+    """Name of the element."""
     kind: ElementKind
-    """Brake or clutch."""
+    """Kind of the element: "brake" or "clutch"."""
     states: tuple[str, ...]
-    """In which it is closed."""
+    """States in which the element is closed."""
     torque: Fraction | None
-    """Greatest torque over the torque of the input."""
+    """Torque of maximum magnitude, over the torque of the input."""
     torque_state: str
     """State in which that torque occurs."""
     slip: Fraction | None
-    """Greatest speed over the speed of the input while it is open."""
+    """Slip of maximum magnitude while the element is open, over the speed of the input."""
     slip_state: str
-    """State in which that speed occurs."""
+    """State in which that slip occurs."""
 
 
 @dataclass(frozen=True)
 class Gearbox(Tabular, Result):
-    """All states of a train with clutches.
+    """Results of all states of a train with clutches.
 
     See Also
     --------
-    geartrain.GearTrain.gearbox : gives it.
+    geartrain.GearTrain.gearbox : returns it.
     """
+
+    MEANINGS: ClassVar = {
+        "state": "Name of the state.",
+        "engaged": "Engaged clutches and brakes.",
+        "ratio": "Speed of the input over speed of the output [1].",
+        "step": "Ratio over the ratio of the next state [1].",
+        "efficiency": "Output power over input power [1].",
+        "recirculating": "Power that recirculates between gear sets, over input power [1].",
+        "speed of *": "Speed of the link over speed of the input [1].",
+    }
+
+    PAGE = "report.gearbox_report:describe_gearbox"
 
     KEYS = ("name", "title", "input", "output", Key("spread", to=as_float), "states", "elements", "shifts")
 
@@ -132,25 +147,31 @@ class Gearbox(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """The link that drives."""
+    """Driving link."""
     output: str
-    """The link that is driven."""
+    """Driven link."""
     states: tuple[GearState, ...]
-    """States in the order declared."""
+    """States in the order of declaration."""
     elements: tuple[ShiftElement, ...]
-    """Clutches and brakes in the order declared."""
+    """Clutches and brakes in the order of declaration."""
     shifts: tuple[Shift, ...]
-    """From each state to the next that runs the same way round."""
+    """Shifts from each state with a ratio to the next one with the same sense."""
+
+    def _summary(self) -> str:
+        ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)
+        return f"{self.name}: {len(self.states)} states, ratios {ratios}" + (", ..." if len(self.states) > 6 else "")
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each state: what is closed, ratio, step, efficiency, and the speeds of links over the input's."""
+        """Table with a row for each state: closed elements, ratio, step, efficiency, and speeds of links over the input
+        speed.
+        """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
-            name: [_told(getattr(each, name)) for each in self.states]
+            name: [_optional_float(getattr(each, name)) for each in self.states]
             for name in ("ratio", "step", "efficiency", "recirculating")
         }
-        speeds = {link: [_told(each.speeds.get(link)) for each in self.states] for link in links}
+        speeds = {link: [_optional_float(each.speeds.get(link)) for each in self.states] for link in links}
         return {
             "state": [each.state for each in self.states],
             "engaged": [", ".join(each.engaged) for each in self.states],
@@ -160,17 +181,17 @@ class Gearbox(Tabular, Result):
 
     @property
     def spread(self) -> Fraction | None:
-        """Greatest over least ratio of the forward states."""
+        """Maximum over minimum ratio of the forward states."""
         ratios = [each.ratio for each in self.states if each.ratio is not None and each.ratio > 0]
         return max(ratios) / min(ratios) if ratios else None
 
 
-def _told(value: Fraction | None) -> float | None:
+def _optional_float(value: Fraction | None) -> float | None:
     return None if value is None else as_float(value)
 
 
 def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
-    """All states of a train with clutches; see `GearTrain.gearbox`."""
+    """Compute the results of all states of a train with clutches; see `GearTrain.gearbox`."""
     source, link = gearbox_ends(train.declaration, output)
     answers = [train.kinematics.solve(name) for name in train.declaration.states]
     found = [_state(train, answer, source, link) for answer in answers]
@@ -181,19 +202,22 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
-    """The links at which power enters and leaves. Raises `QuestionError` for a train that is not a gearbox."""
+    """Return the links at which power enters and leaves; `QuestionError` if the train is not a gearbox."""
     if not declared.clutches or not declared.states:
-        what, why = f"'{declared.name}' is no gearbox", "it declares no `clutches` with `states` that engage them"
-        raise QuestionError(Problem(what, why, "declare `clutches`, and `states` with what is `engaged`"))
+        what, why = (
+            f"'{declared.name}' is not a gearbox",
+            "a gearbox declares `clutches`, and `states` that engage them",
+        )
+        raise QuestionError(Problem(what, why, "declare `clutches`, and `states` with lists of `engaged` clutches"))
     case = declared.case(declared.state_or_first(None))
     source = next((link for link, speed in case.inputs.items() if speed), None)
     if source is None:
         what = f"'{declared.name}' has no input that turns"
-        raise QuestionError(Problem(what, "ratios are over it", "declare `inputs`"))
+        raise QuestionError(Problem(what, "ratios are relative to the speed of an input", "declare `inputs`"))
     names = [name for name, each in case.outputs.items() if each.links(name, declared.frame)[0] != source]
     if output is None and not names:
         what = f"'{declared.name}' has no output"
-        raise QuestionError(Problem(what, "ratios are those of one", "declare `outputs`"))
+        raise QuestionError(Problem(what, "ratios are those of an output", "declare `outputs`"))
     if output is not None:
         check_choice("output", output, case.outputs)
     name = output or names[0]
@@ -229,7 +253,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Of what an element would hold still: a link to the frame, or one of two coaxial links to the other."""
+    """Return the relative speed of the two links that an element locks, or the speed of the link that it fixes."""
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -237,7 +261,7 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Torques while the train is driven from its input and a unit of power leaves at the output."""
+    """Compute torques while the input drives and a unit of power leaves at the output."""
     found = solve_driven(train, link, source, state)
     return found if found.verdict and found.external.get(source) else None
 
@@ -251,7 +275,7 @@ def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fr
 
 
 def _circulation(load: Torques) -> tuple[Fraction, Fraction] | None:
-    """Power that runs round between gear sets, and inside them, over power in."""
+    """Return the power that recirculates between gear sets, and within them, over input power."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None
@@ -262,7 +286,10 @@ def _circulation(load: Torques) -> tuple[Fraction, Fraction] | None:
 
 
 def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
-    """Streams with all pairs of a gear set as one node: pairs with one carrier that share a link beside it."""
+    """Return the power streams with all pairs of a gear set merged into one node.
+
+    A gear set is a group of pairs with the same carrier that are connected by shared links other than the carrier.
+    """
     sets: dict[str, str] = {}
     for carrier in dict.fromkeys(pair.links[2] for pair in load.pairs.values()):
         own = {name: pair.links[:2] for name, pair in load.pairs.items() if pair.links[2] == carrier}
@@ -276,6 +303,7 @@ def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
     net: dict[tuple[PowerNode, PowerNode], Fraction] = {}
     for stream in flow.streams:
         ends = node(stream.source), node(stream.target)
+        # opposite streams between the same nodes cancel
         net[ends] = net.get(ends, Fraction(0)) + stream.power - net.pop(ends[::-1], Fraction(0))
     directed = ((ends, power) if power > 0 else (ends[::-1], -power) for ends, power in net.items() if power)
     return [PowerStream(source, target, power) for (source, target), power in directed]

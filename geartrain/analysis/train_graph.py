@@ -1,4 +1,4 @@
-"""The graph of a train with all that is known of its links and pairs, each thing worked out when it is first read."""
+"""Graph of a train with attributes of its links and pairs; attributes are computed when first read."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ _GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind",
 
 
 def _refuse(*_: object, **__: object) -> NoReturn:
-    """Raise `QuestionError` for what would change the graph and not the train."""
-    what, why = "the graph of a train cannot be changed", "the answers of the train would not follow"
-    fix = "make another train: with_teeth or with_changes; or change a graph.copy()"
+    """Raise `QuestionError` for an attempt to change the graph."""
+    what, why = "the graph of a train cannot be changed", "its results would not agree with the train"
+    fix = "build another train by with_teeth or with_changes, or change a graph.copy()"
     raise QuestionError(Problem(what, why, fix))
 
 
 class _Attributes(LazyDict):
-    """Attributes of a link or pair: those of the train cannot be changed, others can."""
+    """Attributes of a link or pair. Attributes of the train are read-only, others can be set."""
 
     __slots__ = ()
     clear = popitem = _refuse
@@ -51,11 +51,11 @@ class _Attributes(LazyDict):
         super().__delitem__(key)
 
     def pop(self, key: str, *default: Any) -> Any:
-        """Take out a value that is not of the train."""
+        """Remove an attribute that does not belong to the train."""
         return _refuse() if key in _GIVEN else super().pop(key, *default)
 
     def update(self, *others: Any, **more: Any) -> None:
-        """Set values that are not of the train."""
+        """Set attributes that do not belong to the train."""
         for key, value in dict(*others, **more).items():
             self[key] = value
 
@@ -65,24 +65,24 @@ class _Attributes(LazyDict):
 
 
 def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
-    """The train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and couplings edges.
+    """Build the train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and couplings are edges.
 
-    Nodes carry `declared`, `frame` (True of the one at rest), `wheels`, `reference` (the link that holds its axis)
-    and `speed`; edges `kind`, `label`, `declared`, `axis`, and pairs also `circuit`, `carrier`, `ratio`, `form`,
-    `mesh` and `efficiency` (docs/library.md, 2). All but what is declared is worked out when it is read: a train that
-    cannot be solved has a graph too.
+    Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that
+    carries its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`,
+    `carrier`, `ratio`, `form`, `mesh` and `efficiency` (docs/library.md, 2). All attributes except the declared ones
+    are computed when they are read, so a train that cannot be solved has a graph too.
 
     Parameters
     ----------
     train : TrainMechanics
         `GearTrain.mechanics`.
     state : str, optional
-        A declared state; None only of a train that has none.
+        A declared state; None only if the train has no states.
 
     Returns
     -------
     networkx.MultiGraph
-        It cannot be changed; a copy can.
+        Read-only graph; a copy of it can be changed.
 
     Examples
     --------
@@ -114,10 +114,10 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
 
 def _frozen(graph: Graph) -> Graph:
-    """The graph, which refuses to be changed; attributes can be added to its nodes and edges."""
+    """Return the graph with its structure frozen; attributes can be added to nodes and edges."""
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
-    for name in vars(graph).keys() - before:  # the methods that it replaces
+    for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
         setattr(graph, name, _refuse)
     for *_, data in (*graph.nodes(data=True), *graph.edges(data=True)):
         data.__class__ = _Attributes
@@ -125,42 +125,42 @@ def _frozen(graph: Graph) -> Graph:
 
 
 class _GraphFacts:
-    """What nodes and edges ask of a train in one state; each kind of it is found once for all of them."""
+    """Values of the attributes of a train in one state, each computed once for all nodes and edges."""
 
     def __init__(self, train: TrainMechanics, state: str | None) -> None:
         self._train, self._state = train, state
 
     def reference(self, link: str) -> str | None:
-        """The link that holds the axis of another, in whose frame it turns; None of the frame."""
+        """Return the link that carries the axis of another, in whose frame it turns; None for the frame."""
         return self._train.tree.top.get(link)
 
     def speed(self, link: str) -> SpeedValue | None:
-        """The speed of a link in the state; None where it is not determined."""
+        """Return the speed of a link in the state; None if it is not determined."""
         return self._answer.speeds.get(link)
 
     def circuit(self, name: str) -> Circuit:
-        """The circuit that a pair closes."""
+        """Return the circuit that a pair closes."""
         return self._circuits[name]
 
     def carrier(self, name: str) -> str:
-        """The link that holds both axes of a pair."""
+        """Return the link that carries both axes of a pair."""
         return self._circuits[name].carrier
 
     def ratio(self, name: str) -> Fraction:
-        """Speed of the circuit's first link over that of its second, both as seen from the carrier."""
+        """Return the speed of the circuit's first link over the speed of its second, both relative to the carrier."""
         return self._circuits[name].ratio
 
     def axes(self, name: str) -> tuple[str, str]:
-        """The axes of a circuit's first and second link, as its carrier holds them."""
+        """Return the axes of a circuit's first and second link on its carrier."""
         circuit, tree = self._circuits[name], self._train.tree
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | PinMesh | None:
-        """A pair with real teeth as it is driven in the state, or a pin with dimensions."""
+        """Return a pair with real teeth as driven in the state, or a pin with dimensions; None for other pairs."""
         return self._meshes.get(name)
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
-        """Basic efficiencies of a pair with the first link of its circuit driving, then with the second."""
+        """Return the basic efficiencies of a pair with the first link of its circuit driving, and with the second."""
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
         found = find_mean_efficiencies(self._losses, self._circuits[name])
@@ -181,7 +181,7 @@ class _GraphFacts:
 
     @cached_property
     def _losses(self) -> LoadCase:
-        """The train as losses of a pair see it: with the carrier held, so that no speed has a part in them."""
+        """Load case for the losses of a pair, with fixed carriers, so that they do not depend on speeds."""
         from geartrain.dynamics.torques.load_case import LoadCase
 
         own = self._train

@@ -1,4 +1,4 @@
-"""One train with many tooth counts: all outputs of all of them at once, by their exact formulas."""
+"""Outputs of one train for many combinations of tooth counts at once, by exact formulas."""
 
 from __future__ import annotations
 
@@ -23,50 +23,54 @@ MOST_VARIANTS = 100_000_000
 
 @dataclass(frozen=True)
 class TrainVariants(Tabular, Result):
-    """Speeds of outputs by assignment of tooth counts. `found["moon"]` is a column: of an output, or of counts.
+    """Speeds of outputs for combinations of tooth counts. `found["moon"]` is the column of an output or a wheel.
 
     See Also
     --------
-    geartrain.GearTrain.variants : gives it.
+    geartrain.GearTrain.variants : returns it.
     """
 
     KEYS = ("wheels", "outputs", "counts", "speeds", "errors")
 
     wheels: tuple[str, ...]
-    """Columns of `counts`."""
+    """Wheels of the columns of `counts`."""
     outputs: tuple[str, ...]
-    """Columns of `speeds` and `errors`."""
+    """Outputs of the columns of `speeds` and `errors`."""
     counts: Ints
-    """A row an assignment, shape (n, wheels); the last wheel changes fastest."""
+    """Tooth counts, one combination per row, (n, wheels); the last wheel varies fastest."""
     speeds: Floats
-    """Shape (n, outputs) [unit of the train]; nan where a train is locked, free, or does not close a loop."""
+    """Speeds of the outputs [unit of the train], (n, outputs); nan if a train is locked, free, or does not close a
+    loop.
+    """
     errors: Floats
-    """Bounds on the relative errors of the speeds, infinite where no digit is sure; shape (n, outputs)."""
+    """Bounds of the relative errors of the speeds, (n, outputs); infinite if no digit is certain."""
     formulas: Formulas
-    """Where the speeds come from; `exact` asks them."""
+    """Exact formulas of the outputs, which `exact` evaluates."""
 
     def __len__(self) -> int:
         return len(self.counts)
 
-    def __repr__(self) -> str:
-        varied, told = ", ".join(self.wheels), ", ".join(self.outputs)
-        return f"<TrainVariants: {len(self)} trains by {varied}; {told}>"
+    def _summary(self) -> str:
+        return f"{len(self)} trains by {', '.join(self.wheels)}; {', '.join(self.outputs)}"
+
+    def _meaning(self, column: str) -> str:
+        return "Tooth count of the wheel." if column in self.wheels else "Speed of the output [unit of the train]."
 
     def __getitem__(self, name: str) -> Any:
-        """A column; `KeyError` for one there is not."""
+        """Return the column of an output or a wheel; `KeyError` if there is none."""
         if name in self.outputs:
             return self.speeds[:, self.outputs.index(name)]
         if name in self.wheels:
             return self.counts[:, self.wheels.index(name)]
-        raise KeyError(f"no column '{name}': there are {', '.join((*self.wheels, *self.outputs))}")
+        raise KeyError(f"no column '{name}'; columns are {', '.join((*self.wheels, *self.outputs))}")
 
     def exact(self, row: int, output: str) -> Fraction | None:
-        """The speed of one output in one row as a fraction; None where it has none.
+        """Return the speed of one output in one row as a fraction; None if it is undetermined.
 
         Parameters
         ----------
         row : int
-            Of the table.
+            Row of the table.
         output : str
             One of the outputs.
         """
@@ -75,14 +79,14 @@ class TrainVariants(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Counts, then speeds."""
+        """Columns of the counts, followed by those of the speeds."""
         return {name: self[name] for name in (*self.wheels, *self.outputs)}
 
 
 def find_variants(
     declared: Train, state: str | None, counts: Mapping[str, Iterable[int]], outputs: Sequence[str]
 ) -> TrainVariants:
-    """All combinations of some counts; see `GearTrain.variants`."""
+    """Compute the outputs of all combinations of some tooth counts; see `GearTrain.variants`."""
     case = declared.case(state)
     for name in outputs:
         check_choice("output", name, case.outputs)
@@ -90,12 +94,13 @@ def find_variants(
     number = prod(map(len, choices.values()))
     if number > MOST_VARIANTS:
         what = f"{number:,} assignments of counts are too many"
-        raise QuestionError(Problem(what, f"{MOST_VARIANTS:,} fit into memory", "ask for fewer counts at once"))
+        raise QuestionError(Problem(what, f"at most {MOST_VARIANTS:,} fit into memory", "request fewer counts"))
     formulas = find_formulas(declared, state, choices)
     names = tuple(name for name in (outputs or case.outputs) if name in formulas)
     grid = np.meshgrid(*(np.array(each, dtype=np.int64) for each in choices.values()), indexing="ij")
     columns = {wheel: axis.ravel() for wheel, axis in zip(choices, grid, strict=True)}
     speeds, errors = (np.empty((number, len(names))) for _ in range(2))
+    # combinations for which the train is neither locked nor free
     turns = np.ones(number, dtype=bool)
     for condition in formulas.conditions:
         turns &= condition.values(columns) == 0

@@ -79,13 +79,9 @@ def tell(text: str) -> None:
 
 
 def complain(error: GearTrainError) -> None:
-    """Every problem on standard error, and what makers and historians call the things that they name."""
-    from geartrain.train.trade_words import told_words
-
+    """Print every problem on standard error."""
     for problem in error.problems:
         tell(f"error: {problem}")
-    if words := told_words("\n".join(map(str, error.problems))):
-        tell(words)
 
 
 @dataclass(frozen=True)
@@ -150,15 +146,17 @@ def picture_sink(out: Path | None, force: bool, theme: ThemeName, option: str = 
 
 def check_distinct_outputs(*sinks: Sink) -> None:
     """Make sure that no two results of one command go into one file. Raises `GearTrainError`."""
-    from geartrain.numerics.files import destination
-
     taken: set[Path] = set()
     for each in sinks:
-        real = None if each.path is None else destination(each.path, each.force)
-        if real is not None and real in taken:
+        if each.path is None:
+            continue
+        from geartrain.numerics.files import destination
+
+        real = destination(each.path, each.force)
+        if real in taken:
             why = "the second would take the place of the first"
             raise GearTrainError(Problem("two results go into one file", why, "name two files", str(each.path)))
-        taken |= {real} if real is not None else set()
+        taken.add(real)
 
 
 def emit(text: str, out: Sink = STANDARD) -> None:

@@ -107,10 +107,10 @@ def _turns(text: str, motion: Motion) -> float:
 
 def _partial(to: Sink) -> Sink:
     """Where the figures of an interrupted run go. A table has a partial file of its own, which can be taken up."""
-    from geartrain.numerics.files import partial_name
-
     if to.path is None or to.suffix == ".csv":
         return STANDARD
+    from geartrain.numerics.files import partial_name
+
     return sink(partial_name(to.path), to.force)
 
 
@@ -132,12 +132,12 @@ def _report(
     stopped = False
     with progress("motion", work) as bar:
         try:
-            requested.go(bar.advance)
-            requested.try_phases(phases, seed, bar.advance)
+            requested.run(bar.advance)
+            requested.run_random_phases(phases, seed, bar.advance)
             if estimates:
-                requested.estimate(bar.advance)
+                requested.find_estimates(bar.advance)
             if spectrum:
-                requested.analyse(bar.advance)
+                requested.find_spectra(bar.advance)
         except KeyboardInterrupt:
             if not requested.done:
                 raise
@@ -155,11 +155,11 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
     from geartrain.numerics.files import LongTable, csv_line
 
     try:
-        with LongTable(out, csv_line(requested.position_columns), resume, force) as table:
+        with LongTable(out, csv_line(requested._position_columns), resume, force) as table:
             if resume and not table.rows:
                 tell(f"nothing to resume: there is no {table.partial}; the run begins anew")
             if table.rows:
-                requested.check_resumed(table.last(), table.rows)
+                requested._check_resumed(table.last(), table.rows)
             first = table.rows
             with progress("motion", requested.samples - first) as bar:
                 for rows in _rows(requested, first, header=False):
@@ -176,12 +176,12 @@ def _rows(requested: MotionRun, first: int, header: bool = True) -> Iterator[lis
     from geartrain.numerics.files import csv_line
 
     if header:
-        yield [csv_line(requested.position_columns)]
-    for passage in requested.motion.passages(requested.turns, requested.samples, first):
+        yield [csv_line(requested._position_columns)]
+    for passage in requested.motion._stretches(requested.turns, requested.samples, first):
         yield _lines(requested, passage)
 
 
 def _lines(requested: MotionRun, passage: ErrorSamples) -> list[str]:
     from geartrain.numerics.files import csv_lines
 
-    return csv_lines(zip(*(column.tolist() for column in requested.values(passage)), strict=True))
+    return csv_lines(zip(*(column.tolist() for column in requested._values(passage)), strict=True))

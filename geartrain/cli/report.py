@@ -32,13 +32,21 @@ def report(
     files: Files,
     out: Out = None,
     json: Json = False,
-    view: Annotated[bool, typer.Option("--view", help="Put the train itself into a page, to be turned there.")] = False,
+    section: Annotated[
+        list[str] | None,
+        typer.Option("--section", help="Print only sections whose title contains this word; repeatable."),
+    ] = None,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Print all sections, also formulas, circuits, sources.")
+    ] = False,
+    view: Annotated[bool, typer.Option("--view", help="Include the turning train in the page.")] = False,
     force: Force = False,
 ) -> None:
     """Report on trains: text within the terminal, 80 columns in a pipe; by the suffix of -o .md, .html or .json.
 
     A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
     """
+    from geartrain.report.document import without_details
     from geartrain.report.train_data import collect_report
     from geartrain.report.train_report import describe_train
 
@@ -54,7 +62,8 @@ def report(
 
         emit(to_html([_shared(train, view) for train in trains]), to)
     else:
-        show([describe_train(collect_report(train)) for train in trains], to)
+        pages = [describe_train(collect_report(train)) for train in trains]
+        show(pages if everything else [without_details(page, section or ()) for page in pages], to)
     raise typer.Exit(GOOD if good else VERDICT)
 
 

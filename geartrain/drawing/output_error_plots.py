@@ -25,6 +25,7 @@ from geartrain.drawing.style import (
     kept_extremes,
     legend_above,
     name_axes,
+    plain,
     short,
 )
 from geartrain.dynamics.motion.motion_run import MotionRun
@@ -104,7 +105,7 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     ranked = sorted(erring, key=lambda trace: -float(np.ptp(trace.error))) or found
     most = {trace.name for trace in ranked[:_OUTPUTS]}
     traces = [trace for trace in found if trace.name in most]
-    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.driving_link}")
+    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion._problem.driving_link}")
     left_out = _left_out(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
 
@@ -162,7 +163,7 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
         parts = [(trace, [*drawers[-2:], *drawers[:-2]]) for trace, drawers in parts]
     rows = sum(len(drawers) for _, drawers in parts) if across == 1 else len(parts)
     size = WIDTH if across == 1 else _WIDE * across, max(2, rows) * _ROW / 100 + 0.3
-    figure = Figure(figsize=size, dpi=100, layout="constrained")
+    figure = Figure(figsize=size, layout="constrained")
     grid = figure.subplots(rows, across, squeeze=False)
     column = iter(grid[:, 0])
     for row, (trace, drawers) in enumerate(parts):
@@ -176,10 +177,9 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
 def _framed(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
     """One panel of one output."""
     drawer(panel, trace)
-    panel.set_xlabel(below, fontsize=SMALL, parse_math=False)
+    name_axes(panel, below, size=SMALL, parse_math=False)
     panel.locator_params(axis="x", nbins=_TICKS)
-    panel.grid(color=GREY, alpha=0.25)
-    panel.spines[["top", "right"]].set_visible(False)
+    plain(panel)
 
 
 def _drawers(trace: _Trace) -> list[_Drawer]:
@@ -196,8 +196,8 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
     motion = run.motion
     parts: list[list[tuple[Floats, Floats, Floats]]] = [[] for _ in motion.outputs]
     firsts: list[tuple[Floats, Floats, Floats]] = []
-    means = [tally.mean for tally in motion.tallies()]
-    for passage in motion.passages(run.turns, run.samples):
+    means = [tally.mean for tally in motion._statistics()]
+    for passage in motion._stretches(run.turns, run.samples):
         share = max(1, round(_MOST / 3 * len(passage.turns) / run.samples))
         firsts = firsts or _first(passage, means)
         for at, part in enumerate(parts):
@@ -205,7 +205,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
         on_done(len(passage.turns))
     found = []
-    for tally, start, part, first in zip(motion.tallies(), motion.starts, parts, firsts, strict=True):
+    for tally, start, part, first in zip(motion._statistics(), motion._start_angles, parts, firsts, strict=True):
         turns, error, rate = (np.concatenate(column) for column in zip(*part, strict=True))
         mean = start / (2 * np.pi) + tally.mean * turns
         angle = mean + error / (2 * np.pi)
@@ -237,7 +237,7 @@ def _angle(panel: Any, trace: _Trace) -> None:
     if np.isfinite(back).any():
         panel.plot(*_broken(trace.turns, back), color=RED, linewidth=2, label="going back")
     _dial(panel, f"{trace.name}\nangle (deg)")
-    panel.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize="small", ncols=3)
+    legend_above(panel, 3)
 
 
 def _arcs(panel: Any, trace: _Trace) -> None:
@@ -383,7 +383,7 @@ def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label=f"locked, {100 * found.locked_share:.3g} %")
     low, high = panel.get_ylim() if not found.locked else _bounds(found.turns, found.torque)
     panel.set_ylim(min(low, 0.0), max(high, 0.0))
-    panel.set_ylabel(f"torque at {short(found.link)}{unit}", fontsize=SMALL, parse_math=False)
+    name_axes(panel, y=f"torque at {short(found.link)}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 5)
 
 
@@ -407,7 +407,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
     )
     panel.set_ylim(0.0, _bounds(turns, powers.sum(axis=0))[1] if found.locked else None)
     of = f"as torque at {short(found.link)}" if ratio else "a radian of the input"
-    panel.set_ylabel(f"lost, {of}{unit}", fontsize=SMALL, parse_math=False)
+    name_axes(panel, y=f"lost, {of}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 4)
 
 

@@ -14,7 +14,6 @@ from geartrain.drawing.style import (
     HALO,
     PALE,
     SCALE,
-    SMALL,
     TEXT,
     WIDTH,
     Axes,
@@ -245,7 +244,6 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
     mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap=SCALE, rasterized=shown.size > _MANY, gid="map")
     colour_bar(figure, axes, mesh, _SHOWN.get(name, name))
     name_axes(axes, first, second)
-    axes.tick_params(labelsize=SMALL)
     if min(verdicts.shape) > 1:
         _regions(axes, x, y, verdicts)
     faults = [kind for kind in _FAULTS if (verdicts == kind).any()]

@@ -168,14 +168,17 @@ def plain(axes: Axes) -> None:
         axes.spines[side].set_visible(False)
 
 
-def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT) -> None:
-    """Names of the axes, and a title of the panel at its left."""
+def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT, **how: Any) -> None:
+    """Write the names of the axes, and a title of the panel at its left.
+
+    how   further properties of the text, such as `parse_math=False` for names of a train
+    """
     if x:
-        axes.set_xlabel(x, fontsize=size)
+        axes.set_xlabel(x, fontsize=size, **how)
     if y:
-        axes.set_ylabel(y, fontsize=size)
+        axes.set_ylabel(y, fontsize=size, **how)
     if title:
-        axes.set_title(title, fontsize=size, loc="left", color=BLACK)
+        axes.set_title(title, fontsize=size, loc="left", color=BLACK, **how)
 
 
 def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = True) -> tuple[Figure, list[Axes]]:
@@ -208,10 +211,11 @@ def draw_interval(axes: Axes, at: float, ends: tuple[float, float] | None) -> No
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:
-    """The scale of a map of colours, beside it."""
+    """Draw the scale of a map of colours beside it; numbers at both in one size."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, **how)
     bar.set_label(name, fontsize=TEXT)
-    bar.ax.tick_params(labelsize=SMALL)
+    for each in (axes, bar.ax):
+        each.tick_params(labelsize=SMALL)
 
 
 def legend_below(

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.ideal import Ideal
 from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
 from geartrain.train import GearPair, Train, Wheel
 
@@ -67,7 +66,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
         assert mesh is not None
         return mesh
 
-    real = (name for name, (_, _, form) in forms.items() if form is not None and not isinstance(form, Ideal))
+    real = (name for name, (_, _, form) in forms.items() if form is not None and form.form != "ideal")
     return ItemwiseMapping(real, made)
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, final
 from geartrain.errors import Problem
 from geartrain.kinematics.planet_copies import as_one, has_copies, with_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
+from geartrain.numerics.results import Shown
 
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
@@ -29,7 +30,7 @@ DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
 
 @final
 @dataclass(frozen=True, eq=False)
-class TrainMechanics:
+class TrainMechanics(Shown):
     """Everything about a train that follows from its teeth and loads.
 
     See Also
@@ -43,6 +44,9 @@ class TrainMechanics:
     _drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, MeshDriver]] = field(
         default_factory=dict, init=False, repr=False
     )
+
+    def _summary(self) -> str:
+        return self.declaration.name
 
     @property
     def declaration(self) -> Train:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import html
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Literal, TypedDict
+from typing import Any, ClassVar, Literal, TypedDict
 
 from geartrain.kinematics.judged_outputs import OutputResult, SpeedFigures, SpeedValue, speed_figures
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.exact import abridged_text, decimal
+from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.long_float import Real, as_plain
-from geartrain.numerics.results import Key, Result, Tabular, finite
+from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, finite
 
 MOST_NAMES = 12
+_MAIN = 3  # links in the line of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
@@ -49,6 +49,9 @@ class Loop(Result):
     product: Fraction
     """Speed with which a walk round the loop comes back, as a multiple of that with which it left, equation (20): 1
     closes, and one mesh is redundant; anything else locks the loop to its carrier."""
+
+    def _summary(self) -> str:
+        return str(self).removeprefix("loop ")
 
     @property
     def closes(self) -> bool:
@@ -92,6 +95,9 @@ class Verdict(Result):
     loops: tuple[Loop, ...] = ()
     """Loops that do not close and hold the train, or a part of it."""
 
+    def _summary(self) -> str:
+        return str(self)
+
     def __bool__(self) -> bool:
         return self.kind == "determined"
 
@@ -117,7 +123,7 @@ class RowResiduals(TypedDict, total=False):
 
 
 @dataclass(frozen=True, slots=True)
-class Answer(FrozenFields, Tabular, Result):
+class Answer(FrozenFields, Tabular, TrainResult):
     """What a train does in one state: the solution of its Willis system, equations (4) and (5) of docs/theory.md.
 
     True if the verdict is as expected (`determined` unless the state's `expect` says otherwise), and so are all
@@ -134,6 +140,15 @@ class Answer(FrozenFields, Tabular, Result):
     >>> answer.ratios["carrier"]["sun"]
     Fraction(2, 7)
     """
+
+    TEXT = "report.answers:answer_text"
+    PAGE = "report.answers:answer_document"
+
+    MEANINGS: ClassVar = {
+        "link": "Link whose speed is determined.",
+        "speed": "Speed of the link as a float.",
+        "exact": "Speed of the link as a fraction; empty for floats.",
+    }
 
     KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs", Key("", "row_residuals"))
 
@@ -163,6 +178,34 @@ class Answer(FrozenFields, Tabular, Result):
     """By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; made when read, empty for speeds not found by it."""
     expected: str = "determined"
     """The verdict that the state's `expect` names."""
+    _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)
+
+    def _summary(self) -> str:
+        case = None if self._declaration is None else self._declaration.case(self.state)
+        inputs = {} if case is None else {link: self.speeds.get(link) for link in case.inputs}
+        turning = [link for link, speed in inputs.items() if speed]
+        shown = [link for link in self._main_links(case) if link in self.speeds]
+        figures = [f"{link} = {self._figure(link, turning, inputs)}" for link in shown[:_MAIN]]
+        more = [f"{len(shown) - _MAIN} more"] if len(shown) > _MAIN else []
+        state = "" if self.state is None else f" state {self.state}"
+        return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
+
+    def _main_links(self, case: Any) -> Iterable[str]:
+        """The links of the requested or declared outputs, else all that no input drives."""
+        if case is None or self._output is not None:
+            return self.speeds
+        outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]
+        known = {*case.inputs, *case.fixed, self._declaration.frame}
+        shown = [of for of, base in outputs if base == self._declaration.frame and of not in known]
+        return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
+
+    def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
+        """A speed; of a train with one input that turns, over the speed of the input."""
+        speed = self.speeds[link]
+        own = inputs.get(turning[0]) if len(turning) == 1 else None
+        if own is None or not isinstance(speed, Fraction) or not isinstance(own, Fraction) or link == turning[0]:
+            return brief(speed) or str(speed)
+        return f"{brief(speed / own)} of {turning[0]}"
 
     def __getitem__(self, name: str) -> SpeedValue:
         """The speed of an output, or of a link."""
@@ -178,6 +221,10 @@ class Answer(FrozenFields, Tabular, Result):
         speeds = self.speeds.values()
         exact = [str(speed) if isinstance(speed, Fraction) else None for speed in speeds]
         return {"link": [*self.speeds], "speed": [float(speed) for speed in speeds], "exact": exact}
+
+    def _meaning(self, column: str) -> str:
+        text = self.MEANINGS[column]
+        return text if column == "link" else f"{text[:-1]} [{self.unit or 'plain number'}]."
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
@@ -209,20 +256,3 @@ class Answer(FrozenFields, Tabular, Result):
     def row_residuals(self) -> RowResiduals:
         """The residuals, as JSON has them; nothing where there are none."""
         return {"residual": self.residual} if self.residual else {}
-
-    def _repr_html_(self) -> str:
-        shown = {name: result.speed for name, result in self.outputs.items()} or self.speeds
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{_exact(speed)}</td><td>{_decimal(speed)}</td></tr>"
-            for name, speed in shown.items()
-        )
-        head = f"<tr><th>output</th><th>exact</th><th>{html.escape(self.unit) or 'speed'}</th></tr>"
-        return f"<p>{html.escape(self.train)}: {html.escape(str(self.verdict))}</p><table>{head}{rows}</table>"
-
-
-def _decimal(speed: SpeedValue | None) -> str:
-    return "" if speed is None else decimal(speed) if isinstance(speed, Fraction) else f"{speed:.10g}"
-
-
-def _exact(speed: SpeedValue | None) -> str:
-    return abridged_text(speed) if isinstance(speed, Fraction) else str(speed)

@@ -87,6 +87,16 @@ def adjacency_labels(train: Train) -> list[list[str]]:
     return [[" ".join(cell) for cell in row] for row in cells]
 
 
+def adjacency_kinds(train: Train) -> list[list[str]]:
+    """Return the kind of the edge between any two links: revolute, gear, that of a coupling, "several", or ""."""
+    at = {link: position for position, link in enumerate(train.links)}
+    cells = [["" for _ in at] for _ in at]
+    for (first, second), _, kind, _, _ in _edges(train):
+        for i, j in ((at[first], at[second]), (at[second], at[first])):
+            cells[i][j] = "several" if cells[i][j] else kind
+    return cells
+
+
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
     """The adjacency matrix in numbers: how many edges join two links.
 

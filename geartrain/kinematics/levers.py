@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.components import find_components
+from geartrain.numerics.results import Shown, brief
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit, Tree
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Lever:
+class Lever(Shown):
     """One epicyclic set as points on a line: w_m = w_k + x_m u for each member m.
 
     See Also
@@ -32,6 +33,10 @@ class Lever:
     """The carrier k of the set."""
     abscissae: Mapping[str, Fraction]
     """Link -> x, exact; the carrier's is 0, and the greatest magnitude is 1."""
+
+    def _summary(self) -> str:
+        points = ", ".join(f"{link} {brief(x)}" for link, x in self.abscissae.items())
+        return f"carrier {self.carrier}: {points}"
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:

@@ -40,6 +40,7 @@ from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.long_float import rounded, scaled
+from geartrain.numerics.results import Shown
 from geartrain.train import GearPair, StateCase, Train
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ _CONDITIONED = 400  # links up to which each has its condition number; beyond, t
 
 @final
 @dataclass(frozen=True, eq=False)
-class TrainKinematics:
+class TrainKinematics(Shown):
     """Everything about a declared train that follows without teeth.
 
     See Also
@@ -95,6 +96,9 @@ class TrainKinematics:
     """What is declared."""
 
     # ------------------------------------------------------------------------------------------ joints and circuits
+
+    def _summary(self) -> str:
+        return self.declaration.name
 
     @cached_property
     def tree(self) -> Tree:

@@ -19,6 +19,7 @@ from geartrain.kinematics.speeds.padded_rows import PaddedRows
 from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.elimination import PRIME, eliminate, residues
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.results import Shown
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -27,7 +28,7 @@ _GIVEN = -1  # the column of what is prescribed
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class WillisMatrix:
+class WillisMatrix(Shown):
     """A Willis system as arrays, A w = b: `matrix @ speeds == right` for speeds in the order of `links`.
 
     One matrix serves three right-hand sides: speeds (A w = b), small errors of teeth (A dw = e), and, transposed,
@@ -60,6 +61,10 @@ class WillisMatrix:
     """The columns: all links that move, or with the frame where the whole system was asked for."""
     left_out: tuple[str, ...]
     """Labels of declared rows that are not in it: the frame's, and those that follow from others."""
+
+    def _summary(self) -> str:
+        rows, columns = self.matrix.shape
+        return f"{rows} equations in the speeds of {columns} links, {self.matrix.nnz} entries"
 
     @property
     def labels(self) -> tuple[str, ...]:

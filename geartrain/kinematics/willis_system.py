@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, overload
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.results import Shown
 from geartrain.train import StateCase
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def relative_speed(
 
 
 @dataclass(frozen=True, slots=True)
-class WillisSystem:
+class WillisSystem(Shown):
     """The Willis system of a train in one case: columns are links, rows are labelled equations.
 
     One row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of docs/theory.md,
@@ -83,6 +84,13 @@ class WillisSystem:
     """False where inputs are in radians beside others in turns, so that their numbers are shown in decimal."""
     redundant: tuple[str, ...] = ()
     """Labels of pairs that add nothing, for they close loops of product 1; where that was not looked for, none."""
+
+    def __str__(self) -> str:
+        """The equations as `geartrain equations` prints them."""
+        return self.text()
+
+    def _summary(self) -> str:
+        return f"{len(self.equations)} equations in the speeds of {len(self.links)} links"
 
     def matrix(self, whole: bool = False) -> WillisMatrix:
         """The system as a sparse matrix and a right-hand side, for a solver of one's own.

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from geartrain.numerics.results import Result, Tabular
 
+_FEW = 4  # labels of the first axis in a summary
 _MOST = 40  # labels of an axis that are shown whole
 
 
@@ -65,7 +66,19 @@ class LabelledArray(Tabular, Result):
         except ValueError:
             raise KeyError(f"no {self.axes[axis]} '{label}'") from None
 
-    def __repr__(self) -> str:
+    def _summary(self) -> str:
+        shape = " x ".join(f"{len(names)} {axis}" for axis, names in zip(self.axes, self.labels, strict=True))
+        return f"{shape}: {', '.join(self.labels[0][:_FEW]) if self.labels else ''}" + (
+            ", ..." if self.labels and len(self.labels[0]) > _FEW else ""
+        )
+
+    def _meaning(self, column: str) -> str:
+        if column in self.axes:
+            return f"Label on the axis {column}."
+        return "Value at the labels." if column == "value" else f"Value at {self.axes[0]} {column}."
+
+    def __str__(self) -> str:
+        """The values as numpy prints them, with names and labels of the axes."""
         labels = ", ".join(_names(each) for each in self.labels)
         return f"LabelledArray(values={self.values!r}, axes={self.axes!r}, labels=({labels}))"
 

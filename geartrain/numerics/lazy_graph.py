@@ -112,3 +112,7 @@ class LazyGraph(_MultiGraph):
 
     node_attr_dict_factory = LazyDict
     edge_attr_dict_factory = LazyDict
+
+    def __repr__(self) -> str:
+        """The line of networkx, which has names and numbers."""
+        return f"<{self}>"

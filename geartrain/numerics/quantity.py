@@ -190,6 +190,10 @@ class Figure:
     def __str__(self) -> str:
         return self.text
 
+    def _brief(self) -> str:
+        """The text, in the line of an object that has it."""
+        return self.text
+
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
         """True if a number agrees with what was written.
 
@@ -317,6 +321,10 @@ class Quantity:
     """As it was written."""
 
     def __str__(self) -> str:
+        return self.text
+
+    def _brief(self) -> str:
+        """The text, in the line of an object that has it."""
         return self.text
 
     @property

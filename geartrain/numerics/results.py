@@ -1,15 +1,16 @@
-"""Base classes of results: plain data for JSON, tables and figures.
+"""Base classes of results: what the prompt and notebooks show, plain data for JSON, tables and figures.
 
-`Result` writes each key once, as a field's name or in the `KEYS` of a class. Exact numbers become text with every
-digit, arrays and tuples lists, results objects; None stays None. `Tabular` results have columns: a pandas DataFrame,
-a numpy record array, a table of HTML. `Pictured` results name the function that draws them, which is imported when it
-is called."""
+`Shown` results have a `repr` of one line, print the text of the command that computes them, and are tables in a
+notebook. `Result` writes each key once, as a field's name or in the `KEYS` of a class. Exact numbers become text with
+every digit, arrays and tuples lists, results objects; None stays None. `Tabular` results have columns: a pandas
+DataFrame, a numpy record array, a table of HTML. `Pictured` results name the function that draws them, which is
+imported when it is called."""
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
+from fnmatch import fnmatchcase
 from fractions import Fraction
 from functools import cache
 from html import escape
@@ -18,30 +19,211 @@ from inspect import get_annotations
 from itertools import islice, pairwise
 from math import isfinite
 from operator import attrgetter
+from re import search
+from sys import modules
 from typing import Any, ClassVar
 
-from geartrain.errors import MissingExtraError
-from geartrain.numerics.exact import fraction_text
+from geartrain.errors import MissingExtraError, printable
+from geartrain.numerics.exact import abridged_text, fraction_text
 from geartrain.numerics.long_float import LongFloat
 
 _SHOWN = 20
 
 
-class Tabular:
-    """What has rows of one kind.
+class Shown:
+    """A result that Python shows as its command does: `repr` is one line, `print` gives the text of the command.
 
-    Notebooks show its first rows.
+    Notebooks show the tables of its HTML page. Nothing is computed for the line.
     """
 
     __slots__ = ()
 
+    PAGE: ClassVar[str] = ""
+    """The function that describes the result as a document, `package.module:function`; it returns None for a result
+    that it cannot describe. "" where no command prints such a result."""
+    TEXT: ClassVar[str] = ""
+    """The function that returns the text of the command, where it is not that of the document."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        """Keep the inherited `__repr__` of a class, in place of which `dataclass` would write its own."""
+        super().__init_subclass__(**options)
+        if "__repr__" not in vars(cls):
+            cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
+
+    def _summary(self) -> str:
+        """The main figures in one line, of what is already computed."""
+        return fields_summary(self)
+
+    def __repr__(self) -> str:
+        return summary_line(type(self).__name__, self._summary())
+
+    def __dir__(self) -> list[str]:
+        """The members without the constants of the class, which are for the package."""
+        return [name for name in super().__dir__() if not name.isupper()]
+
+    def __str__(self) -> str:
+        """The text that the command prints for the result; the line of `repr` where there is no command."""
+        found = _described(self, self.TEXT or self.PAGE)
+        if found is None:
+            return repr(self)
+        return found if isinstance(found, str) else _text_of(found)
+
+    def _repr_html_(self) -> str:
+        """The result on its HTML page; its text where jinja2, the extra `report`, is not installed."""
+        page = _described(self, self.PAGE)
+        if page is not None:
+            try:
+                html: str = picture_maker("report.html_page", "to_fragment")([page])
+                return html
+            except MissingExtraError:
+                pass
+        return f"<pre>{escape(str(self))}</pre>"
+
+
+def _described(result: object, name: str) -> Any:
+    """What the function `package.module:function` returns for a result; None without a name."""
+    if not name:
+        return None
+    module, _, function = name.partition(":")
+    return picture_maker(module, function)(result)
+
+
+def _text_of(document: Any) -> str:
+    text: str = picture_maker("report.text", "to_text")([document])
+    return printable(text)
+
+
+_LONGEST_LINE = 160
+"""Characters of a summary."""
+_LONGEST_VALUE = 40
+"""Characters of one value in it."""
+
+
+def summary_line(name: str, summary: str) -> str:
+    """Return `<name summary>` on one line of at most about 180 characters.
+
+    >>> summary_line("Answer", "worm: determined")
+    '<Answer worm: determined>'
+    """
+    text = " ".join(printable(summary).split())
+    if len(text) > _LONGEST_LINE:
+        text = text[: _LONGEST_LINE - 4].rstrip(" ,;") + " ..."
+    return f"<{name} {text}>" if text else f"<{name}>"
+
+
+def fields_summary(result: Any) -> str:
+    """Return the public fields of a dataclass or named tuple that hold a value, each as `name=value`.
+
+    Numbers have 6 digits; of containers only the length is shown, of mappings that are not made yet nothing.
+    """
+    own = [each.name for each in fields(result)] if is_dataclass(result) else ()
+    return values_summary(result, getattr(result, "_fields", own))
+
+
+def values_summary(result: Any, names: Iterable[str]) -> str:
+    """Return some attributes that hold a value, each as `name=value`."""
+    found: list[str] = []
+    length = 0
+    for name in names:
+        if name.startswith("_"):
+            continue
+        text = brief(getattr(result, name))
+        if text is None:
+            continue
+        found.append(f"{name}={text}")
+        length += len(found[-1]) + 2
+        if length > _LONGEST_LINE:
+            break
+    return ", ".join(found)
+
+
+def short_repr(result: Any) -> str:
+    """Return the line of a named tuple, which has no base class to inherit it from."""
+    return summary_line(type(result).__name__, fields_summary(result))
+
+
+def brief(value: object) -> str | None:
+    """Return a value in a few characters; None for what a summary leaves out.
+
+    >>> brief(Fraction(2, 7)), brief(0.12345678), brief(["a", "b", "c", "d", "e"]), brief("two words")
+    ('2/7', '0.123457', '5 items', "'two words'")
+    """
+    if value is None or callable(value) or hasattr(value, "_made"):  # a mapping that is made when it is read
+        return None
+    if isinstance(value, bool | int):
+        return str(value)
+    if isinstance(value, str):
+        text = value if len(value) <= _LONGEST_VALUE else value[: _LONGEST_VALUE - 4] + " ..."
+        return text if text.isidentifier() else repr(text)
+    if isinstance(value, Fraction):
+        text = abridged_text(value)
+        return text if len(text) <= _LONGEST_VALUE else f"{float(value):.6g}"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if hasattr(value, "_brief"):
+        return str(value._brief())
+    shape = getattr(value, "shape", None)
+    if shape is not None:
+        return f"{value:.6g}" if shape == () and hasattr(value, "__float__") else f"array{shape}"
+    if isinstance(value, Mapping | Sequence | set | frozenset):
+        return _brief_items(value)
+    return None
+
+
+def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozenset[Any]) -> str | None:
+    try:
+        if not len(values):
+            return None
+    except OverflowError:  # more items than an index can count
+        return None
+    if isinstance(values, tuple) and len(values) <= 4 and not hasattr(values, "_fields"):
+        parts = [brief(each) for each in values]
+        text = f"({', '.join(part or '-' for part in parts)})"
+        kinds = str | int | float | Fraction
+        if len(text) <= _LONGEST_VALUE and all(isinstance(each, kinds) or hasattr(each, "_brief") for each in values):
+            return text
+    return f"{len(values)} item{'s' if len(values) > 1 else ''}"
+
+
+class Tabular(Shown):
+    """A result with rows of one kind.
+
+    Notebooks show its first rows, where it has no page of its own.
+    """
+
+    __slots__ = ()
+
+    MEANINGS: ClassVar[Mapping[str, str]] = {}
+    """Meaning of each column that is not a field, with its unit in brackets; `*` in a name stands for any text."""
+
+    ROW: ClassVar[str] = ""
+    """The class in the module of the result whose fields are columns."""
+    ROWS: ClassVar[str] = ""
+    """The function that returns the rows, each as a dictionary by column; "" for a class with columns of its own."""
+
     @property
-    @abstractmethod
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Columns of one length by name: numbers as floats, exact ones as text beside them, None where nothing is."""
+        rows = _described(self, self.ROWS) or ()
+        return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
+
+    @property
+    def meanings(self) -> Mapping[str, str]:
+        """Meaning of each column, with its unit in brackets."""
+        return {name: text for name in self.columns if (text := self._meaning(name))}
+
+    def _meaning(self, column: str) -> str:
+        """The meaning of one column; "" where none is known."""
+        own: Any = type(self)
+        row = getattr(modules[own.__module__], self.ROW or own.__name__)
+        known = {**field_docs(own), **field_docs(row), **self.MEANINGS}
+        exact = known.get(column) or _property_doc(getattr(row, column, None))
+        return exact or next((text for name, text in known.items() if fnmatchcase(column, name)), "")
 
     def to_frame(self) -> Any:
-        """The table as a pandas DataFrame; `attrs["meanings"]` explains the columns that are fields, with units.
+        """Return the table as a pandas DataFrame.
+
+        `attrs["meanings"]` has the meaning of each column, `attrs["units"]` the unit of each column that has one.
 
         Raises
         ------
@@ -53,7 +235,9 @@ class Tabular:
         except ImportError:
             raise MissingExtraError("pandas", "tables", "a table of its kind") from None
         frame = pandas.DataFrame(dict(self.columns))
-        frame.attrs["meanings"] = _meanings(type(self), frame.columns)
+        meanings = self.meanings
+        frame.attrs["meanings"] = dict(meanings)
+        frame.attrs["units"] = {name: unit for name in meanings if (unit := _unit(meanings[name]))}
         return frame
 
     def to_records(self) -> Any:
@@ -64,9 +248,18 @@ class Tabular:
         kinds = [(name, column.dtype) for name, column in columns.items()]
         return np.rec.fromarrays(list(columns.values()), dtype=kinds)
 
+    def __str__(self) -> str:
+        """The text that the command prints for the result; without a command, its first rows as a table."""
+        found = _described(self, self.TEXT or self.PAGE)
+        if found is None:
+            found = picture_maker("report.document", "table_document")(repr(self), self.columns, _SHOWN)
+        return found if isinstance(found, str) else _text_of(found)
+
     def _repr_html_(self) -> str:
-        columns = self.columns
-        titles = {name: f' title="{escape(text)}"' for name, text in _meanings(type(self), columns).items()}
+        if self.PAGE:
+            return super()._repr_html_()
+        columns, meanings = self.columns, self.meanings
+        titles = {name: f' title="{escape(text)}"' for name, text in meanings.items()}
         head = "".join(f"<th{titles.get(name, '')}>{escape(name)}</th>" for name in columns)
         rows = ("".join(f"<td>{_cell(value)}</td>" for value in row) for row in zip(*columns.values(), strict=True))
         body = "".join(f"<tr>{row}</tr>" for row in islice(rows, _SHOWN))
@@ -74,10 +267,16 @@ class Tabular:
         return f"<table><tr>{head}</tr>{body}</table>" + (f"<p>{more:,} more</p>" if more > 0 else "")
 
 
-def _meanings(kind: type, columns: Iterable[str]) -> dict[str, str]:
-    """Of the columns that are fields of a result, their docstrings."""
-    docs = field_docs(kind)
-    return {name: docs[name] for name in columns if name in docs}
+def _property_doc(member: object) -> str:
+    """The first paragraph of a property's docstring; "" for what is not a property."""
+    maker = member if isinstance(member, property) else getattr(member, "func", None)
+    return " ".join((getattr(maker, "__doc__", None) or "").split("\n\n")[0].split())
+
+
+def _unit(meaning: str) -> str:
+    """The unit in the brackets of a meaning; "" without one."""
+    found = search(r"\[([^\]]+)\]", meaning)
+    return found[1] if found else ""
 
 
 def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:
@@ -163,8 +362,8 @@ def group(name: str, *keys: str | Key) -> Key:
     return Key(name, _ITSELF, keys=keys)
 
 
-class Result:
-    """An answer that can tell itself as plain data: what `KEYS` names, or all its fields."""
+class Result(Shown):
+    """A result that is plain data for JSON: what `KEYS` names, or all its fields."""
 
     __slots__ = ()
     KEYS: ClassVar[tuple[str | Key, ...]] = ()
@@ -172,6 +371,20 @@ class Result:
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; the keys are stable (docs/json.md)."""
         return _told(self)
+
+
+@dataclass(frozen=True, slots=True)
+class TrainResult(Result):
+    """A result of a train, which keeps the declaration of the train: its text and its tables need it."""
+
+    _declaration: Any = field(default=None, kw_only=True, repr=False, compare=False)
+
+    @property
+    def _named(self) -> str:
+        """The name of the train with the state, as far as they are known."""
+        name = "" if self._declaration is None else self._declaration.name
+        state = getattr(self, "state", None)
+        return name if state is None else f"{name} state {state}".strip()
 
 
 def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Any:
@@ -227,7 +440,7 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
     """The keys of a class's plain data, in order. Raises `TypeError` for a class that has none."""
     named: tuple[str | Key, ...] = getattr(kind, "KEYS", ())
     if not named and is_dataclass(kind):
-        named = tuple(field.name for field in fields(kind))
+        named = tuple(each.name for each in fields(kind) if not each.name.startswith("_"))
     if not named:
         raise TypeError(f"{kind.__name__} has no plain data: it is no dataclass, and has no KEYS")
     return whole(named)
@@ -275,7 +488,7 @@ def _docs_of_classes(module: str) -> Mapping[str, Mapping[str, str]]:
 def _docs_in(body: Sequence[Any]) -> Iterator[tuple[str, str]]:
     import ast
 
-    for field, doc in pairwise(body):
-        match field, doc:
+    for statement, doc in pairwise(body):
+        match statement, doc:
             case ast.AnnAssign(target=ast.Name(name)), ast.Expr(value=ast.Constant(str(text))):
                 yield name, " ".join(text.split())

@@ -17,6 +17,8 @@ _HEADER = ("method", "prepared (ms)", "time (ms)", "over the fastest", "error", 
 class AccuracyReport(Result):
     """Methods on a train in every state that was requested."""
 
+    PAGE = "report.accuracy_report:describe_accuracy"
+
     name: str
     """Name of the train."""
     title: str
@@ -29,6 +31,13 @@ def describe_accuracy(found: AccuracyReport) -> Document:
     """A section for each stage of each state, and what the train does not have."""
     return Document(
         f"Error against run time: {found.name}", [_LEAD], [s for each in found.states for s in _sections(each)]
+    )
+
+
+def accuracy_document(found: TrainAccuracy) -> Document:
+    """Return what `geartrain bench` prints for one state."""
+    return describe_accuracy(
+        AccuracyReport("" if found._declaration is None else found._declaration.name, "", (found,))
     )
 
 

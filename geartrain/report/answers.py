@@ -6,17 +6,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from math import isfinite
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, magnitude
-from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
+from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, SpeedValue, TargetResult, magnitude
+from geartrain.numerics.exact import plural
+from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.train import Train
 from geartrain.train.outputs import looks_away
 
+_SECONDS = 86400  # of a day
+_EXACT = 1e-9  # ppm, or days: less is rounding
 _YEAR = 300  # days, less than any year
 _SPANS = (("d", Fraction(1)), ("h", Fraction(1, 24)), ("min", Fraction(1, 1440)), ("s", Fraction(1, 86400)))  # in days
 
@@ -49,12 +53,86 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Outputs and targets of one state, then the speeds of all links."""
+    """Yield the pointers of one state with their targets; then as details all outputs, targets and speeds of links."""
     head = f"State {answer.state}: " if answer.state is not None else ""
     if answer.outputs:
-        yield _outputs(train, answer, head)
-    yield from _targets(answer, head)
-    yield _speed_section(train, answer, head)
+        yield _pointers(train, answer, head)
+        yield replace(_outputs(train, answer, head), detail=True)
+    yield from (replace(section, detail=True) for section in _targets(answer, head))
+    yield replace(_speed_section(train, answer, head), detail=bool(answer.outputs and answer.verdict))
+
+
+def _pointers(train: GearTrain, answer: Answer, head: str) -> Section:
+    """Return speed and period of each output, its target, and by how much it is off.
+
+    If any output has a dial, a target or a printed figure, the others are only counted.
+    """
+    pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
+    rows = [_pointer_row(train.declaration, result) for result in pointers]
+    declared = train.declaration
+    second = "output/input" if declared.unit_days is None else "period"
+    error = "s a day" if _is_clock(declared) else "d a century"
+    table = filled_table(("output", "speed", second, "target", "ppm off", error, "fault"), rows, 3)
+    others = len(answer.outputs) - len(pointers)
+    more = (f"{plural(others, 'further output')} without dial, target or printed figure: see 'All outputs'.",)
+    return Section(_title(head, "outputs"), more if others else (), (replace(table, rows=cut(table.rows)),))
+
+
+def _is_pointer(result: OutputResult) -> bool:
+    """Return whether an output has a dial, a target or a printed figure, or is not as expected."""
+    output = result.output
+    return bool(output.dial or output.published or result.targets or not result.holds)
+
+
+def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
+    """Return the row of an output, with its first target."""
+    speed = result.speed
+    second = (
+        exact(result.ratio) if declared.unit_days is None and result.ratio is not None else _period(declared, speed)
+    )
+    target = result.targets[0] if result.targets else None
+    return (result.name, exact(speed), second, *_target_cells(declared, target), _fault(result))
+
+
+def _is_clock(declared: Train) -> bool:
+    """Return whether speeds are counted in turns a day or a shorter time."""
+    return declared.unit_days is not None and declared.unit_days <= 1
+
+
+def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, str, str]:
+    """Return a target in words, and the error in ppm and in days a century or, for clocks, seconds a day."""
+    if target is None:
+        return "", "", ""
+    wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)
+    if target.ppm is None:
+        return wanted or "0", "", figure(target.error)
+    time = target.ppm * _SECONDS / 1e6 if _is_clock(declared) else target.days_per_century
+    return wanted, _error_text(target.ppm), _error_text(time)
+
+
+def _period(declared: Train, speed: SpeedValue | None) -> str:
+    """Return the time of one turn, years abbreviated; empty for a link at rest."""
+    if not speed or declared.unit_days is None:
+        return ""
+    return _span(declared, 1 / magnitude(speed), 6).replace(" years", " y").replace(" year", " y")
+
+
+def _error_text(error: float | None) -> str:
+    return "" if error is None else "0" if abs(error) < _EXACT else f"{error:+.4g}"
+
+
+def _fault(result: OutputResult) -> str:
+    """Return which expectation, printed figure or tolerance an output does not meet."""
+    expect, published = result.output.expect, result.output.published
+    sign = "; only the sign differs" if result.differs_in_sign else ""
+    parts = []
+    if published is not None and not result.published_holds:
+        parts.append(f"FAILS: {published.value} {published.as_} is printed, {result_words(result)}{sign}")
+    if expect is not None and not result.expect_holds:
+        parts.append(f"FAILS: {expect.value} is expected{sign}")
+    missed = [target.label for target in result.targets if target.met is False]
+    parts += [f"FAILS: outside the tolerance of {label}" for label in missed]
+    return "; ".join(parts)
 
 
 def _targets(answer: Answer, head: str) -> Iterator[Section]:
@@ -137,7 +215,7 @@ def _outputs(train: GearTrain, answer: Answer, head: str) -> Section:
     own = all(row[1] == row[0] for row in rows)  # every output is named after its link
     header, rows = (header[:1] + header[2:], [row[:1] + row[2:] for row in rows]) if own else (header, rows)
     notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
-    return Section(_title(head, "outputs"), notes, (filled_table(header, rows, len(header) - 4),))
+    return Section(_title(head, "all outputs"), notes, (filled_table(header, rows, len(header) - 4),))
 
 
 def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
@@ -206,12 +284,12 @@ def _as_read(declared: Train, result: OutputResult) -> str:
     return ", ".join(words)
 
 
-def _span(declared: Train, units: Fraction | float) -> str:
+def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
     """How long a number of units is: in years where the unit is one, or in what a clock tells; else the number."""
     if declared.unit_days is None:
         return figure(units, 7)
     if declared.unit_days > _YEAR and units >= 1:
-        return f"{figure(units, 7)} year{'' if units == 1 else 's'}"
+        return f"{figure(units, digits)} year{'' if units == 1 else 's'}"
     days = units * declared.unit_days
     name, length = next(((name, each) for name, each in _SPANS if days >= each), _SPANS[-1])
     return f"{figure(days / length, 6)} {name}"
@@ -229,7 +307,7 @@ def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Sec
         head = f"State {answer.state}: " if answer.state is not None else ""
         text = "Change of speed in ppm, solved again exactly; outputs that move alike share a row."
         table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
-        yield Section(_title(head, "wheels in doubt"), (text,), (table,))
+        yield Section(_title(head, "uncertain tooth counts"), (text,), (table,), detail=True)
 
 
 def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
@@ -277,6 +355,21 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
             lines.append(f"  {why_floats(answer)}")
         lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
     return "\n".join(lines)
+
+
+def answer_text(answer: Answer) -> str:
+    """Return what `geartrain solve` prints for the answer of one state."""
+    declared = answer._declaration
+    oblique = frozenset() if declared is None else GearTrain(declared).kinematics.joint_sums
+    return speeds_text(answer, answer._output, oblique)
+
+
+def answer_document(answer: Answer) -> Document | None:
+    """Return outputs, targets and speeds of one state as in the report; None where the train is not known."""
+    if answer._declaration is None:
+        return None
+    train = GearTrain(answer._declaration)
+    return Document(answer.train, [], list(answer_sections(train, answer)))
 
 
 def why_floats(answer: Answer) -> str:

@@ -5,14 +5,20 @@ Tables are fitted into a width: columns wrap at words, and a table that is still
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import zip_longest
+from itertools import islice, zip_longest
+from typing import Any
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import picture_maker
+from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
+
+MOST_ROWS = 120
+"""Longer tables are cut, and say so; the JSON has everything."""
 
 
 class ExactText(str):
@@ -60,7 +66,7 @@ class SceneText(str):
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class Table(Shown):
     """Rows of text under a header; the first column names the row.
 
     Examples
@@ -79,10 +85,54 @@ class Table:
     """True for matrices, which a terminal shows in strips of columns and never wraps."""
 
 
-def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int) -> Table:
+def table_document(title: str, columns: Mapping[str, Sequence[object]], most: int = MOST_ROWS) -> Document:
+    """Return columns of a result as a document of one table, of which only the first rows are shown."""
+    count = len(next(iter(columns.values()), ()))
+    rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
+    more = [f"{count - most:,} more rows."] if count > most else []
+    return Document(title, [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
+
+
+def _cell(value: object) -> str:
+    return "" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value)
+
+
+def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
     """A table without the columns in which no row says anything, but for the first so many."""
     used = [at for at in range(len(header)) if at < always or any(row[at] for row in rows)]
-    return Table([header[at] for at in used], [[row[at] for at in used] for row in rows])
+    return _chosen(Table(header, rows, wide), used)
+
+
+_UNIT = re.compile(r"\[(.+?)\]")
+"""The unit in the docstring of a field."""
+_CellColumn = tuple[str, Callable[[Any], str]]
+"""Head of a column, and the function that returns its cell for a result."""
+
+
+def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
+    """Return a table of results of one class, one row for each.
+
+    columns   name of a field, `field:digits` of a number; its head is the name with the unit of the field's docstring,
+              or is given before it, `head=field:digits`; or a head and a function that returns the cell of a result
+    """
+    rows = list(results)
+    kind: type = type(rows[0]) if rows else object
+    heads, cells = zip(*(_field_column(each, field_docs(kind)) for each in columns), strict=True)
+    return Table(heads, [tuple(cell(row) for cell in cells) for row in rows], wide)
+
+
+def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellColumn:
+    if not isinstance(column, str):
+        return column
+    head, given, field = column.rpartition("=")
+    name, _, digits = field.partition(":")
+    unit = _UNIT.search(docs.get(name, ""))
+    head = head if given else f"{name.replace('_', ' ')} ({unit[1]})" if unit else name.replace("_", " ")
+    return head, lambda result: _field_text(getattr(result, name), digits)
+
+
+def _field_text(value: Any, digits: str) -> str:
+    return "-" if value is None else figure(value, int(digits)) if digits else str(value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +146,7 @@ class Branch:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class Section(Shown):
     """A heading with paragraphs, a tree, then tables.
 
     Examples
@@ -113,10 +163,12 @@ class Section:
     """After the paragraphs."""
     branches: Sequence[Branch] = ()
     """A tree between paragraphs and tables."""
+    detail: bool = False
+    """True for a section that a report as text omits unless it is requested, and that a page shows folded."""
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Shown):
     """A picture with a caption, for pages of HTML.
 
     Examples
@@ -158,7 +210,7 @@ class PageExtras:
     """Sources by key."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Document:
     """A title, a lead, and sections, independent of how they are shown.
 
@@ -185,6 +237,10 @@ class Document:
     aside: PageExtras = field(default_factory=PageExtras)
     """Badge, pictures, viewer and sources, which only a page of HTML has room for."""
 
+    def __repr__(self) -> str:
+        count = len(self.sections)
+        return summary_line("Document", f"{self.title}: {count} section{'' if count == 1 else 's'}")
+
     def __str__(self) -> str:
         """The document as Markdown."""
         text: str = picture_maker("report", "to_markdown")([self])
@@ -192,6 +248,31 @@ class Document:
 
     def _repr_markdown_(self) -> str:
         return str(self)
+
+
+def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
+    """Return a document without its detail sections, except those requested by words of their titles.
+
+    The last section then lists the titles that were omitted.
+
+    Raises `QuestionError` if a requested word is in no title.
+    """
+    titles = [section.title for section in document.sections]
+    for word in requested:
+        if not any(word.lower() in title.lower() for title in titles):
+            raise QuestionError(
+                Problem(
+                    f"the report has no section '{word}'", f"its sections are {', '.join(titles)}", "name one of them"
+                )
+            )
+    if requested:
+        kept = [each for each in document.sections if any(word.lower() in each.title.lower() for word in requested)]
+        return replace(document, summary=(), sections=kept)
+    kept = [each for each in document.sections if not each.detail]
+    omitted = dict.fromkeys(each.title for each in document.sections if each.detail)
+    if omitted:
+        kept.append(Section("More", (f"{', '.join(omitted)}: with `--section NAME`, or `--all`.",)))
+    return replace(document, sections=kept)
 
 
 def figure(value: Fraction | Real | None, digits: int = 8) -> str:
@@ -225,16 +306,12 @@ def ppm(value: float | None) -> str:
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 
-MOST_ROWS = 120
-"""Longer tables are cut, and say so; the JSON has everything."""
-
-
-def cut(rows: Sequence[Sequence[str]], of: int | None = None) -> list[Sequence[str]]:
+def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
     """The first rows of a long table (of so many, if not all are given), and how many more there are."""
     count = len(rows) if of is None else of
-    if count <= MOST_ROWS:
+    if count <= most:
         return list(rows)
-    return [*rows[:MOST_ROWS], (f"... {count - MOST_ROWS} more", *("" for _ in rows[0][1:]))]
+    return [*rows[:most], (f"... {count - most} more", *("" for _ in rows[0][1:]))]
 
 
 # ------------------------------------------------------------------------------------------------ tables within a width
@@ -292,8 +369,31 @@ def column_widths(table: Table, width: int) -> list[int]:
     return sizes
 
 
+_NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
+
+
+def aligned_rows(table: Table) -> list[list[str]]:
+    """Return the rows with numbers shifted so that the decimal points of each column of numbers are aligned.
+
+    A column is one of numbers if all of its cells are decimal numbers, empty, or a dash.
+    """
+    if table.wide:
+        return [list(row) for row in table.rows]
+    columns = [_aligned(column) for column in zip_longest(*table.rows, fillvalue="")]
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
+def _aligned(column: Sequence[str]) -> Sequence[str]:
+    numbers = [cell for cell in column if cell not in ("", "-")]
+    if len(numbers) < 2 or not all(_NUMBER.fullmatch(cell) for cell in numbers):
+        return column
+    widths = [len(re.split(r"[.e]", cell)[0]) for cell in column]
+    widest = max(width for width, cell in zip(widths, column, strict=True) if cell in numbers)
+    return [" " * (widest - width) + cell if cell else cell for width, cell in zip(widths, column, strict=True)]
+
+
 def _columns(table: Table) -> list[tuple[str, ...]]:
-    return list(zip_longest(table.header, *table.rows, fillvalue=""))
+    return list(zip_longest(table.header, *aligned_rows(table), fillvalue=""))
 
 
 def _minimum(column: Sequence[str], whole: bool) -> int:

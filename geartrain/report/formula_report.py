@@ -42,6 +42,8 @@ class FormulaReport(Result):
     describe_formulas : Its page.
     """
 
+    PAGE = "report.formula_report:describe_formulas"
+
     name: str
     """Name of the train."""
     title: str

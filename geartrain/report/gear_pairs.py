@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.numerics.results import Key, Result
-from geartrain.report.document import Section, Table
+from geartrain.report.document import Section, Table, filled_table
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, PinFigures, pin_figures
 
@@ -53,6 +53,9 @@ class DrivenPin(Result):
     """Its figures with the pin driving."""
 
 
+_MOST_PAIRS = 12  # with more, a report as text omits their tables
+
+
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
     """The real teeth and pins of a train; nothing where none are declared."""
     if pairs:
@@ -69,10 +72,10 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     tables = [
         joined_table(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)
     ]
-    tables.append(_drivers(pairs, 4 if train.states else 3))
+    tables.append(_drivers(pairs))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
     lines += map(fault_text, train.mechanics.faults)
-    return Section("Teeth", lines, tables)
+    return Section("Teeth", lines, tables, detail=len(pairs) > _MOST_PAIRS)
 
 
 def joined_table(rows: Sequence[AccountTable]) -> Table:
@@ -85,10 +88,10 @@ def fault_text(fault: Problem) -> str:
     return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."
 
 
-def _drivers(pairs: Sequence[DrivenPair], used: int) -> Table:
+def _drivers(pairs: Sequence[DrivenPair]) -> Table:
     """The wheel that drives each pair, and how that is known."""
     rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
-    return Table(("pair", "driver", "how that is known", "states")[:used], [row[:used] for row in rows], wide=True)
+    return filled_table(("pair", "driver", "how that is known", "states"), rows, 3, wide=True)
 
 
 def _pins(train: GearTrain) -> Section:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from geartrain.report.document import Document, Section, Table, exact, figure
+from geartrain.report.document import Document, Section, Table, exact, figure, result_table
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_series import GearSearch, GearSeries, PossibleGear
@@ -67,9 +67,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     yield Section("Slip of open elements", (_unit(found),), (slips,))
     torques = _by_state(found.states, names, lambda each: each.torques)
     yield Section("Torques of closed elements", (_TORQUES,), (torques,))
-    count = len(found.states)
-    header = ("element", "kind", "closed in", "torque", "in", "slip", "in")
-    yield Section("Elements", (_ELEMENTS,), (Table(header, [_element(each, count) for each in found.elements]),))
+    yield Section("Elements", (_ELEMENTS,), (_elements(found),))
 
 
 def _unit(found: Gearbox) -> str:
@@ -112,10 +110,15 @@ def _by_state(
     return Table(("state", *columns), rows)
 
 
-def _element(each: ShiftElement, count: int) -> tuple[str, ...]:
-    share = f"{len(each.states)} of {count}: {', '.join(each.states)}" if each.states else "none"
-    torque, slip = (figure(value, _DIGITS) for value in (each.torque, each.slip))
-    return each.name, each.kind, share, torque, each.torque_state, slip, each.slip_state
+def _elements(found: Gearbox) -> Table:
+    def closed(each: ShiftElement) -> str:
+        return f"{len(each.states)} of {len(found.states)}: {', '.join(each.states)}" if each.states else "none"
+
+    return result_table(
+        found.elements,
+        *("element=name", "kind", ("closed in", closed)),
+        *(f"torque:{_DIGITS}", "in=torque_state", f"slip:{_DIGITS}", "in=slip_state"),
+    )
 
 
 def describe_gear_search(found: GearSearch) -> Document:

@@ -68,7 +68,7 @@ def to_html(documents: Sequence[Document]) -> str:
     from markupsafe import Markup
 
     script, numbers = _shipped("page.js"), count(1)
-    page: str = _template().render(
+    page: str = _template("page.html").render(
         documents=documents,
         anchors=[_anchors(document, f"{at}-" if at else "") for at, document in enumerate(documents)],
         drawings=[
@@ -83,6 +83,29 @@ def to_html(documents: Sequence[Document]) -> str:
     return page
 
 
+def to_fragment(documents: Sequence[Document]) -> str:
+    """Return titles, paragraphs and tables of documents as on their page, without its style and script.
+
+    Parameters
+    ----------
+    documents : sequence of Document
+        What is shown; pictures and other extras of pages are left out.
+
+    Returns
+    -------
+    str
+        HTML for a notebook. Texts are escaped.
+
+    Raises
+    ------
+    MissingExtraError
+        Without jinja2, which the extra `report` brings.
+    """
+    check_pages()
+    fragment: str = _template("fragment.html").render(documents=documents)
+    return fragment
+
+
 def check_pages() -> None:
     """Make sure that pages can be made, before what is to stand in them is worked out; else `MissingExtraError`."""
     try:
@@ -92,11 +115,11 @@ def check_pages() -> None:
 
 
 @cache
-def _template() -> Any:
-    """The page to be filled, compiled once: that takes longer than to fill it."""
-    from jinja2 import Environment
+def _template(name: str) -> Any:
+    """A template, compiled once: that takes longer than to fill it."""
+    from jinja2 import Environment, FunctionLoader
 
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, loader=FunctionLoader(_shipped))
     filters: dict[str, Callable[..., Any]] = {
         "is_web": is_web,
         "is_cited": lambda cell: isinstance(cell, CitedText),
@@ -104,7 +127,7 @@ def _template() -> Any:
         "on_paper": _on_paper,
     }
     environment.filters |= filters
-    return environment.from_string(_shipped("page.html"))
+    return environment.get_template(name)
 
 
 def _on_paper(table: Table) -> list[Table]:

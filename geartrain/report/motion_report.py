@@ -79,6 +79,8 @@ class MotionFigures(Result):
     collect_motion : Gives it.
     """
 
+    PAGE = "report.motion_report:describe_motion"
+
     KEYS = (
         *("name", "state", "input", "turns", "positions", "period", "drivers", "reversing_drivers", "rigid", "outputs"),
         *("separation", "phases", "partial"),
@@ -139,7 +141,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
     Parameters
     ----------
     run : MotionRun
-        After its `go`, and `try_phases`, `estimate` or `analyse` where these are wanted.
+        After its `run`, and `run_random_phases`, `find_estimates` or `find_spectra` where these are wanted.
     name : str
         Of the train.
     state : str or None
@@ -159,37 +161,37 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
     >>> import geartrain
     >>> from geartrain.dynamics import MotionRun
     >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=1.0, samples=101)
-    >>> run.go()
+    >>> run.run()
     >>> collect_motion(run, "moon-triangular", None).to_dict()["outputs"]["moon"]["ratio"]
     '254/95'
     """
     motion = run.motion
-    used = {source.id for source in motion.ahead.used}
+    used = {source.id for source in motion._forward.used}
     outputs = {
         tally.name: OutputMotion(
             tally,
-            motion.setting[tally.name],
+            motion.pointer_offsets[tally.name],
             motion.sensitivity[tally.name],
-            _phase_range([tallies[at] for tallies in run.phased]),
+            _phase_range([tallies[at] for tallies in run.phase_statistics]),
             run.estimates.get(tally.name),
             run.spectra.get(tally.name),
         )
-        for at, tally in enumerate(run.tallies)
+        for at, tally in enumerate(run.statistics)
     }
     return MotionFigures(
         run,
         name,
         state,
-        input=motion.train.driving_link,
+        input=motion._problem.driving_link,
         turns=run.turns,
         positions=run.done,
         period=motion.period,
-        drivers={pair: motion.train.drivers[pair] for pair in motion.train.drivers if pair in used},
+        drivers={pair: motion._problem.drivers[pair] for pair in motion._problem.drivers if pair in used},
         reversing_drivers=sorted(run.reversing_drivers),
-        rigid=[mesh.name for mesh in motion.train.rigid],
+        rigid=[mesh.name for mesh in motion._problem.rigid],
         outputs=outputs,
         separation=separation,
-        phases=PhaseSets(len(run.phased), run.seed) if run.phased else None,
+        phases=PhaseSets(len(run.phase_statistics), run.seed) if run.phase_statistics else None,
         partial=PartialRun(run.done, run.samples) if run.done < run.samples else None,
     )
 
@@ -210,7 +212,7 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
     for state in train.states or (None,):
         try:
             run = MotionRun(train.motion(state), _TURNS, _POSITIONS)
-            run.go()
+            run.run()
             separation = separation_rates(train, state)
         except GearTrainError as error:
             yield UnfollowedMotion(train.name, state, error)
@@ -264,13 +266,13 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
     >>> from geartrain.dynamics import MotionRun
     >>> from geartrain.report import collect_motion
     >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=1.0, samples=101)
-    >>> run.go()
+    >>> run.run()
     >>> page = describe_motion(collect_motion(run, "moon-triangular", None))
     >>> [section.title for section in page.sections]
     ['Outputs', 'Pairs']
     """
     run = found.run
-    train, period = run.motion.train, run.motion.period
+    train, period = run.motion._problem, run.motion.period
     summary = [
         f"While '{train.driving_link}' makes {run.turns:g} turns, in {run.done} positions. Speeds are over that of "
         f"'{train.driving_link}'; the error is the angle less its mean motion."
@@ -285,14 +287,28 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
     return Document("Motion with real teeth and pins", summary, sections)
 
 
+def motion_document(found: Motion | MotionRun) -> Document | None:
+    """Return what `geartrain motion` prints for a run, or for its usual run of a motion; None before the run."""
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import MotionRun
+
+    run = found if isinstance(found, MotionRun) else found._usual_run
+    if not run.done:
+        return None
+    motion, separation = run.motion, None
+    if motion._declaration is not None:
+        separation = separation_rates(GearTrain(motion._declaration), motion._state, motion._without)
+    return describe_motion(collect_motion(run, "", motion._state, separation))
+
+
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
     """Outputs, the pairs that make their errors, and whatever else was asked for."""
-    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.tallies),))
-    if run.motion.ahead.used:
+    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics),))
+    if run.motion._forward.used:
         yield _pairs(run, every_output)
-    if rigid := _rigid(run.motion.train.rigid):
+    if rigid := _rigid(run.motion._problem.rigid):
         yield Section("Pairs that keep their ratio", (rigid,))
-    if run.phased:
+    if run.phase_statistics:
         yield _phased(run)
     if run.estimates:
         yield _estimates(run.estimates)
@@ -311,7 +327,7 @@ def moving_sections(
             yield Section(head, [f"{problem.what}: {problem.why}." for problem in each.why.problems])
             continue
         run = each.run
-        text = f"While '{run.motion.train.driving_link}' makes {run.turns:g} turns; `geartrain motion` has more."
+        text = f"While '{run.motion._problem.driving_link}' makes {run.turns:g} turns; `geartrain motion` has more."
         holds: tuple[str, ...] = ()
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
@@ -333,7 +349,7 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
 
 
 def _rippling(run: MotionRun) -> list[RunningStatistics]:
-    return [tally for tally in run.tallies if tally.peak_to_peak] or run.tallies
+    return [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
 
 
 def _outputs(tallies: list[RunningStatistics]) -> Table:
@@ -354,13 +370,13 @@ def _outputs(tallies: list[RunningStatistics]) -> Table:
 
 def _remarks(run: MotionRun) -> Iterator[str]:
     if run.reversing_drivers:
-        composition = run.motion.ahead if run.turns >= 0 else run.motion.back
+        composition = run.motion._forward if run.turns >= 0 else run.motion._backward
         names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)
         yield (
             f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
             "is not followed."
         )
-    if left := [tally for tally in run.tallies if tally.error_within != 0 or tally.speed_within != 0]:
+    if left := [tally for tally in run.statistics if tally.error_within != 0 or tally.speed_within != 0]:
         yield f"The run is too long to search each pitch of it: the extremes of {', '.join(map(_left, left))}."
 
 
@@ -375,7 +391,7 @@ def _left(tally: RunningStatistics) -> str:
 
 def _pairs(run: MotionRun, every_output: bool) -> Section:
     motion = run.motion
-    moved = [name for name in motion.outputs if any(motion.sensitivity[name][each.id] for each in motion.ahead.used)]
+    moved = [name for name in motion.outputs if any(motion.sensitivity[name][each.id] for each in motion._forward.used)]
     shown = moved if every_output else moved[:_ABREAST]
     text = ["What each pair gives to an output: the range of its own error times the output's sensitivity to it."]
     if still := [name for name in motion.outputs if name not in moved]:
@@ -389,8 +405,8 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
     """What each pair gives to these outputs (deg, peak to peak)."""
     rows = []
-    for source in motion.ahead.used:
-        driver = motion.train.drivers[source.id]
+    for source in motion._forward.used:
+        driver = motion._problem.drivers[source.id]
         low, high = source.transmission.error_range()
         given = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
@@ -400,23 +416,13 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 def _phased(run: MotionRun) -> Section:
     rows = []
-    for at, tally in enumerate(run.tallies):
-        sets = [tallies[at] for tallies in run.phased]
-        peaks, rms = (
-            [degrees(value) for value in values]
-            for values in zip(*((each.peak_to_peak, each.rms) for each in sets), strict=True)
-        )
-        speeds = [each.speeds for each in sets]
-        rows.append(
-            (
-                tally.name,
-                f"{min(peaks):.5g}..{max(peaks):.5g}",
-                f"{min(rms):.5g}..{max(rms):.5g}",
-                f"{min(low for low, _ in speeds):.5f}..{max(high for _, high in speeds):.5f}",
-            )
-        )
+    for at, tally in enumerate(run.statistics):
+        sets = [tallies[at] for tallies in run.phase_statistics]
+        errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
+        lows, highs = zip(*(each.speeds for each in sets), strict=True)
+        rows.append((tally.name, *errors, f"{min(lows):.5f}..{max(highs):.5f}"))
     header = ("output", "error p-p (deg)", "error rms (deg)", "speed over its mean")
-    text = f"{len(run.phased)} sets of random phases of the teeth, seed {run.seed}."
+    text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     return Section("Random phases", (text,), (Table(header, rows),))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from math import degrees, sin
 from typing import TYPE_CHECKING
 
-from geartrain.report.document import Document, Section, Table, cut, figure
+from geartrain.report.document import Document, Section, Table, cut, figure, result_table
 
 if TYPE_CHECKING:
     from geartrain.spherical.gear_sphere import GearSphere
@@ -101,24 +101,11 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
     """The table of solids: which turn, what frees them, which can have one pitch."""
-    header = ("faces of", "gears", "meshes", "turns", "count", "to take out", "types", "mesh kinds", "free", "angles")
-    table = Table(
-        header,
-        [
-            (
-                row.solid,
-                str(row.gears),
-                str(row.meshes),
-                "yes" if row.bipartite else "no",
-                str(row.gruebler),
-                str(row.drop),
-                str(row.types),
-                str(row.mesh_kinds),
-                str(row.positions),
-                " ".join(f"{angle:.9f}" for angle in row.angles),
-            )
-            for row in rows
-        ],
+    table = result_table(
+        rows,
+        *("faces of=solid", "gears", "meshes", ("turns", lambda row: "yes" if row.bipartite else "no")),
+        *("count=gruebler", "to take out=drop", "types", "mesh_kinds", "free=positions"),
+        ("angles", lambda row: " ".join(f"{angle:.9f}" for angle in row.angles)),
         wide=True,
     )
     text = (

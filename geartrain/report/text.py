@@ -7,8 +7,7 @@ from io import StringIO
 from typing import TYPE_CHECKING
 
 from geartrain.errors import printable
-from geartrain.numerics.markdown_text import markdown_text
-from geartrain.report.document import Branch, Document, Table, column_widths, gap_of, strips
+from geartrain.report.document import Branch, Document, Table, aligned_rows, column_widths, gap_of, strips
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -43,10 +42,14 @@ def to_markdown(documents: Sequence[Document]) -> str:
 
 def _line(text: str) -> str:
     """Text on one line, for a heading or a cell."""
+    from geartrain.numerics.markdown_text import markdown_text
+
     return " ".join(markdown_text(text).split())
 
 
 def _markdown(document: Document) -> Iterator[str]:
+    from geartrain.numerics.markdown_text import markdown_text
+
     yield from (f"# {_line(document.title)}", "")
     for paragraph in document.summary:
         yield from (markdown_text(paragraph), "")
@@ -173,6 +176,6 @@ def _rich_table(table: Table, width: int) -> RenderableType:
     shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap_of(table), 0, 0))
     for name, size in zip(table.header, column_widths(table, width), strict=True):
         shown.add_column(_shown(name), width=size, overflow="fold")
-    for row in table.rows:
+    for row in aligned_rows(table):
         shown.add_row(*(_shown(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
     return shown

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.numerics.exact import as_float, percent_of_text, percent_text, watts_text
 from geartrain.numerics.results import Key, Result
-from geartrain.report.document import Document, Section, Table, cut, figure
+from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -107,6 +107,8 @@ class TorqueReport(Result):
     --------
     collect_torque_report : Gives it.
     """
+
+    PAGE = "report.torque_report:describe_torques"
 
     name: str
     """Of the train."""
@@ -225,6 +227,19 @@ def describe_torques(found: TorqueReport) -> Document:
         sections += wing("workshop.monte_carlo.friction_trials").trial_sections(found.friction_trials)
     summary = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", summary, sections)
+
+
+def torques_document(found: Torques | TorqueCycle) -> Document | None:
+    """Return what `geartrain torques` prints for the torques of one state; None where the train is not known."""
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import Torques
+
+    if found._declaration is None:
+        return None
+    train = GearTrain(found._declaration)
+    if isinstance(found, Torques):
+        return describe_torques(collect_torque_report(train, [found]))
+    return describe_torques(collect_torque_report(train, [train.torques(found.state)], found))
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
@@ -477,7 +492,6 @@ def _remarks(found: TorqueCycle) -> Iterator[str]:
 
 
 def _torques(found: TorqueCycle) -> Table:
-    unit = f" ({found.unit})" if found.unit else ""
     rows = [("mean", figure(found.mean, 9), "", "")]
     for name, extreme in (("maximum", found.maximum), ("minimum", found.minimum), ("starting", found.starting)):
         if extreme is None:
@@ -485,9 +499,7 @@ def _torques(found: TorqueCycle) -> Table:
         else:
             days = "" if extreme.days is None else figure(extreme.days, 7)
             rows.append((name, figure(extreme.torque, 9), figure(extreme.turns, 9), days))
-    wanted = 4 if any(row[3] for row in rows) else 3
-    header = (f"torque at {found.link}", unit.strip(" ()") or "torque", "at turn", "day")
-    return Table(header[:wanted], [row[:wanted] for row in rows])
+    return filled_table((f"torque at {found.link}", found.unit or "torque", "at turn", "day"), rows, 3)
 
 
 def _locked(found: TorqueCycle) -> Iterator[Table]:
@@ -520,12 +532,17 @@ def _energies(found: TorqueCycle) -> Table:
         "lost in pins": energy.pin,
         "lost in bearings": energy.bearing,
     }
+    return energy_table("energy", amounts, whole, 9)
+
+
+def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
+    """Energies over a run with their shares of all that is put in; those that are rounding are left out."""
     rows = [
-        (name, figure(value, 9), _share(value, whole))
+        (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()
         if abs(value) > _MINIMUM * whole
     ]
-    return Table(("over the run", "energy", "of all put in"), rows)
+    return Table(("over the run", head, "of all put in"), rows)
 
 
 def _parts(found: TorqueCycle) -> Iterator[Table]:

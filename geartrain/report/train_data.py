@@ -93,6 +93,9 @@ class TrainReport(TrainAnswers):
     collect_report : Gives it.
     """
 
+    PAGE = "report.train_report:describe_train"
+    TEXT = "report.train_report:describe_answers"
+
     KEYS = (
         *("name", "title", "unit", "mobility", "states", "gridlock", "closure", "sources"),
         Key("circuits", keys=("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")),

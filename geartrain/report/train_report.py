@@ -6,6 +6,7 @@ Teeth, loads and motion are described in modules of their own, which are importe
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import degrees
@@ -15,7 +16,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.answer import Answer, Loop, abridged_names
 from geartrain.kinematics.circuits import Circuit
-from geartrain.kinematics.graph import MOST_SQUARE, adjacency_labels, edge_rows
+from geartrain.kinematics.graph import MOST_SQUARE, adjacency_kinds, adjacency_labels, edge_rows
 from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import (
@@ -30,19 +31,23 @@ from geartrain.report.document import (
     Table,
     cut,
     filled_table,
+    without_details,
 )
 from geartrain.report.formula_report import formula_section
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Link, Source, Train, Wheel
-from geartrain.train.trade_words import trade_words
 from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
     from geartrain.kinematics.phasing import MeshPhasing
+    from geartrain.kinematics.speeds import Mobility
 
 
 _CIRCUITS_ABREAST = 6
+_MOST_SPACED, _MOST_LETTERS = 32, 72  # links of a matrix whose columns are separated by blanks, and of the largest one
+_MOST_CARRIERS = 4  # carriers of circuits that are named
+_LETTERS = {"": ".", "revolute": "R", "gear": "G", "several": "+"}
 SOURCES = "Sources"
 """The title under which a report cites; a page has a list with links in its place."""
 
@@ -80,17 +85,38 @@ def describe_train(found: TrainReport) -> Document:
         *_strength(found),
         *_motion(found),
         *doubtful_wheels(train, answers),
-        *_structure(train),
-        _circuits(train),
         _mobility(train),
-        *_phasing(found.closure),
         *_adjacency(train),
+        *(replace(section, detail=True) for section in _details(found)),
     ]
+    return Document(declared.title or declared.name, tuple(_summary(train, answers)), sections)
+
+
+def describe_answers(found: TrainReport) -> Document:
+    """Return the report on one train without formulas, circuits, structure, errata and sources."""
+    return without_details(describe_train(found))
+
+
+def _details(found: TrainReport) -> Iterator[Section]:
+    """Yield the sections that text reports omit: formulas, structure, circuits, matrix by names, errata, sources."""
+    train, declared = found.train, found.train.declaration
+    explained = True  # the notation of formulas is explained once
+    for answer in found.states:
+        if answer.verdict.kind != "refused":
+            formulas = tuple(formula_section(train, answer.state, explained=explained))
+            explained = explained and not formulas
+            yield from formulas
+    yield from _structure(train)
+    yield _circuits(train)
+    yield from _phasing(found.closure)
+    if len(declared.links) <= MOST_SQUARE:
+        others = "gear pairs and couplings" if declared.couplings else "gear pairs"
+        text = f"R(axis) is a turning pair; the other entries are {others} by name."
+        yield Section("Adjacency matrix by names", (text,), (adjacency_table(train),))
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
-        sections.append(Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),)))
-    last = [*_words(sections), *_sources(declared)]
-    return Document(declared.title or declared.name, tuple(_summary(train, answers)), (*sections, *last))
+        yield Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),))
+    yield from _sources(declared)
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
@@ -102,15 +128,12 @@ def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
         yield from gearbox_sections(box)
     elif train.states:
         yield shift_table(train, answers)
-    read = False  # how to read a formula is said once
     for answer in answers:
-        told = list(answer_sections(train, answer))
-        # a gearbox has all speeds in one table
-        yield from told if box is None or not answer.verdict else told[:-1]
-        refused = answer.verdict.kind == "refused"
-        formulas = () if refused else tuple(formula_section(train, answer.state, explained=not read))
-        read = read or bool(formulas)
-        yield from formulas
+        sections = list(answer_sections(train, answer))
+        if box is None or not answer.verdict:
+            yield from sections
+        else:  # the tables of a gearbox have all speeds and ratios
+            yield from (replace(section, detail=True) for section in sections[:-1])
 
 
 def _findings(train: GearTrain) -> Iterator[Section]:
@@ -160,15 +183,6 @@ def _sources(declared: Train) -> Iterator[Section]:
     """All that the declaration cites."""
     if declared.sources:
         yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
-
-
-def _words(sections: Sequence[Section]) -> Iterator[Section]:
-    """What makers and historians call the things that a report names."""
-    told = (
-        text for each in sections for text in (each.title, *each.paragraphs, *(" ".join(t.header) for t in each.tables))
-    )
-    if words := list(trade_words("\n".join(told))):
-        yield Section("Words", (), (Table(("engineer", "maker", "historian"), words),))
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
@@ -228,11 +242,19 @@ def _structure(train: GearTrain) -> Iterator[Section]:
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
-    """The matrix, where it is not too large to be read."""
-    if len(train.declaration.links) <= MOST_SQUARE:
-        others = "gear pairs and couplings" if train.declaration.couplings else "gear pairs"
-        text = f"R(axis) is a turning pair; the other entries are {others} by name."
-        yield Section("Adjacency matrix", (text,), (adjacency_table(train),))
+    """Yield the adjacency matrix with one character for each cell, if it fits into a line."""
+    links = list(train.declaration.links)
+    if len(links) > _MOST_LETTERS:
+        return
+    gap = " " if len(links) <= _MOST_SPACED else ""
+    cells = [[_LETTERS.get(kind, "C") for kind in row] for row in adjacency_kinds(train.declaration)]
+    head = gap.join(str(at % 10) for at in range(1, len(links) + 1))
+    rows = [(f"{at} {link}", gap.join(row)) for at, (link, row) in enumerate(zip(links, cells, strict=True), 1)]
+    couplings = ", C a coupling" if train.declaration.couplings else ""
+    text = (
+        f"R is a turning pair, G a gear pair{couplings}, + several; columns have the last digits of the links' numbers."
+    )
+    yield Section("Adjacency matrix", (text,), (Table(("link", head), rows, wide=True),))
 
 
 def _note(link: Link) -> str:
@@ -308,27 +330,49 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
 
 
 def _mobility(train: GearTrain) -> Section:
-    found = train.mobility
+    held = [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
+    return Section("Mobility", [_circuits_in_short(train), *_mobility_lines(train.mobility, held)])
+
+
+def _circuits_in_short(train: GearTrain) -> str:
+    """Return how many fundamental circuits there are, and with which carriers."""
+    carriers = Counter(circuit.carrier for circuit in train.circuits).most_common()
+    named = ", ".join(f"{count} with carrier '{link}'" for link, count in carriers[:_MOST_CARRIERS])
+    rest = sum(count for _, count in carriers[_MOST_CARRIERS:])
+    number = plural(len(train.circuits), "fundamental circuit")
+    return f"{number}: {named}{f', {rest} with other carriers' if rest else ''}." if carriers else f"{number}."
+
+
+def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
+    """Mobility by count and by rank, what is redundant, what holds the train, and what stands still."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')} - {plural(found.gear_pairs, 'gear pair')}{minus}"
-    lines = [
-        f"By count: {pairs} = {found.by_count}.",
-        f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}"
-        + (" (exact)." if found.certain else " (rank modulo two primes)."),
-    ]
+    yield f"By count: {pairs} = {found.by_count}."
+    exact = " (exact)." if found.certain else " (rank modulo two primes)."
+    yield f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}{exact}"
     if found.redundant:
         many = "circuit" if found.redundant == 1 else "circuits"
-        lines.append(f"{found.redundant} redundant {many}: what the others say already.")
-    lines += [f"Redundant: {_loop(loop)}." for loop in found.loops[:12]]
+        yield f"{found.redundant} redundant {many}: what the others say already."
+    yield from (f"Redundant: {_loop(loop)}." for loop in found.loops[:12])
     if len(found.loops) > 12:
-        lines.append(f"... and {len(found.loops) - 12} more redundant loops.")
-    lines += [f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12]]
-    lines += [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
+        yield f"... and {len(found.loops) - 12} more redundant loops."
+    yield from (f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12])
+    yield from held
     if found.idle:
-        lines.append(f"Never rolling: {', '.join(found.idle[:20])}.")
+        yield f"Never rolling: {', '.join(found.idle[:20])}."
     if found.still and found.by_rank:
-        lines.append(f"Standing still in every motion: {', '.join(found.still[:20])}.")
-    return Section("Mobility", lines)
+        yield f"Standing still in every motion: {', '.join(found.still[:20])}."
+
+
+def phasing_document(closure: MeshPhasing) -> Document:
+    """Return what the report says of phase closure."""
+    sections = list(_phasing(closure)) or [Section("Putting it together", ("No loop of the train is judged.",))]
+    return Document("Phase closure", (), sections)
+
+
+def mobility_document(found: Mobility) -> Document:
+    """Return what the report says of mobility, without what holds a train that is locked."""
+    return Document("Mobility", (), [Section("Mobility", list(_mobility_lines(found)))])
 
 
 def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from geartrain.numerics.results import Shown
+
 
 @dataclass(frozen=True, slots=True)
-class CountFormula:
+class CountFormula(Shown):
     """A quotient of two sums of products of counts; coefficients are whole.
 
     See Also
@@ -24,7 +26,7 @@ class CountFormula:
 
 
 @dataclass(frozen=True, slots=True)
-class CountCondition:
+class CountCondition(Shown):
     """What counts must not break for the formulas to hold.
 
     See Also
@@ -43,7 +45,7 @@ class CountCondition:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneFormulas:
+class SceneFormulas(Shown):
     """All speeds of a scene, at the declared inputs and in the train's unit, as functions of tooth counts.
 
     See Also

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from geartrain.numerics.results import Shown
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.wheel_reach import reach, span, web
 
@@ -17,7 +18,7 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 
 @dataclass(frozen=True, slots=True)
-class ScenePart:
+class ScenePart(Shown):
     """What holds wheels, as it is made: a turned part, or a flat one; about its own z, its middle at `place`.
 
     See Also
@@ -47,7 +48,7 @@ class ScenePart:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneHanger:
+class SceneHanger(Shown):
     """What hangs on a train: a pendulum, the line of a weight, or the weight.
 
     See Also
@@ -83,7 +84,7 @@ class SceneHanger:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneBody:
+class SceneBody(Shown):
     """A link of a scene, with the axis about which it turns.
 
     See Also
@@ -120,7 +121,7 @@ class SceneBody:
 
 
 @dataclass(frozen=True, slots=True)
-class ToothProfile:
+class ToothProfile(Shown):
     """One tooth of a wheel, from the middle of a space to the middle of the next, the tooth's middle at angle 0.
 
     See Also
@@ -138,7 +139,7 @@ class ToothProfile:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneWheel:
+class SceneWheel(Shown):
     """A wheel of a body.
 
     See Also
@@ -211,7 +212,7 @@ class SceneWheel:
 
 
 @dataclass(frozen=True, slots=True)
-class ScenePair:
+class ScenePair(Shown):
     """A gear pair of a scene.
 
     See Also
@@ -238,7 +239,7 @@ class ScenePair:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneCoupling:
+class SceneCoupling(Shown):
     """A pin in a slot, or pins in round holes.
 
     See Also
@@ -303,7 +304,7 @@ class SceneShiftElement:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneWave:
+class SceneWave(Shown):
     """What bends a thin wheel into its ring as it goes round; wheel and wall of its cup stand about one axis with it.
 
     See Also

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, ClassVar
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.results import Key, Result, plain
+from geartrain.numerics.results import Key, Result, Shown, plain
 from geartrain.scene.context import SceneContext
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class ErrorTable(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorSource:
+class ErrorSource(Shown):
     """A pair whose law adds to the errors of a scene.
 
     After t turns of the lead the driver's forward angle is
@@ -107,7 +107,7 @@ class ErrorSource:
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorStep:
+class ErrorStep(Shown):
     """Errors of some bodies from those known: error[bodies] = from_known error[known] + from_sources delta[sources].
 
     See Also
@@ -130,7 +130,7 @@ class ErrorStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Movement:
+class Movement(Shown):
     """How errors of angles follow from the turns of the lead: the steps in order, then constant offsets.
 
     See Also
@@ -303,9 +303,9 @@ def _in_the_mean(stage: SceneContext, problems: Sequence[Problem]) -> MovementSt
 def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
     import numpy as np
 
-    composition = motion.ahead
+    composition = motion._forward
     _try(composition, float(motion.period or 1))
-    error, way = composition.at(np.zeros(1)).error[:, 0], motion.train.way
+    error, way = composition.at(np.zeros(1)).error[:, 0], motion._problem.way
     links = tuple(stage.train.declaration.links)
     rest = {
         link: stage.sense(link) * (stage.start(link) + way * float(each))
@@ -328,9 +328,9 @@ def _try(composition: ErrorComposition, turns: float) -> None:
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
     """How errors follow where the lead turns back, if otherwise than ahead; and why they cannot be followed."""
     try:
-        composition = motion.back
+        composition = motion._backward
         _try(composition, -float(motion.period or 1))
-        back = _written(stage, composition, motion.train.way)
+        back = _written(stage, composition, motion._problem.way)
     except GearTrainError as error:
         mean = _in_the_mean(stage, error.problems)
         return mean.movement, mean.notices

@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
-from geartrain.numerics.results import plain
+from geartrain.numerics.results import Shown, plain
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.count_formulas import SceneFormulas
 from geartrain.scene.dial_scale import DialScale
@@ -38,7 +38,7 @@ FORMAT = 1
 
 
 @dataclass(frozen=True, slots=True)
-class DialFace:
+class DialFace(Shown):
     """A scale over which pointers turn.
 
     See Also
@@ -80,7 +80,7 @@ class DialFace:
 
 
 @dataclass(frozen=True, slots=True)
-class PointerTarget:
+class PointerTarget(Shown):
     """What an output should show.
 
     See Also
@@ -97,7 +97,7 @@ class PointerTarget:
 
 
 @dataclass(frozen=True, slots=True)
-class SceneEpoch:
+class SceneEpoch(Shown):
     """The date at which the lead has made some turns, and what a turn lasts.
 
     See Also
@@ -120,7 +120,7 @@ class SceneEpoch:
 
 
 @dataclass(frozen=True, slots=True)
-class Pointer:
+class Pointer(Shown):
     """An output as a pointer.
 
     See Also
@@ -167,7 +167,7 @@ class Pointer:
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Shown):
     """A train in one state, ready to be drawn: plain data, in mm and rad.
 
     See Also
@@ -238,6 +238,10 @@ class Scene:
     """The pendulum and the weight of a train as built that declares them; else none."""
     waves: Sequence[SceneWave] = ()
     """What bends thin wheels into their rings."""
+
+    def _summary(self) -> str:
+        state = "" if self.state is None else f" state {self.state}"
+        return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""

@@ -1,4 +1,4 @@
-"""The results of searches that commands print as JSON."""
+"""Result types of the searches that commands print as JSON."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Question (a command, or a use of one) -> type of its result."""
+    """Return a dictionary from a command, or one of its uses, to the type of its result."""
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
     from geartrain.search.orrery.orrery_search import Orrery
     from geartrain.search.posterior.posterior_result import ToothCountPosterior

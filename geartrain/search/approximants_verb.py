@@ -1,4 +1,4 @@
-"""`geartrain teeth approximants RATIO`: the fractions on the way to a ratio."""
+"""Command `geartrain teeth approximants RATIO`: fractions that approximate a ratio."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Fractions on the way to a ratio, each nearer than all smaller ones: convergents and what lies between."""
+    """List fractions that approximate a ratio: convergents of its continued fraction and intermediate fractions."""
     from geartrain.search.stern_brocot import Approximants, approximants
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
-    from geartrain.search.tooth_numbers_report import describe_approximants
+    from geartrain.search.tooth_numbers_report import approximant_rows, describe_approximants
 
     answer = SearchAnswer.of(csv, json, out, force)
     wanted = read_ratio(check_number(context, ratio), per)
     most = max(read_counts(text or counts).most for text in (wheels, pinions))
     found = Approximants(wanted, most, tuple(approximants(wanted.value, most)))
-    answer.give(found, [each.to_dict() for each in found.solutions], describe_approximants)
+    answer.give(found, approximant_rows(found), describe_approximants)

@@ -1,4 +1,4 @@
-"""Columns of whole numbers: ranges written out, all at once or block by block, and the distinct quotients of two."""
+"""Ranges of integers as arrays, all at once or block by block, and distinct quotients of two integer arrays."""
 
 from __future__ import annotations
 
@@ -12,11 +12,14 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Ints
 
 Integers = NDArray[Any]
-"""int64, or Python's integers where they may be longer."""
+"""Array of int64, or of Python integers (dtype object) where values may exceed int64."""
 
 
 def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
-    """All whole numbers of some half-open ranges, none of which ends before it starts: (which range, number)."""
+    """Return all integers of some half-open ranges as two arrays: the index of the range, and the integer.
+
+    No range may end before it starts.
+    """
     sizes = ends - starts
     owner = np.repeat(np.arange(len(sizes)), sizes)
     before = np.cumsum(sizes) - sizes
@@ -24,15 +27,15 @@ def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
 
 
 def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints, Ints]]:
-    """As `spread`, at most so many numbers at a time."""
+    """Yield the arrays of `spread` in blocks of at most `most` integers."""
     upto = np.cumsum(ends - starts)
     total = int(upto[-1]) if len(upto) else 0
     for begin in range(0, total, most):
         stop = min(begin + most, total)
-        # the ranges that hold `begin` and `stop` - 1; empty ranges before the first of them are stepped over
+        # the ranges that include `begin` and `stop` - 1; empty ranges before them are skipped
         first, last = np.searchsorted(upto, begin, side="right"), np.searchsorted(upto, stop, side="left") + 1
         low, high = starts[first:last].copy(), ends[first:last].copy()
-        # the first and the last range of a block may be cut by it
+        # the block may include only a part of its first and last range
         low[0] = high[0] - (upto[first] - begin)
         high[-1] -= upto[last - 1] - stop
         owner, numbers = spread(low, high)
@@ -40,13 +43,16 @@ def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints
 
 
 def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction], Ints]:
-    """The different values of some quotients, none of them over 0, and for each quotient which of them it is."""
+    """Return the distinct values of the quotients above / below, and for each quotient the index of its value.
+
+    No element of `below` may be 0.
+    """
     if above.dtype != below.dtype:
         above, below = above.astype(object), below.astype(object)
-    # in lowest terms with the sign above, equal quotients are equal pairs
+    # in lowest terms with positive denominators, equal quotients are equal pairs
     common = np.gcd(above, below) * np.where(below < 0, -1, 1)
     above, below = above // common, below // common
-    if above.dtype == object:  # lexsort takes no Python integers
+    if above.dtype == object:  # lexsort does not support Python integers
         pairs = list(zip(above.tolist(), below.tolist(), strict=True))
         order = np.array(sorted(range(len(pairs)), key=pairs.__getitem__), dtype=np.int64)
     else:

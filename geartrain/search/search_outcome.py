@@ -1,4 +1,4 @@
-"""What a search for tooth numbers found, and why it found no more."""
+"""Results of a search for tooth counts, and the reasons for which candidates were rejected."""
 
 from __future__ import annotations
 
@@ -8,64 +8,64 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, brief
 
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Where candidates went: the infeasibility certificate of an empty or short list.
+    """Numbers of rejected candidates by reason: the infeasibility certificate of an empty or short list.
 
     See Also
     --------
-    geartrain.search.find_stages, geartrain.search.find_sets : whose findings hold one.
+    geartrain.search.find_stages, geartrain.search.find_sets : searches whose findings include one.
     """
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
 
     considered: int = 0
-    """Candidates there were before any constraint."""
+    """Number of candidates before any constraint is applied."""
     removed: Mapping[str, int] | None = None
-    """Reason -> candidates it removed; each candidate is charged to the first reason that refuses it."""
+    """Reason -> number of candidates it rejected. A candidate is counted under the first reason that rejects it."""
     nearest: str = ""
-    """The nearest miss in words, with its teeth and its error; empty where something was found."""
+    """Description of the nearest miss with its tooth counts and its error; empty if there is a solution."""
     advice: str = ""
-    """What to relax, and what that would give; empty where something was found."""
+    """Constraints to relax and the result of doing so; empty if there is a solution."""
 
     @property
     def removals(self) -> Mapping[str, int]:
-        """The same; nothing where it was not counted."""
+        """Mapping `removed`, or an empty mapping if rejected candidates were not counted."""
         return self.removed or {}
 
 
 class CountSizes(ABC):
-    """How large tooth counts are, taken together."""
+    """Summary figures of a collection of tooth counts: sum, maximum, number of distinct counts."""
 
     __slots__ = ()
 
     @property
     @abstractmethod
     def counts(self) -> Collection[int]:
-        """All the counts."""
+        """Tooth counts of all wheels."""
 
     @property
     def total(self) -> int:
-        """Their sum."""
+        """Sum of the tooth counts."""
         return sum(self.counts)
 
     @property
     def largest(self) -> int:
-        """The greatest; 0 where there are none."""
+        """Maximum tooth count, 0 without counts."""
         return max(self.counts, default=0)
 
     @property
     def distinct(self) -> int:
-        """How many different ones there are."""
+        """Number of distinct tooth counts."""
         return len(set(self.counts))
 
 
 @dataclass(frozen=True, slots=True)
 class GearStages(CountSizes, Result):
-    """Tooth numbers of one ratio: the counts on top over the counts beneath, each an unordered set.
+    """Tooth counts of one ratio, split into the multisets of the numerator (`top`) and the denominator (`beneath`).
 
     See Also
     --------
@@ -85,27 +85,31 @@ class GearStages(CountSizes, Result):
     )
 
     top: tuple[int, ...]
-    """Counts on top, ascending, one for each stage."""
+    """Tooth counts of the numerator, ascending, one for each stage."""
     beneath: tuple[int, ...]
-    """Counts beneath, ascending, one for each stage."""
+    """Tooth counts of the denominator, ascending, one for each stage."""
     ratio: Fraction
-    """Product of `top` over product of `beneath`, exact; positive."""
+    """Product of `top` over product of `beneath`, exact and positive."""
     error: Fraction
-    """`ratio` over the wanted magnitude, less 1; exact."""
+    """Relative error: `ratio` over the magnitude of the requested ratio, minus 1; exact."""
     pairs: tuple[tuple[int, int], ...]
-    """The stages as they are best paired: count on top, count beneath."""
+    """Stages of the best pairing: (numerator count, denominator count)."""
+
+    def _summary(self) -> str:
+        teeth = " ".join(f"{top}/{beneath}" for top, beneath in self.pairs)
+        return f"{teeth} = {brief(self.ratio)}, error {float(self.error):.3g}"
 
     @property
     def teeth(self) -> tuple[int, ...]:
-        """All counts, those on top first."""
+        """All tooth counts, those of the numerator first."""
         return self.top + self.beneath
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """All counts."""
+        """All tooth counts, those of the numerator first."""
         return self.teeth
 
     @property
     def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """The counts on top, and those beneath."""
+        """Tooth counts of the numerator, and of the denominator."""
         return self.top, self.beneath

@@ -1,9 +1,10 @@
-"""Fractions near a number: the tree of Stern and Brocot, walked exactly and in strides.
+"""Fractions near a number by exact traversal of the Stern-Brocot tree.
 
 Sources: M. A. Stern, Ueber eine zahlentheoretische Funktion, J. reine angew. Math. 55 (1858); A. Brocot, Calcul des
-rouages par approximation, Revue chronometrique 3 (1861). Every fraction stands in the tree once, between two
-neighbours a/b < c/d with bc - ad = 1, as their mediant (a + c)/(b + d). The walk down to a number turns left and right;
-the lengths of its straight runs are the terms of the number's continued fraction, so a run is jumped over at once.
+rouages par approximation, Revue chronometrique 3 (1861). The tree contains every positive reduced fraction once, as
+the mediant (a + c)/(b + d) of two neighbours a/b < c/d with bc - ad = 1. The path to a number descends left and right.
+The lengths of its straight runs are the terms of the continued fraction of the number, so a run is skipped in one
+step.
 """
 
 from __future__ import annotations
@@ -12,23 +13,23 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from heapq import merge
-from typing import Literal
+from typing import ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import coprime
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.target_ratio import TargetRatio
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]
 IntegerPair = tuple[int, int]
-"""Numerator and denominator; (1, 0) stands above all fractions."""
+"""Numerator and denominator; (1, 0) represents infinity."""
 
 _MOST_LISTED = 10**5
 
 
 @dataclass(frozen=True, slots=True)
 class Approximant(Result):
-    """A fraction on the walk to a number.
+    """Fraction on the path of the Stern-Brocot tree to a number.
 
     See Also
     --------
@@ -38,54 +39,71 @@ class Approximant(Result):
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
 
     value: Fraction
-    """The fraction, positive."""
+    """Positive fraction."""
     error: Fraction
-    """`value` over the number, less 1; exact."""
+    """Relative error: `value` over the number, minus 1; exact."""
     kind: ApproximantKind
-    """"convergent": of the continued fraction. "best": no convergent, but nearer than every other positive fraction
-    whose denominator is not larger (a best approximation of the first kind). "intermediate": neither."""
+    """Type of the approximation. "convergent": a convergent of the continued fraction. "best": another fraction that is
+    nearer than every other positive fraction whose denominator is not larger (a best approximation of the first kind).
+    "intermediate": neither.
+    """
 
 
 @dataclass(frozen=True, slots=True)
-class Approximants(Result):
-    """The fractions on the way to a ratio, each nearer than all smaller ones."""
+class Approximants(Tabular, Result):
+    """Fractions that approximate a ratio: the path of the Stern-Brocot tree to it."""
+
+    ROWS = "search.tooth_numbers_report:approximant_rows"
+    ROW = "Approximant"
+    MEANINGS: ClassVar = {
+        "error": "Fraction over the requested ratio, minus 1 [1].",
+        "exact_error": "Error as a fraction [1].",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_approximants"
 
     wanted: TargetRatio
-    """The ratio."""
+    """Requested ratio."""
     most: int
-    """The greatest numerator and denominator."""
+    """Maximum numerator and denominator."""
     solutions: tuple[Approximant, ...]
-    """In the order of the walk."""
+    """Fractions in the order of the path."""
+
+    def _summary(self) -> str:
+        label = self.wanted.label or self.wanted.value
+        last = f", last {self.solutions[-1].value}" if self.solutions else ""
+        return f"{label}: {len(self.solutions)} fractions up to {self.most}{last}"
 
 
 @dataclass(frozen=True, slots=True)
 class SternBrocotRun:
-    """A straight run of the walk: the fractions (p + k P)/(q + k Q) for k from 1 to `length`, from p/q towards P/Q."""
+    """Straight run of the path: the fractions (p + k P)/(q + k Q) for k from 1 to `length`, from p/q towards P/Q."""
 
     near: IntegerPair
-    """(p, q), the end on the side of the run's fractions."""
+    """Numerator and denominator (p, q) of the end on the same side of the number as the fractions of the run."""
     far: IntegerPair
-    """(P, Q), the end beyond the number."""
+    """Numerator and denominator (P, Q) of the end on the opposite side of the number."""
     whole: int
-    """Length the run would have without bounds: a term of the continued fraction; there the convergent stands."""
+    """Length of the run without bounds, a term of the continued fraction. The fraction at this index is the convergent.
+    """
     length: int
     """Length within the bounds."""
     best: int
-    """Least k whose fraction is a best one of the first kind, and all after it are; `length` + 1 if none is."""
+    """Minimum k from which on the fractions are best approximations of the first kind; `length` + 1 if none is."""
 
     def at(self, k: int) -> Fraction:
-        """The fraction of place k."""
+        """Return the fraction at index k."""
         return coprime(self.near[0] + k * self.far[0], self.near[1] + k * self.far[1])
 
     def kind(self, k: int) -> ApproximantKind:
-        """What the fraction of place k is."""
+        """Return the type of the fraction at index k."""
         if k == self.whole:
             return "convergent"
         return "best" if k >= self.best else "intermediate"
 
 
 def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
-    """The walk to `value` > 0 while numerator and denominator stay within `most`; as many runs as terms."""
+    """Yield the straight runs of the path to `value` > 0 with numerators and denominators up to `most`."""
     _check(value, most, most)
     left, right = value.numerator, value.denominator
     near, far = (0, 1), (1, 0)
@@ -95,6 +113,7 @@ def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
         length = min(term, room)
         if length:
             yield SternBrocotRun(near, far, term, length, _first_best(value, near, far, length))
+        # the bounds end the path before the end of the run
         if room < term:
             return
         near, far = far, (near[0] + term * far[0], near[1] + term * far[1])
@@ -102,29 +121,30 @@ def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
 
 
 def approximants(value: Fraction, most: int, minimum: ApproximantKind = "intermediate") -> tuple[Approximant, ...]:
-    """Every fraction on the walk down the Stern-Brocot tree to a number, in the order of the walk.
+    """List every fraction on the path of the Stern-Brocot tree to a number, in the order of the path.
 
     Parameters
     ----------
     value : Fraction
         The number, above 0.
     most : int
-        The largest numerator and denominator.
+        Maximum numerator and denominator.
     minimum : {"convergent", "best", "intermediate"}
-        "convergent" lists convergents of the continued fraction alone, "best" the best ones too, "intermediate" all.
+        "convergent" lists only the convergents of the continued fraction, "best" also the best approximations of the
+        first kind, "intermediate" all fractions.
 
     Returns
     -------
     tuple of Approximant
-        The last one is `value` itself where that is within the bound. Where it is not, and everything is listed, the
-        last one of either side is the nearest from that side of all fractions within the bound.
+        The last one is `value` itself if that is within the bound. If it is not, and all fractions are listed, the last
+        fraction on either side is the nearest on that side of all fractions within the bound.
 
     Raises
     ------
     QuestionError
         If the number or the bound is not positive.
     RangeError
-        For more than 10^5 fractions; the convergents are always few.
+        If there are more than 10^5 fractions. There are always few convergents.
 
     References
     ----------
@@ -141,9 +161,9 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
         if len(found) + run.length - first >= _MOST_LISTED:
             raise RangeError(
                 Problem(
-                    f"more than {_MOST_LISTED} fractions lie on the way",
-                    f"a straight run of the walk, from {run.at(1)} to {run.at(run.length)}, holds {run.length} of them",
-                    "lower the bound, or ask for the convergents alone",
+                    f"more than {_MOST_LISTED} fractions approximate this ratio",
+                    f"the run of the tree from {run.at(1)} to {run.at(run.length)} has {run.length} of them",
+                    "reduce the bound, or request only the convergents",
                 )
             )
         for k in range(first, run.length + 1):
@@ -153,10 +173,10 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
 
 
 def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> tuple[IntegerPair, IntegerPair]:
-    """The greatest fraction below `value` > 0 and the least one not below it, within the bounds.
+    """Return the largest fraction below `value` > 0 and the smallest one not below it, within the bounds.
 
-    (0, 1) where none is below, (1, 0) where none is above. The two are neighbours: bc - ad = 1. Cost grows with the
-    logarithm of the bounds.
+    (0, 1) is returned if none is below, (1, 0) if none is above. The two are neighbours: bc - ad = 1. The cost grows
+    with the logarithm of the bounds.
 
     >>> neighbours(Fraction(191, 23), 100, 100)
     ((83, 10), (25, 3))
@@ -168,8 +188,10 @@ def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> t
     while True:
         below, above = n * low[1] - d * low[0], d * high[0] - n * high[1]
         room = _room(low, high, most)
+        # as many steps along the run as keep the lower neighbour below the value
         step = min(room, (below - 1) // above) if above else room
         low = (low[0] + step * high[0], low[1] + step * high[1])
+        # likewise the upper neighbour, which may be equal to the value
         back = min(_room(high, low, most), above // (below - step * above))
         high = (high[0] + back * low[0], high[1] + back * low[1])
         if not step and not back:
@@ -177,37 +199,40 @@ def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> t
 
 
 def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
-    """The greatest fraction not above `value` >= 0 and the least not below it, denominators up to `most` (>= 1).
+    """Return the largest fraction <= `value` and the smallest >= `value` with denominators up to `most`.
+
+    `value` must be 0 or more, and `most` 1 or more.
 
     >>> farey_neighbours(Fraction(314159, 100000), 100)
     (Fraction(311, 99), Fraction(22, 7))
     """
     if value.denominator <= most:
         return value, value
-    # no numerator of a neighbour is longer than this, so only the denominators are bounded
+    # no numerator of a neighbour exceeds this, so only the denominators are bounded
     low, high = neighbours(value, (int(value) + 1) * most, most)
     return Fraction(*low), Fraction(*high)
 
 
 def nearest_first(value: Fraction, most_numerator: int, most_denominator: int) -> Iterator[Fraction]:
-    """Every positive fraction within the bounds, in the order of its distance from `value` > 0; lazy.
+    """Yield every positive fraction within the bounds in the order of its distance from `value` > 0.
 
-    Of two at one distance the smaller comes first.
+    If two fractions have the same distance, the smaller one is first.
     """
     low, high = neighbours(value, most_numerator, most_denominator)
     most = (most_numerator, most_denominator)
     up = (coprime(p, q) for p, q in _onward(low, high, most))
-    # turned upside down, the fractions below ascend too
+    # the reciprocals of the fractions below are ascending too
     down = (coprime(p, q) for q, p in _onward(high[::-1], low[::-1], most[::-1]))
     return merge(down, up, key=lambda fraction: abs(fraction - value))
 
 
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:
-    """Least k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, up to `length` + 1.
+    """Return the minimum k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, at most `length` + 1.
 
-    The fractions of a run come ever nearer, and what lies between them and the number has larger denominators; so
-    only the end beyond the number competes. Zero and infinity, no gear ratios, do not. A whole number competes with the
-    next one, whose denominator is the same.
+    The fractions of a run approach the number monotonically, and all fractions between them and the number have larger
+    denominators. Each therefore has to be compared only with the end on the opposite side. Zero and infinity are
+    excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
+    denominator.
     """
     if not far[1]:
         return length if value - length < Fraction(1, 2) else length + 1
@@ -221,15 +246,16 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
 
 
 def _room(near: IntegerPair, far: IntegerPair, most: IntegerPair) -> int:
-    """The most steps from `near` towards `far` within the bounds."""
+    """Return the maximum number of steps from `near` towards `far` within the bounds."""
     return min((bound - p) // step for p, step, bound in zip(near, far, most, strict=True) if step)
 
 
 def _onward(before: IntegerPair, at: IntegerPair, most: IntegerPair) -> Iterator[IntegerPair]:
-    """`at` and all fractions above it within the bounds, ascending; `before` is its lower neighbour."""
+    """Yield `at` and all larger fractions within the bounds, ascending; `before` is its lower neighbour."""
     (a, b), (c, d) = before, at
     while d:
         yield c, d
+        # recurrence of the Farey sequence
         k = min((most[0] + a) // c, (most[1] + b) // d)
         a, b, c, d = c, d, k * c - a, k * d - b
 

@@ -1,4 +1,4 @@
-"""What ratio is wanted: from a number, a fraction, a pair of counts, a quotient of periods or a name of the table."""
+"""Parser of a requested ratio: a number, a fraction, a pair of counts, a quotient of periods, or a name."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ TargetKind = Literal["number", "things", "time", "speed", "count"]
 
 _MOST_CHARACTERS = 2000
 _SHOWN = 60
-_FARTHEST = Fraction(10**30)  # fifteen stages of 1:100
+_FARTHEST = Fraction(10**30)  # about fifteen stages of 1:100
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _WITH_WORD = re.compile(rf"({_NUMBER}(?:\s*[/:]\s*{_NUMBER})?)\s*(?![eE][+-]?\d)([^\W\d_].*)")
 _DIVISION = re.compile(r"[/:]")
 _WIDE_DIVISION = re.compile(r"\s[/:]\s")
-# words for times beyond the units that quantities are written in
+# words for times in addition to the units of quantities
 _TIMES = {
     **dict.fromkeys(("hour", "hours", "hr", "hrs"), "h"),
     **dict.fromkeys(("minute", "minutes", "mins"), "min"),
@@ -37,12 +37,12 @@ _WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.5305
 
 @dataclass(frozen=True, slots=True)
 class TargetRatio(Result):
-    """A ratio that tooth numbers are to make; `read_ratio` reads it from a text.
+    """Requested ratio of a gear train. `read_ratio` parses it from a text.
 
     Raises
     ------
     QuestionError
-        If the value is not above 0.
+        If the value is not positive.
 
     Examples
     --------
@@ -53,32 +53,32 @@ class TargetRatio(Result):
     KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
 
     value: Fraction
-    """Its magnitude, exact, above 0: teeth on top over teeth beneath."""
+    """Magnitude of the ratio, exact and positive: teeth of the numerator over teeth of the denominator."""
     sense: Literal[-1, 0, 1] = 0
-    """1 for an output that turns with the input, -1 against it, 0 where that is not asked."""
+    """Sense of rotation of the output: 1 if equal to the input, -1 if opposite, 0 if not requested."""
     label: str = ""
-    """The ratio as it was asked for."""
+    """Text of the ratio as it was given."""
     note: str = ""
-    """Where the number comes from, with its source."""
+    """Origin of the number, with its source."""
 
     def __post_init__(self) -> None:
         if self.value <= 0:
             raise _problem(
-                f"a ratio of {_short(fraction_text(self.value))} is wanted",
-                "tooth counts make the magnitude, which is above 0; the sense is told apart",
+                f"the ratio is {_short(fraction_text(self.value))}",
+                "the magnitude of a ratio must be positive; a separate sign gives the sense",
                 "give a number above 0",
             )
         if not 1 / _FARTHEST <= self.value <= _FARTHEST:
             raise _problem(
-                f"a ratio of {_short(self.label or decimal(self.value, 6))} is wanted",
-                "no train of gears has it: ratios are from 1e-30 to 1e30",
-                "give a nearer one",
+                f"the ratio is {_short(self.label or decimal(self.value, 6))}",
+                "the ratio of a gear train must be from 1e-30 to 1e30",
+                "give a ratio in this range",
             )
 
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """One side of a quotient, or all there is: its kind, its exact value (times in days), its unit's word, its note."""
+    """One side of a quotient or a single term: kind, exact value (times in days), word of the unit, note."""
 
     kind: TargetKind
     value: Fraction
@@ -87,39 +87,40 @@ class _Term:
 
 
 def read_ratio(text: str, per: str | None = None) -> TargetRatio:
-    """The wanted ratio that a text tells, exactly as it is written.
+    """Parse a requested ratio; the value is exact.
 
     Parameters
     ----------
     text : str
-        A number, a fraction, a pair of counts, a quotient of two periods, or a name of `geartrain periods`; see Notes.
-        A sign in front asks for a sense of rotation: + the same, - the opposite; without one the sense is free.
+        A number, a fraction, a pair of counts, a quotient of two periods, or a name listed by `geartrain periods`; see
+        Notes. A leading sign requests a sense of rotation: + the same, - the opposite. Without a sign either is
+        accepted.
     per : str, optional
-        A period, where `text` is a lone period too: the ratio is how often that turns in one of `per`.
+        A second period if `text` is a single period. The ratio is the number of revolutions in one period `per`.
 
     Returns
     -------
     TargetRatio
-        Its magnitude, its sense, and where the number comes from.
+        Magnitude, sense of rotation and origin of the ratio.
 
     Raises
     ------
     QuestionError
-        For what has no meaning, or more than one.
+        If the text cannot be parsed or is ambiguous.
 
     Notes
     -----
     "13.368267", "235/19", "1:30"      the number, exactly as written
-    "235 months / 19 years"            a pair of counts: in the time of 19 turns of the one (years) the other (months)
-                                       makes 235, so its pointer turns 235/19 times as fast
-    "365.2422 d / 29.53059 d"          a quotient of two periods: how often the second turns in one turn of the first,
-    "year_julian / month_metonic"      so the ratio is the speed of what has the second period over the speed of what
-                                       has the first; any time or name of the table of periods may stand on each side
-    "metonic_months_per_year"          a name of that table: a speed (turns per year) or a count is its own value
-    "month_synodic_J2000" and `per`    a lone period, where `per` is a period too: how often it turns in one of `per`
+    "235 months / 19 years"            a pair of counts: while the second (years) makes 19 revolutions, the first
+                                       (months) makes 235, so its pointer is 235/19 times as fast
+    "365.2422 d / 29.53059 d"          a quotient of two periods: the number of revolutions of the second during one
+    "year_julian / month_metonic"      revolution of the first, so the ratio is the speed with the second period over
+                                       the speed with the first. Each side is a time or the name of a period.
+    "metonic_months_per_year"          a name from that table whose row is a speed (revolutions per year) or a count
+    "month_synodic_J2000" and `per`    a single period: its number of revolutions in one period `per`
 
-    Times are d, h, min, s and such; any other words are counted things. Speeds of the table that are retrograde count
-    by magnitude.
+    Units of time are d, h, min, s and the like. Any other word names counted objects. Retrograde speeds of the table
+    are taken by their magnitude.
 
     Examples
     --------
@@ -128,12 +129,13 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     (Fraction(235, 19), -1, '235 months in the time of 19 years')
     """
     if len(text) > _MOST_CHARACTERS:
-        raise _problem(f"a ratio of {len(text)} characters", "a number has at most 400", f"write {_WAYS}")
+        raise _problem(f"the ratio has {len(text)} characters", "a number has at most 400 characters", f"write {_WAYS}")
+    # a typographic minus sign is accepted
     label = " ".join(text.replace("−", "-").split())
     sense: Literal[-1, 0, 1] = -1 if label.startswith("-") else 1 if label.startswith("+") else 0
     terms = [_term(part, label) for part in _parts(label[abs(sense) :].strip(), label)]
     if len(terms) == 1:
-        value, note = _alone(terms[0], label, per)
+        value, note = _single_term(terms[0], label, per)
     elif per is None:
         value, note = _quotient(terms[0], terms[1], label)
     else:
@@ -142,23 +144,27 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 
 def _parts(text: str, label: str) -> list[str]:
-    """The one or two sides of a division; with blanks round one sign, that one divides."""
+    """Split a text at its division sign into one or two parts; a sign between blanks takes precedence."""
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)
         if len(parts) == 2:
             return [part.strip() for part in parts]
     if len(parts) > 2:
-        raise _problem(f"'{_short(label)}' divides more than once", "a ratio is one quotient", f"write {_WAYS}")
+        raise _problem(
+            f"'{_short(label)}' has more than one division sign", "a ratio is one quotient", f"write {_WAYS}"
+        )
     return parts
 
 
 def _term(text: str, label: str) -> _Term:
     if not text:
-        raise _problem(f"'{_short(label)}' lacks a number", "a ratio is one number or two sides", f"write {_WAYS}")
+        raise _problem(
+            f"'{_short(label)}' lacks a number", "a ratio is one number or a quotient of two terms", f"write {_WAYS}"
+        )
     if re.match(r"[+-]\s*[\d.]", text):
         raise _problem(
-            f"'{_short(text)}' has a sign of its own",
-            "a ratio has one sign, which tells its sense",
+            f"'{_short(text)}' has a sign",
+            "only the whole ratio has a sign, which gives the sense of rotation",
             "write the sign in front of the ratio, such as -235/19",
         )
     match = _WITH_WORD.fullmatch(text)
@@ -169,19 +175,19 @@ def _term(text: str, label: str) -> _Term:
     else:
         term = _Term("number", _figure(text), "", "")
     if not term.value:
-        why = "a ratio of 0 or one that divides by 0 is no motion to gear"
-        raise _problem(f"'{_short(label)}' has a zero in it", why, f"write {_WAYS}")
+        why = "a ratio must be positive and finite"
+        raise _problem(f"'{_short(label)}' contains a zero", why, f"write {_WAYS}")
     return term
 
 
 def _with_word(number: str, word: str) -> _Term:
-    """A time, or a count of things."""
+    """Parse a number with a word: a time, or a count of objects."""
     shown = f"{number} {word}"
     if word in period_table():
         raise _problem(
-            f"'{_short(shown)}' can be read in two ways",
-            f"as {number} turns in counting, and as {number} times the period",
-            f"for counts use plain words, such as '{number} months'; for times write the days, such as '29.53 d'",
+            f"'{_short(shown)}' is ambiguous",
+            f"it may mean {number} revolutions or {number} times the period",
+            f"for counts use other words, such as '{number} months'; for times write the days, such as '29.53 d'",
         )
     unit = _TIMES.get(word, word)
     try:
@@ -189,13 +195,14 @@ def _with_word(number: str, word: str) -> _Term:
     except PydanticCustomError:
         return _Term("things", _figure(number), word, shown)
     if quantity.dimension == "time":
+        # [s] to [d], the unit of the table of periods
         return _Term("time", quantity.base / 86400, word, shown)
     if word in _TURNS:
         return _Term("things", quantity.value, word, shown)
     raise _problem(
         f"'{_short(shown)}' is a {quantity.dimension}",
-        "a ratio comes from numbers, counts or periods",
-        "write its number alone, or a time such as '29.53059 d'",
+        "a ratio is given by numbers, counts or periods",
+        "write only the number, or a time such as '29.53059 d'",
     )
 
 
@@ -210,17 +217,17 @@ def _figure(text: str) -> Fraction:
     try:
         return Figure.parse(text).value
     except PydanticCustomError as error:
-        what, why = f"'{_short(text)}' is no number", error.message()
+        what, why = f"'{_short(text)}' is not a number", error.message()
         if "why" in (context := error.context or {}):
             raise _problem(why, context["why"], context["fix"]) from None
         if text[:1].isalpha():
-            raise _problem(what, "no period of the table has this name either", suggested_period(text)) from None
+            raise _problem(what, "no period has this name either", suggested_period(text)) from None
         if text[:1].isdigit() and "is not a number" in why:
             why = "a number has at most 400 characters, and an exponent three digits"
         raise _problem(what, why, f"write {_WAYS}") from None
 
 
-def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
+def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
     if term.kind == "time":
         if per is None:
             period = label.lstrip("+- ")
@@ -228,14 +235,14 @@ def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
             pair = f"{period} / month_synodic_J2000" if year else f"year_tropical_J2000 / {period}"
             raise _problem(
                 f"'{_short(label)}' is a period, not a ratio",
-                "a ratio needs a second period, which turns once while this one is counted",
+                "a ratio needs two periods",
                 f"write for example '{pair}'",
             )
-        return _in_one(per, term)
+        return _per_period(per, term)
     if term.kind == "things":
         raise _problem(
-            f"'{_short(label)}' is half a pair of counts",
-            "a ratio needs the count of something else in the same time",
+            f"'{_short(label)}' is only one count",
+            "a ratio of counts needs a second count in the same time",
             f"write for example '{'235 months' if term.word.startswith('year') else term.note} / 19 years'",
         )
     if per is not None and not (term.kind == "speed" and per.startswith("year") and per in period_table()):
@@ -243,8 +250,8 @@ def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
     return term.value, term.note or "as given"
 
 
-def _in_one(per: str, term: _Term) -> tuple[Fraction, str]:
-    """How often a period fits into one of `per`."""
+def _per_period(per: str, term: _Term) -> tuple[Fraction, str]:
+    """Return the number of revolutions of a period during one period `per`, and its note."""
     whole = _term(" ".join(per.split()), per)
     if whole.kind != "time":
         raise _problem(
@@ -269,14 +276,14 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
             )
         return first.value / second.value, f"{first.note} over {second.note}"
     raise _problem(
-        f"'{_short(label)}' divides unlike things",
-        f"{_said(first)} over {_said(second)} is no ratio of speeds",
+        f"'{_short(label)}' is a quotient of different quantities",
+        f"{_describe(first)} over {_describe(second)} is not a ratio of speeds",
         "write two numbers, two counts of things, two times (d, h, min, s), or two names of one kind",
     )
 
 
 def _counted(term: _Term) -> bool:
-    """True if the words may count turns: '27759 days / 940 months'."""
+    """Return whether the word of a term may name counted objects, as in '27759 days / 940 months'."""
     return term.kind == "things" or term.word in _COUNTED_TIMES
 
 
@@ -284,16 +291,16 @@ def _figure_of(term: _Term) -> Fraction:
     return _figure(term.note.removesuffix(term.word)) if term.kind == "time" else term.value
 
 
-def _said(term: _Term) -> str:
+def _describe(term: _Term) -> str:
     words = {"number": "a plain number", "things": "a count", "time": "a period"}
     return words.get(term.kind, f"a {term.kind}") + (f" ({_short(term.note)})" if term.note else "")
 
 
 def _ratio_already(label: str, per: str) -> QuestionError:
     return _problem(
-        f"'{_short(label)}' is a ratio already",
-        f"`per` ('{_short(per)}') belongs to a lone period",
-        "leave `per` out, or give one period",
+        f"'{_short(label)}' is already a ratio",
+        f"`per` ('{_short(per)}') is only used with a single period",
+        "omit `per`, or give a single period",
     )
 
 

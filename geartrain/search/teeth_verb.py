@@ -1,7 +1,7 @@
-"""`geartrain teeth`: tooth numbers for a ratio, for the free wheels of a train, for an epicyclic set, for an orrery.
+"""Command `geartrain teeth`: tooth counts for a ratio, for free wheels of a train, for an epicyclic set, for an orrery.
 
-Each search is a command of its own, in the module that `SearchGroup` names; the options and the forms of answers that
-they share are here.
+Each search is a command in a module that `SearchGroup` names. This module has the options and output formats that they
+share.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 class SearchGroup(LazyGroup):
-    """What tooth numbers can be searched for."""
+    """Group of the commands that search for tooth counts."""
 
     verbs = Verbs(
         {
@@ -49,16 +49,16 @@ class SearchGroup(LazyGroup):
     )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """The search that was asked for; for a question without its word, as it was asked once, the word is told."""
+        """Return the command of the search; if its name is missing, exit with a message that suggests it."""
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
             requested = shlex.join(["geartrain", "teeth", word, *rest])
-            ctx.fail(f"say what is searched for, one of {', '.join(self.verbs)}: `{requested}`")
+            ctx.fail(f"the kind of search is missing, one of {', '.join(self.verbs)}; did you mean `{requested}`?")
         return super().resolve_command(ctx, args)
 
 
 def _word(args: list[str]) -> tuple[str, list[str]]:
-    """The search that a question without its word is meant for, and the question as that search takes it."""
+    """Guess the search that is meant if its name is missing, and return its name and arguments."""
     from geartrain.train.declaration_files import shipped
 
     if "--kind" in args:
@@ -75,8 +75,8 @@ app = typer.Typer(
     cls=SearchGroup,
     add_completion=False,
     no_args_is_help=True,
-    context_settings={"ignore_unknown_options": True},  # what was asked without its word may begin with an option
-    help="Tooth numbers for a wanted motion: complete, exact, and with a reason where there are none.",
+    context_settings={"ignore_unknown_options": True},  # arguments without a command name may begin with an option
+    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.",
 )
 
 
@@ -88,56 +88,60 @@ def _group() -> None:
 # -------------------------------------------- options of several searches, each written once, and how a search answers
 
 
-Ratio = Annotated[str, typer.Argument(help="A ratio: 13.368, 235/19, 'A / B' with periods, or a period by name.")]
-Range = Annotated[str, typer.Option("--range", help="Tooth counts that may be used, such as 15:120 or 30,36,48.")]
-Wheels = Annotated[str | None, typer.Option("--wheels", help="Counts of the larger wheel of each pair.")]
-Pinions = Annotated[str | None, typer.Option("--pinions", help="Counts of the smaller wheel of each pair.")]
-Per = Annotated[str | None, typer.Option("--per", help="With one period by name: the period it is seen in.")]
-Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Greatest relative error: 1e-6, 20 ppm, 0.001 %.")]
-Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many solutions to list.")]
-Pick = Annotated[int, typer.Option("--pick", min=1, help="Which solution -o writes as a declaration.")]
+Ratio = Annotated[
+    str, typer.Argument(help="Requested ratio: 13.368, 235/19, 'A / B' with two periods, or the name of a period.")
+]
+Range = Annotated[str, typer.Option("--range", help="Admissible tooth counts, such as 15:120 or 30,36,48.")]
+Wheels = Annotated[str | None, typer.Option("--wheels", help="Tooth counts of the larger wheel of each pair.")]
+Pinions = Annotated[str | None, typer.Option("--pinions", help="Tooth counts of the smaller wheel of each pair.")]
+Per = Annotated[
+    str | None, typer.Option("--per", help="Second period, if RATIO is a single period: the ratio is PER over it.")
+]
+Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Maximum relative error: 1e-6, 20 ppm, 0.001 %.")]
+Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of solutions to list.")]
+Pick = Annotated[int, typer.Option("--pick", min=1, help="Number of the solution that -o writes as a declaration.")]
 Csv = Annotated[bool, typer.Option("--csv", help="Print the solutions as CSV.")]
 
 ANY_COUNT = "12:120"
 NEGATIVE_NUMBERS = {"ignore_unknown_options": True}
-"""Settings of a command whose argument may be a negative number, which is no option."""
+"""Settings of a command whose argument may be a negative number, which must not be parsed as an option."""
 _YAML = (".yaml", ".yml")
 _FORMS = (".md", ".html", ".json", ".csv", *_YAML)
 _WIDEST = 10**12
 
 
 def check_number(ctx: typer.Context, text: str) -> str:
-    """A text that begins with a minus is a negative number, or else an option that there is not."""
+    """Raise `typer.BadParameter` if a text that begins with a minus sign is not a negative number."""
     if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
-        raise typer.BadParameter(f"there is no option '{text}'; {ctx.command_path} -h lists them")
+        raise typer.BadParameter(f"unknown option '{text}'; `{ctx.command_path} -h` lists the options")
     return text
 
 
 def read_tolerance(text: str | None) -> Fraction | None:
-    """The greatest relative error."""
+    """Parse the maximum relative error; None if the text is None."""
     if text is None:
         return None
     found = read_share(text, "--tolerance")
     if not 0 <= found <= _WIDEST:
-        raise typer.BadParameter(f"a relative error is from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
+        raise typer.BadParameter(f"a relative error must be from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
     return found
 
 
 @dataclass(frozen=True)
 class SearchAnswer:
-    """Where the solutions of a search go, and in which form."""
+    """Destination and format of the solutions of a search."""
 
     csv: bool
-    """What is printed."""
+    """True to print CSV."""
     json: bool
-    """What is printed."""
+    """True to print JSON."""
     out: Sink
     pick: int = 1
-    """Which solution is written as a declaration, from 1."""
+    """Number of the solution that is written as a declaration, from 1."""
 
     @classmethod
     def of(cls, csv: bool, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
-        """From the options; a file that may not be written is refused before the search."""
+        """Build the destination from the options; a file that may not be written is rejected before the search."""
         return cls(csv, json, sink(out, force, _FORMS), pick)
 
     def give(
@@ -147,10 +151,10 @@ class SearchAnswer:
         describe: Callable[[Any], Document],
         declared: Callable[[int], Mapping[str, Any]] | None = None,
     ) -> None:
-        """Print or write an answer in the form asked for; exit 0 if something was found, 1 if not, 130 if cut.
+        """Print or write the solutions and exit: 0 with solutions, 1 without, 130 if interrupted.
 
         rows       the solutions as a flat table
-        declared   number of a solution, from 0 -> its declaration
+        declared   function from the index of a solution to its declaration
         """
         suffix = self.out.suffix
         if suffix in _YAML:
@@ -174,8 +178,10 @@ class SearchAnswer:
         from geartrain.train.yaml_nodes import as_yaml
 
         if declared is None:
-            raise typer.BadParameter("a ratio alone is no train to be written", param_hint="-o")
+            raise typer.BadParameter(
+                "these solutions cannot be written as a declaration; use .md, .html, .json or .csv", param_hint="-o"
+            )
         if self.pick <= found:
             emit(as_yaml(declared(self.pick - 1)), self.out)
         elif found:
-            raise typer.BadParameter(f"there are {found} solutions in the list", param_hint="--pick")
+            raise typer.BadParameter(f"the list has {found} solutions", param_hint="--pick")

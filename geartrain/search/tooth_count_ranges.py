@@ -1,4 +1,4 @@
-"""Which tooth counts a wheel may have: "15:120", "30,36,48" or "12:40,48,60", of any length, kept as runs."""
+"""Admissible tooth counts of a wheel: "15:120", "30,36,48" or "12:40,48,60", of any length, stored as runs."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class CountRuns(Sequence[int]):
-    """Tooth counts as runs of consecutive ones: a range of 10^9 costs as little as one of ten.
+    """Tooth counts as runs of consecutive integers; the memory does not depend on the length of a run.
 
-    A sequence of integers in every respect: it iterates in ascending order, has a length, and can be indexed.
-    `read_counts` makes it of a text, `CountRuns.of` of any counts.
+    The object is a sequence of integers: it iterates in ascending order, has a length, and can be indexed.
+    `read_counts` parses it from a text, `CountRuns.of` builds it from any counts.
 
     Examples
     --------
@@ -39,7 +39,7 @@ class CountRuns(Sequence[int]):
     """
 
     spans: tuple[tuple[int, int], ...]
-    """First and last count of each run, both included; ascending, and no two of them touch."""
+    """First and last count of each run, both inclusive; ascending, with a gap between any two runs."""
     _before: tuple[int, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -48,12 +48,12 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def of(cls, counts: Iterable[int]) -> CountRuns:
-        """The runs of any counts, in any order.
+        """Build the runs of counts in any order.
 
         Parameters
         ----------
         counts : iterable of int
-            Tooth counts from 1 to 10^12, one at least; `QuestionError` otherwise.
+            At least one tooth count, each from 1 to 10^12; `QuestionError` otherwise.
         """
         if isinstance(counts, CountRuns):
             return counts
@@ -63,59 +63,62 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def joined(cls, spans: Iterable[tuple[int, int]]) -> CountRuns:
-        """The runs that some spans make together.
+        """Build the runs from the union of some spans.
 
         Parameters
         ----------
         spans : iterable of (int, int)
-            First and last count of each, both included, from 1 to 10^12; in any order, overlapping or not.
+            First and last count of each span, both inclusive, from 1 to 10^12; in any order, may overlap.
         """
         found: list[tuple[int, int]] = []
         for first, last in sorted(spans):
+            # adjacent spans are merged too
             if found and first <= found[-1][1] + 1:
                 found[-1] = (found[-1][0], max(found[-1][1], last))
             else:
                 found.append((first, last))
         if not found:
-            raise _problem("no tooth counts are given", "a wheel needs at least one count it may have")
+            raise _problem("no tooth counts are given", "a wheel needs at least one admissible count")
         for first, last in found:
             if first < 1 or last > MOST_TEETH:
-                raise _problem(f"no wheel has {first if first < 1 else last} teeth", "counts run from 1 to 10^12")
+                raise _problem(
+                    f"a wheel cannot have {first if first < 1 else last} teeth", "tooth counts are from 1 to 10^12"
+                )
         return cls(tuple(found))
 
     @property
     def minimum(self) -> int:
-        """The smallest count."""
+        """Smallest tooth count."""
         return self.spans[0][0]
 
     @property
     def most(self) -> int:
-        """The largest count."""
+        """Largest tooth count."""
         return self.spans[-1][1]
 
     @property
     def contiguous(self) -> bool:
-        """True if no count is left out between the least and the most."""
+        """True if the counts have no gap between the minimum and the maximum."""
         return len(self.spans) == 1
 
     def upto(self, count: int) -> int:
-        """How many of the counts are `count` or less.
+        """Return the number of counts that are less than or equal to `count`.
 
         Parameters
         ----------
         count : int
-            Any whole number.
+            Any integer.
         """
         at = bisect_right(self.spans, count, key=_first)
         return min(self._before[at], self._before[at - 1] + count - self.spans[at - 1][0] + 1) if at else 0
 
     def between(self, low: int, high: int) -> Iterator[int]:
-        """The counts between two, ascending.
+        """Yield the counts from `low` to `high`, ascending.
 
         Parameters
         ----------
         low, high : int
-            Both are included.
+            Bounds, both inclusive.
         """
         at = bisect_left(self.spans, low, key=_last)
         while at < len(self.spans) and self.spans[at][0] <= high:
@@ -124,15 +127,14 @@ class CountRuns(Sequence[int]):
             at += 1
 
     def as_array(self) -> NDArray[np.int64]:
-        """The counts, ascending; `RangeError` for more than a million of them, which stay runs."""
+        """Return the counts as an ascending array; `RangeError` if there are more than a million."""
         import numpy as np
 
         if len(self) > _MOST_LISTED:
             raise RangeError(
                 Problem(
-                    f"{len(self)} tooth counts to list",
-                    "this search takes counts one by one; only a single pair of wheels is found in a range of any "
-                    "length",
+                    f"{len(self)} tooth counts are too many to list",
+                    "this search enumerates the counts; only the search for a single pair accepts ranges of any length",
                     "give a shorter range, such as 15:120",
                 )
             )
@@ -165,27 +167,27 @@ class CountRuns(Sequence[int]):
         return ",".join(f"{first}:{last}" if last > first else f"{first}" for first, last in self.spans)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         return {"counts": str(self), "minimum": self.minimum, "most": self.most, "number": len(self)}
 
 
 def read_counts(text: str) -> CountRuns:
-    """Tooth counts from a text.
+    """Parse tooth counts from a text.
 
     Parameters
     ----------
     text : str
-        Ranges `first:last`, both included, and single counts, with commas between.
+        Ranges `first:last`, both inclusive, and single counts, separated by commas.
 
     Returns
     -------
     CountRuns
-        The counts, each once, ascending.
+        The distinct counts, ascending.
 
     Raises
     ------
     QuestionError
-        For what is no tooth count from 1 to 10^12, and for a range that runs backwards.
+        If a part is not a tooth count from 1 to 10^12 or if the first count of a range exceeds its last.
 
     Examples
     --------
@@ -193,7 +195,7 @@ def read_counts(text: str) -> CountRuns:
     ((12, 13, 14, 15, 48, 60), 999999989)
     """
     if not text.strip():
-        raise _problem("no tooth counts are given", "a wheel needs at least one count it may have")
+        raise _problem("no tooth counts are given", "a wheel needs at least one admissible count")
     return CountRuns.joined(_span(part) for part in text.split(","))
 
 
@@ -201,10 +203,10 @@ def _span(part: str) -> tuple[int, int]:
     shown = part.strip() if len(part) <= 40 else f"{part.strip()[:37]}..."
     match = _PART.fullmatch(part) if len(part) <= 100 else None
     if match is None:
-        raise _problem(f"'{shown}' is no tooth count", "a count is a whole number, a range is first:last")
+        raise _problem(f"'{shown}' is not a tooth count", "a count is an integer, a range is first:last")
     first, last = int(match[1]), int(match[2] or match[1])
     if first > last:
-        raise _problem(f"the range {shown} runs backwards", "its first count is above its last", f"{last}:{first}")
+        raise _problem(f"the range {shown} is reversed", "the first count must not exceed the last", f"{last}:{first}")
     return first, last
 
 

@@ -1,4 +1,4 @@
-"""Tooth numbers that were found, as pages and as flat tables: of a ratio, a train, an epicyclic set, an orrery."""
+"""Documents and flat tables of tooth counts for a ratio, a train, an epicyclic set and an orrery."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ if TYPE_CHECKING:
     from geartrain.search.target_ratio import TargetRatio
     from geartrain.search.train.train_findings import Assignment, PartFindings, Standing, TrainFindings
 
-_MANY = 3  # outputs beyond which a table of assignments tells only the greatest error; the JSON has all
+_MANY = 3  # with more outputs a table of assignments shows only the maximum error; JSON has all errors
 
 
 def error_text(value: Fraction) -> str:
-    """A relative error: in parts per million where it is small, in per cent where it is not, 0 where it is exactly."""
+    """Format a relative error: in ppm below 0.1 %, in per cent above, "0" if exactly zero."""
     if abs(value) < Fraction(1, 1000):
         return "0" if not value else f"{float(value) * 1e6:+.6g} ppm"
     return f"{float(value) * 100:+.6g} %"
 
 
 def stage_rows(found: StageFindings) -> list[dict[str, Any]]:
-    """The solutions as a flat table."""
+    """Return the solutions of a ratio as a flat table."""
     return [
         {
             "top": _product(one.top),
@@ -50,13 +50,13 @@ def _product(counts: Sequence[int]) -> str:
 
 
 def describe_stages(found: StageFindings) -> Document:
-    """Solutions of a ratio by stages."""
+    """Build the document of the solutions of a ratio by stages."""
     summary = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
     if found.tolerance is not None:
-        whole = "every one was looked at" if found.complete else "not all of them were looked at"
+        within = "exact" if not found.tolerance else f"within {figure(float(found.tolerance), 4)}"
+        search = "exhaustive search" if found.complete else "interrupted search"
         summary.append(
-            f"{found.count} of {figure(float(found.considered), 4)} pairs of sets are within "
-            f"{figure(float(found.tolerance), 4)}; {whole}."
+            f"{found.count} solutions ({within}) among {figure(float(found.considered), 4)} combinations; {search}."
         )
     sections = [_solutions(found.solutions)] if found.solutions else []
     return Document(f"Tooth numbers for {found.wanted.label}", summary, [*sections, *_shortfall(found.shortfall)])
@@ -82,31 +82,38 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
     return Section("Solutions", (), [Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))])
 
 
+def approximant_rows(found: Approximants) -> list[dict[str, Any]]:
+    """Return the fractions as a flat table."""
+    return [each.to_dict() for each in found.solutions]
+
+
 def describe_approximants(found: Approximants) -> Document:
-    """The fractions on the way to a ratio."""
+    """Build the document of the fractions that approximate a ratio."""
     wanted = found.wanted
     rows = [(exact(one.value), figure(one.value, 12), one.kind, error_text(one.error)) for one in found.solutions]
     table = Table(("fraction", "decimal", "kind", "error"), cut(rows))
     summary = [_wanted(wanted), f"Numerators and denominators up to {found.most}."]
-    return Document(f"Fractions on the way to {wanted.label}", summary, [Section("Fractions", (), [table])])
+    return Document(f"Fractions that approximate {wanted.label}", summary, [Section("Fractions", (), [table])])
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
-    """Where the others went; what was nearest, and what to relax."""
+    """Return the section of rejected candidates, nearest miss and suggestions; an empty list if there is nothing to
+    report.
+    """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
-    lines += [f"To relax: {shortfall.advice}."] if shortfall.advice else []
+    lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []
     removed = {reason: count for reason, count in (shortfall.removed or {}).items() if count}
     rows = [(reason, figure(float(count), 6) if count > 10**9 else str(count)) for reason, count in removed.items()]
     if not lines and not rows:
         return []
-    return [Section("Where the others went", lines, [Table(("removed by", "candidates"), cut(rows))] if rows else [])]
+    return [Section("Rejected candidates", lines, [Table(("rejected by", "candidates"), cut(rows))] if rows else [])]
 
 
 # ------------------------------------------------------------------------------------------------------------- trains
 
 
 def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
-    """The solutions of the whole train as a flat table."""
+    """Return the solutions of the whole train as a flat table."""
     return [
         {**one.teeth, **{f"error of {name}": float(each.error) for name, each in one.outputs.items()}}
         for one in found.solutions
@@ -114,22 +121,22 @@ def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
 
 
 def describe_assignments(found: TrainFindings) -> Document:
-    """What was found for the free wheels of a train, part by part."""
-    summary = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} meet everything."]
+    """Build the document of the tooth counts of a train, part by part."""
+    summary = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} satisfy all requirements."]
     summary += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
     if found.where:
-        sections.append(_standings(found.where))
+        sections.append(_ranks(found.where))
     return Document(f"Tooth numbers of {found.name}", summary, sections)
 
 
 def _part(part: PartFindings) -> list[Section]:
-    """One independent part: what is asked, how many there are, the best of them."""
+    """Return the sections of one independent part: its requirements, the number of solutions, and the best."""
     requested = "; ".join([*part.demands, *part.rules])
-    lines = [f"Asked: {requested}." if requested else "Nothing is asked."]
+    lines = [f"Required: {requested}." if requested else "No requirements."]
     within = "" if part.tolerance is None else f" within {figure(float(part.tolerance), 4)}"
-    whole = "complete" if part.complete else f"not complete: {part.reason}"
-    lines.append(f"{part.count} of {figure(float(part.considered), 6)} assignments{within} ({whole}).")
+    search = "complete search" if part.complete else f"incomplete search: {part.reason}"
+    lines.append(f"{part.count} of {figure(float(part.considered), 6)} assignments are solutions{within} ({search}).")
     if part.complete and part.reason:
         lines.append(f"Not ranked: {part.reason}.")
     title = ", ".join(part.outputs) or ", ".join(part.wheels)
@@ -142,7 +149,7 @@ def _assignments(solutions: Sequence[Assignment]) -> Table:
     outputs = tuple(solutions[0].outputs)
     if len(outputs) > _MANY:
         rows = [[*map(str, one.teeth.values()), error_text(one.error)] for one in solutions]
-        return Table([*solutions[0].teeth, "greatest error"], cut(rows), wide=True)
+        return Table([*solutions[0].teeth, "maximum error"], cut(rows), wide=True)
     header = [*solutions[0].teeth, *(f"{name}, {what}" for name in outputs for what in ("speed", "error"))]
     rows = [
         [
@@ -154,7 +161,7 @@ def _assignments(solutions: Sequence[Assignment]) -> Table:
     return Table(header, cut(rows))
 
 
-def _standings(standings: Sequence[Standing]) -> Section:
+def _ranks(standings: Sequence[Standing]) -> Section:
     rows = []
     for one in standings:
         teeth = {} if one.assignment is None else one.assignment.teeth
@@ -167,14 +174,14 @@ def _standings(standings: Sequence[Standing]) -> Section:
                 "; ".join(one.refused),
             )
         )
-    return Section("Where these stand", (), [Table(("teeth", "errors", "rank", "refused by"), rows)])
+    return Section("Ranks of the given assignments", (), [Table(("teeth", "errors", "rank", "rejected by"), rows)])
 
 
 # ---------------------------------------------------------------------------------------------------- epicyclic sets
 
 
 def set_rows(found: SetFindings) -> list[dict[str, Any]]:
-    """The sets as a flat table."""
+    """Return the epicyclic sets as a flat table."""
     return [
         {
             "mode": one.mode.key,
@@ -189,11 +196,11 @@ def set_rows(found: SetFindings) -> list[dict[str, Any]]:
 
 
 def describe_sets(found: SetFindings) -> Document:
-    """Epicyclic sets for a ratio."""
+    """Build the document of the epicyclic sets for a ratio."""
     summary = [
-        f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in any sense unless asked.",
-        f"{found.count} sets in their modes run"
-        + (" within the tolerance." if found.tolerance is not None else "; the best of them:" if found.count else "."),
+        f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in either sense by default.",
+        f"{found.count} combinations of set and mode run"
+        + (" within the tolerance." if found.tolerance is not None else "; the best are:" if found.count else "."),
     ]
     sections = []
     if found.solutions:
@@ -208,18 +215,18 @@ def describe_sets(found: SetFindings) -> Document:
             )
             for one in found.solutions
         ]
-        header = ("teeth", "mode", "input/output", "error", "planets fit at", "room, modules")
+        header = ("teeth", "mode", "input/output", "error", "positions", "clearance, modules")
         sections.append(Section("Sets", (), [Table(header, cut(rows))]))
     return Document(f"Sets of the kind {found.kind}", summary, [*sections, *_shortfall(found.shortfall)])
 
 
 def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
-    """The kinds of epicyclic sets."""
+    """Build the document of the types of epicyclic sets."""
     rows = [
         (kind.name, kind.title, ", ".join(kind.wheels), str(len(kind.modes)), kind.modes[0].key)
         for kind in kinds.values()
     ]
-    table = Table(("kind", "what", "wheels", "modes", "such as"), rows)
+    table = Table(("kind", "description", "wheels", "modes", "example mode"), rows)
     return Document("Kinds of epicyclic sets", [], [Section("Kinds", (), [table])])
 
 
@@ -227,17 +234,18 @@ def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
 
 
 def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
-    """The pairs of an orrery as a flat table."""
+    """Return the gear pairs of an orrery as a flat table."""
     return [pair.to_dict() for pair in found.pairs]
 
 
 def describe_orrery(found: Orrery) -> Document:
-    """An orrery: its pairs, what each arbor shows, what is proved."""
-    proof = "proved to be the fewest" if found.complete else f"at least {found.minimum_wheels} are needed"
-    ended = "an interrupt" if found.ended == "interrupted" else found.ended
+    """Build the document of an orrery: its pairs, the period of each arbor, and the proved bounds."""
+    proof = "proved minimum" if found.complete else f"lower bound {found.minimum_wheels}"
+    limits = {"proved": "proof of the minimum", "effort": "effort limit", "time": "time limit"}
     summary = [
-        f"{found.wheels} wheels in {len(found.pairs)} pairs; {proof}, and at least {found.minimum_pairs} pairs.",
-        f"Greatest error {error_text(max(found.errors.values(), key=abs))}. The search ended by {ended}.",
+        f"{found.wheels} wheels ({proof}) in {len(found.pairs)} pairs (lower bound {found.minimum_pairs}).",
+        f"Maximum error {error_text(max(found.errors.values(), key=abs))}. "
+        f"End of the search: {limits.get(found.ended, found.ended)}.",
     ]
     shown = {arbor.name: arbor for arbor in found.arbors}
     rows = [
@@ -247,9 +255,9 @@ def describe_orrery(found: Orrery) -> Document:
             pair.child,
             figure(shown[pair.child].period, 12),
             error_text(found.errors[pair.child]) if pair.child in found.errors else "",
-            "with" if shown[pair.child].sense > 0 else "against",
+            "same" if shown[pair.child].sense > 0 else "opposite",
         )
         for pair in found.pairs
     ]
-    header = ("arbor", "driver / driven", "arbor driven", "period", "error of speed", "sense")
+    header = ("driving arbor", "driver / driven", "driven arbor", "period", "speed error", "sense")
     return Document("Orrery", summary, [Section("Pairs", (), [Table(header, cut(rows))])])

@@ -1,11 +1,13 @@
-"""Alternatives with weights, each made of independent parts with alternatives of their own: totals, marginals, draws.
+"""Totals, marginals and random samples of weighted derivations: the inside-outside algorithm.
 
-The inside-outside algorithm (Baker 1979; on a chain forward-backward, Baum 1970). The weight of a whole is the product
-of those of the alternatives chosen in it. Of each node the inside sum is the weight of all ways on from it, the outside
-sum that of all ways around it, and their product that of all that pass. Of whole numbers all sums are exact.
+A derivation chooses one alternative at a node, and again one at each node that this alternative refers to. Its weight
+is the product of the weights of all chosen alternatives. The inside sum of a node is the total weight of all ways to
+complete a derivation from it; the outside sum is the total weight of all contexts in which the node occurs. Their
+product is the weight of all derivations that include the node. With integer weights all sums are exact. Sources:
+Baker 1979; for chains the forward-backward algorithm, Baum 1970.
 
-Where there are millions, a node is a table: each row is a node of its own, and the alternatives of all rows are arrays.
-`relative_entropy` and `entropy` measure what probabilities tell, in bits.
+A node may also be a table, where each row is a node and the alternatives of all rows are arrays; this is used where
+there are millions of nodes. `relative_entropy` and `entropy` measure the information in probabilities in bits.
 """
 
 from __future__ import annotations
@@ -29,33 +31,33 @@ Node = TypeVar("Node", bound=Hashable)
 
 @dataclass(frozen=True, slots=True)
 class Alternative(Generic[Node]):
-    """One way on from a node."""
+    """One alternative of a node."""
 
     weight: int
-    """Its own, not negative."""
+    """Weight of this alternative without its parts, not negative."""
     tells: tuple[Hashable, ...] = ()
-    """What holds where it is chosen; no whole tells the same twice."""
+    """Facts that are true if the alternative is chosen. No derivation contains the same fact twice."""
     parts: tuple[Node, ...] = ()
-    """Nodes, at each of which one alternative is chosen independently."""
+    """Nodes at each of which one alternative is chosen independently."""
 
     def below(self, inside: Mapping[Node, int]) -> list[int]:
-        """Of each part the inside sum."""
+        """Return the inside sum of each part."""
         return [inside[part] for part in self.parts]
 
     def around(self, outside: int) -> int:
-        """The outside sum of the node that it is a way on from."""
+        """Return the outside sum of the node that the alternative belongs to."""
         return outside
 
     def sum_at_node(self, values: int) -> int:
-        """What it adds to a sum of that node."""
+        """Return the contribution of the alternative to a sum at its node."""
         return values
 
     def sum_at_part(self, at: int, values: int, inside: int) -> int:
-        """What it adds to a sum of a part."""
+        """Return the contribution of the alternative to a sum at its part number `at`."""
         return values
 
     def tell(self, found: dict[Hashable, Any], around: int, below: int) -> None:
-        """Add to what it tells the weight of all wholes that it is in."""
+        """Add the weight of all derivations that include the alternative to the sums of its facts in `found`."""
         if through := around * below:
             for told in self.tells:
                 found[told] = found.get(told, 0) + through
@@ -63,54 +65,58 @@ class Alternative(Generic[Node]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AlternativeRows(Generic[Node]):
-    """All ways on from the rows of a table, one a row of arrays."""
+    """Alternatives of all rows of a table, one for each row of arrays of length m."""
 
     weight: Any
-    """(m,) of each, or one for all; may have either sign."""
+    """Weights of the alternatives, (m,), or one weight for all; of either sign."""
     size: int
-    """Rows of the table."""
+    """Number of rows of the table."""
     owners: Ints | None
-    """(m,) the row of the table that it is a way on from; None: its own."""
+    """Row of the table that each alternative belongs to, (m,); None if alternative i belongs to row i."""
     leads: tuple[tuple[Node, Ints], ...] = ()
-    """Its parts: tables, each with (m,) the row in it."""
+    """Parts of the alternatives: pairs of a table and the row in it, (m,)."""
     tells: tuple[tuple[Hashable, int, Ints], ...] = ()
-    """What is told with several answers, their number, and (m,) which of them it tells."""
+    """Variables with their number of values, and the index of the value that each alternative fixes, (m,)."""
 
     @property
     def parts(self) -> tuple[Node, ...]:
-        """The tables alone."""
+        """Tables that the alternatives refer to."""
         return tuple(part for part, _ in self.leads)
 
     def below(self, inside: Mapping[Node, NDArray[Any]]) -> list[NDArray[Any]]:
-        """As for one."""
+        """Return the inside sums of each part, (m,) each."""
         return [inside[part][rows] for part, rows in self.leads]
 
     def around(self, outside: NDArray[Any]) -> NDArray[Any]:
-        """As for one."""
+        """Return the outside sum of the row that each alternative belongs to, (m,)."""
         return outside if self.owners is None else outside[self.owners]
 
     def sum_at_node(self, values: NDArray[Any]) -> NDArray[Any]:
-        """As for one."""
+        """Return the sums of the values over the alternatives of each row, (size,)."""
         return values if self.owners is None else sums_by(self.owners, values, self.size)
 
     def sum_at_part(self, at: int, values: NDArray[Any], inside: NDArray[Any]) -> NDArray[Any]:
-        """As for one."""
+        """Return the sums of the values over the alternatives that refer to each row of part number `at`."""
         return sums_by(self.leads[at][1], values, len(inside))
 
     def tell(self, found: dict[Hashable, Any], around: NDArray[Any], below: NDArray[Any]) -> None:
-        """As for one, an array of all answers."""
+        """Add the weights of all derivations that include each alternative to the arrays in `found`, one entry per
+        value.
+        """
         for told, size, answers in self.tells:
             found[told] = found.get(told, 0) + sums_by(answers, around * below, size)
 
 
 class WeightedAlternatives(Generic[Node]):
-    """All wholes that begin at a node.
+    """Weighted derivations from a root node.
 
     Parameters
     ----------
     root : hashable
+        Node at which every derivation begins.
     alternatives : callable
-        The ways on from a node, of which none leads back to it. All of them `Alternative`, or all `AlternativeRows`.
+        Function that returns the alternatives of a node. The graph of nodes must be acyclic. The alternatives are all
+        `Alternative`, or all `AlternativeRows`.
     """
 
     def __init__(
@@ -120,6 +126,7 @@ class WeightedAlternatives(Generic[Node]):
         self._ways: dict[Node, list[Any]] = {}
         self._below: dict[Node, list[Any]] = {}
         self._inside: dict[Node, Any] = {}
+        # depth-first traversal with a stack, because the graph may be deeper than the recursion limit
         waiting = [(root, False)]
         while waiting:
             node, known = waiting.pop()
@@ -134,19 +141,19 @@ class WeightedAlternatives(Generic[Node]):
 
     @property
     def total(self) -> Any:
-        """The weight of all wholes; of a table, of those from each row on."""
+        """Total weight of all derivations; an array with one entry per row if the root is a table."""
         return self._inside[self.root]
 
     @cached_property
     def marginals(self) -> dict[Hashable, Any]:
-        """By what is told, the weight of all wholes that tell it; what none tells is not there.
+        """Fact -> total weight of all derivations in which it is true. Facts of no derivation are absent.
 
-        Of a table, the weights of all answers.
+        If nodes are tables, the key is a variable and the value is an array with the weight of each of its values.
         """
         outside: dict[Node, Any] = dict.fromkeys(self._inside, 0)
         outside[self.root] = self._inside[self.root] ** 0  # 1 for each row
         found: dict[Hashable, Any] = {}
-        for node in reversed(self._inside):  # each after all that lead to it
+        for node in reversed(self._inside):  # in reverse order, every node comes after all nodes that refer to it
             for way, below in zip(self._ways[node], self._below[node], strict=True):
                 around, inside = way.around(outside[node]), way.below(self._inside)
                 way.tell(found, around, below)
@@ -156,7 +163,7 @@ class WeightedAlternatives(Generic[Node]):
         return found
 
     def draw(self, chance: Random) -> list[Hashable]:
-        """What one whole tells, drawn with the chance that its weight has among all; not of tables."""
+        """Return the facts of one derivation, drawn with a probability proportional to its weight; not for tables."""
         found: list[Hashable] = []
         waiting = [self.root]
         while waiting:
@@ -168,13 +175,14 @@ class WeightedAlternatives(Generic[Node]):
 
 
 def draw_index(weights: list[int], chance: Random) -> int:
-    """An index with exactly the chance of its weight among all, of which one at least is positive."""
+    """Draw an index with a probability proportional to its integer weight, exactly; at least one weight is positive."""
+    # integers, because floats would round the probabilities of large weights
     left = chance.randrange(sum(weights))
     return next(at for at, reached in enumerate(accumulate(weights)) if left < reached)
 
 
 def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Values added up by owner, (size,); whole numbers stay exact."""
+    """Return the sums of the values by owner, (size,). Python integers are added exactly."""
     found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
     np.add.at(found, owners, values)
     return found
@@ -184,15 +192,15 @@ def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
 
 
 def relative_entropy(after: Iterable[float], before: Iterable[float | Fraction]) -> float:
-    """What is learnt where chances `before` become chances `after` [bit]; 0 where nothing changes."""
+    """Return the Kullback-Leibler divergence of the probabilities `after` from the probabilities `before` [bit]."""
     pairs = zip(after, before, strict=False)
-    # never negative but for rounding
+    # rounding may make it slightly negative
     return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
 
 
 def entropy(chances: Iterable[float]) -> float:
-    """What an answer is expected to tell [bit]: each leaves itself alone, with its chance.
+    """Return the Shannon entropy of a distribution [bit], the expected information of observing its outcome.
 
-    It is the mean of the relative entropies of what is known after each answer and before.
+    It is the mean relative entropy of the distributions after and before the observation.
     """
     return sum((chance * relative_entropy((1.0,), (chance,)) for chance in chances if chance), 0.0)

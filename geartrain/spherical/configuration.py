@@ -12,6 +12,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import islice
 from math import degrees, inf, lcm, pi
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.graphs import tree_path
+from geartrain.numerics.results import Shown
 from geartrain.spherical.pitch_cones import angle_between, frames, mesh_angles, separations
 
 if TYPE_CHECKING:
@@ -36,7 +38,7 @@ _SHORT = 1 << 20  # largest denominator of coordinates such as 3/4 that floats r
 
 
 @dataclass(frozen=True)
-class Configuration:
+class Configuration(Shown):
     """Gears with axes through one point: unit axes, meshing pairs, and the kind of each gear.
 
     Axes point outwards; angles about them are counterclockwise seen from outside.
@@ -69,6 +71,11 @@ class Configuration:
     """Tooth number of each kind, as far as they are chosen."""
     title: str = ""
     """Title for display."""
+
+    def _summary(self) -> str:
+        teeth = ", ".join(f"{kind} {count}" for kind, count in islice(self.teeth.items(), 4))
+        title = self.title or f"{len(self.names)} gears, {len(self.meshes)} meshes"
+        return title + (f", teeth {teeth}" if teeth else "")
 
     def angle(self, i: int, j: int) -> float:
         """Return the angle between two axes [rad], 0 to pi.

@@ -220,6 +220,9 @@ class SphereSizing(Result):
     pressure: Floats
     """Operating pressure angle of each mesh [rad]; nan if involutes on one base pitch cannot mesh. Shape (meshes,)."""
 
+    def _summary(self) -> str:
+        return f"{self.configuration._summary()}"
+
     @property
     def exact(self) -> bool:
         """True if all meshes share one pitch, to the rounding of the axes."""

@@ -40,6 +40,8 @@ class GearSphere(Result):
     {'5': 1.25, '3': 0.75}
     """
 
+    PAGE = "report.spherical_report:describe_sphere"
+
     KEYS = (
         Key("title", "configuration.title"),
         *(Key("gears", "gear_count"), Key("meshes", "mesh_count"), "kinds", Key("teeth", "configuration.teeth")),
@@ -63,6 +65,9 @@ class GearSphere(Result):
     """Radius of the sphere in any unit of length; wheels are sized by it."""
     graph: GraphSet | None = None
     """Fit of the set to a graph, if it was made from one."""
+
+    def _summary(self) -> str:
+        return f"{self.configuration._summary()}, radius {self.radius:g}"
 
     @cached_property
     def chosen(self) -> bool:

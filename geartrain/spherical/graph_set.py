@@ -374,6 +374,9 @@ class GraphSet(Result):
     residuals: tuple[float, ...]
     """Residual after each step of the fit [rad for pitches, pitches for phases]."""
 
+    def _summary(self) -> str:
+        return f"{self.configuration._summary()}, aim {self.aim}, residue {self.residue:.3g} pitches"
+
     @property
     def exact(self) -> tuple[str, ...]:
         """Conditions that are satisfied to rounding: "pitch", "phases", both or neither."""

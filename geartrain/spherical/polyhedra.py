@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem, suggest
+from geartrain.numerics.results import Shown
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -97,7 +98,7 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 
 
 @dataclass(frozen=True, eq=False)
-class Polyhedron:
+class Polyhedron(Shown):
     """A convex polyhedron with the origin inside.
 
     See Also
@@ -117,6 +118,9 @@ class Polyhedron:
     """Distance of each face's plane from the origin, in the unit of the vertices. Shape (faces,)."""
     name: str = ""
     """Name for display."""
+
+    def _summary(self) -> str:
+        return f"{self.name or 'polyhedron'}: {len(self.vertices)} vertices, {len(self.faces)} faces"
 
     @cached_property
     def _left(self) -> dict[tuple[int, int], int]:

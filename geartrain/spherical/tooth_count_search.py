@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 from geartrain.spherical.configuration import (
     Configuration,
     MeshKind,
@@ -163,7 +163,7 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 
 @dataclass(frozen=True)
-class ToothCountCompromise:
+class ToothCountCompromise(Shown):
     """Set of tooth numbers that nearly shares one pitch.
 
     See Also
@@ -208,6 +208,8 @@ class ToothCountSuggestions(Result):
     suggest_tooth_counts : Returns such objects.
     """
 
+    PAGE = "report.spherical_report:describe_suggestions"
+
     KEYS = (
         "considered",
         "removed",
@@ -239,6 +241,10 @@ class ToothCountSuggestions(Result):
     beyond: int
     """Number of sets that satisfy every condition but are worse than the last one listed."""
 
+    def _summary(self) -> str:
+        best = f", best {self.found[0]}" if self.found else ""
+        return f"{len(self.found)} of {self.considered} tooth sets{best}"
+
     def __len__(self) -> int:
         return len(self.found)
 
@@ -247,11 +253,6 @@ class ToothCountSuggestions(Result):
 
     def __getitem__(self, at: int) -> ToothCountCompromise:
         return self.found[at]
-
-    def __str__(self) -> str:
-        lines = [str(found) for found in self.found] or ["no tooth numbers satisfy every condition"]
-        gone = ", ".join(f"{count} by {reason}" for reason, count in self.removed.items())
-        return "\n".join([*lines, f"rejected of {self.considered} sets: {gone}"])
 
 
 class _Search:
@@ -332,7 +333,7 @@ class _Search:
 
 
 @dataclass(frozen=True)
-class NeighbourRatioWindow:
+class NeighbourRatioWindow(Shown):
     """Range of a tooth ratio in which equal neighbours do not overlap, addenda not included.
 
     See Also

@@ -4,7 +4,7 @@ In: two tooth counts, a form as a pair declares it, friction, sizes. Out: a `Gea
 backlash, transmission function on drive and coast flanks, efficiency, the outline to cut. Each form is one file, and
 each has a method `transmission` that gives the transmission function of a pair without a train.
 
-tooth_form, any_tooth_form    base class of all forms; their union, from which a declaration selects by `form`
+tooth_form, any_tooth_form    base class of all forms; the forms by name
 ideal                         the ratio of tooth counts at every instant
 involute, cycloidal, lantern  conjugate forms of practice
 uniform_stress, uniform_temperature, least_friction
@@ -36,14 +36,14 @@ outlines the contact of these, pins plane geometry.
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from geartrain.numerics.lazy_names import lazy_names
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS
 
 if TYPE_CHECKING:
-    from geartrain.teeth import any_tooth_form
-    from geartrain.teeth.any_tooth_form import *  # noqa: F403
+    from geartrain.teeth.circular_arc import CircularArc as CircularArc
+    from geartrain.teeth.cycloidal import Cycloidal as Cycloidal
     from geartrain.teeth.form_comparison import compare_forms as compare_forms
     from geartrain.teeth.friction_law import BuckinghamFriction as BuckinghamFriction
     from geartrain.teeth.friction_law import DokosFriction as DokosFriction
@@ -52,38 +52,55 @@ if TYPE_CHECKING:
     from geartrain.teeth.friction_law import StribeckFriction as StribeckFriction
     from geartrain.teeth.friction_law import TabulatedFriction as TabulatedFriction
     from geartrain.teeth.gear_mesh import GearMesh as GearMesh
+    from geartrain.teeth.ideal import Ideal as Ideal
+    from geartrain.teeth.involute import Involute as Involute
+    from geartrain.teeth.lantern import Lantern as Lantern
+    from geartrain.teeth.least_friction import LeastFriction as LeastFriction
     from geartrain.teeth.outlines.wheel_outline import BlankSizes as BlankSizes
     from geartrain.teeth.outlines.wheel_outline import WheelOutline as WheelOutline
     from geartrain.teeth.pair_results import PairVerdict as PairVerdict
     from geartrain.teeth.pair_results import SlidingEfficiency as SlidingEfficiency
     from geartrain.teeth.pair_results import SpeedRatio as SpeedRatio
     from geartrain.teeth.pair_results import TransmissionError as TransmissionError
+    from geartrain.teeth.pin_ring import PinRing as PinRing
     from geartrain.teeth.pin_transmission import PinToSlotTransmission as PinToSlotTransmission
     from geartrain.teeth.pin_transmission import SlotToPinTransmission as SlotToPinTransmission
     from geartrain.teeth.rubbed_transmission import RubbedTransmission as RubbedTransmission
     from geartrain.teeth.transmission import TransmissionFunction as TransmissionFunction
+    from geartrain.teeth.triangular import Triangular as Triangular
+    from geartrain.teeth.uniform_stress import UniformStress as UniformStress
+    from geartrain.teeth.uniform_temperature import UniformTemperature as UniformTemperature
 
-    __all__ = [
-        "BlankSizes",
-        "BuckinghamFriction",
-        "DokosFriction",
-        "FrictionLaw",
-        "GearMesh",
-        "PairFriction",
-        "PairVerdict",
-        "PinToSlotTransmission",
-        "RubbedTransmission",
-        "SlidingEfficiency",
-        "SlotToPinTransmission",
-        "SpeedRatio",
-        "StribeckFriction",
-        "TabulatedFriction",
-        "TransmissionError",
-        "TransmissionFunction",
-        "WheelOutline",
-        "compare_forms",
-    ]
-    __all__ += any_tooth_form.__all__
+__all__ = [
+    "BlankSizes",
+    "BuckinghamFriction",
+    "CircularArc",
+    "Cycloidal",
+    "DokosFriction",
+    "FrictionLaw",
+    "GearMesh",
+    "Ideal",
+    "Involute",
+    "Lantern",
+    "LeastFriction",
+    "PairFriction",
+    "PairVerdict",
+    "PinRing",
+    "PinToSlotTransmission",
+    "RubbedTransmission",
+    "SlidingEfficiency",
+    "SlotToPinTransmission",
+    "SpeedRatio",
+    "StribeckFriction",
+    "TabulatedFriction",
+    "TransmissionError",
+    "TransmissionFunction",
+    "Triangular",
+    "UniformStress",
+    "UniformTemperature",
+    "WheelOutline",
+    "compare_forms",
+]
 
 _PLACES = {
     "BlankSizes": "outlines.wheel_outline",
@@ -104,19 +121,7 @@ _PLACES = {
     "TransmissionFunction": "transmission",
     "WheelOutline": "outlines.wheel_outline",
     "compare_forms": "form_comparison",
+    **{kind: name for name, kind in TOOTH_FORMS.items()},
 }
 
-_find = lazy_names(__name__, _PLACES)
-
-
-def __getattr__(name: str) -> Any:
-    """A public name; the forms are those of the union, which is imported for one of them and not before."""
-    if name in _PLACES:
-        return _find(name)
-    if not name.startswith("_") or name == "__all__":
-        union = import_module("geartrain.teeth.any_tooth_form")
-        if name == "__all__":
-            return sorted([*_PLACES, *union.__all__])
-        if name in union.__all__:
-            return getattr(union, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = lazy_names(__name__, _PLACES)

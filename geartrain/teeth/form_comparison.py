@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, get_args
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.results import Key, Result
-from geartrain.teeth.any_tooth_form import Involute, tooth_forms
+from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.involute import Involute
 from geartrain.teeth.pair_results import ToothFault
 
 if TYPE_CHECKING:
@@ -69,6 +70,8 @@ class MeasuredForm(Result):
 @dataclass(frozen=True)
 class FormComparison(Result):
     """Forms beside the 20 degree involute of the same pair and arcs."""
+
+    PAGE = "report.conjugate_pair_page:describe_form_comparison"
 
     KEYS = (
         *("teeth", "matched"),

@@ -19,6 +19,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Quantity, Velocity
+from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import root
 
 if TYPE_CHECKING:
@@ -288,7 +289,7 @@ FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
 
 
 @dataclass(frozen=True, slots=True)
-class PairFriction:
+class PairFriction(Shown):
     """A law of friction in a pair whose pitch line runs at some speed: the coefficient, by the speed of sliding.
 
     Examples

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.results import Shown
 from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
 from geartrain.teeth.transmission import ExactRatio
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class GearMesh(ABC):
+class GearMesh(Shown, ABC):
     """A gear pair with real teeth: all that others ask of it, whatever their form.
 
     See Also
@@ -37,6 +38,8 @@ class GearMesh(ABC):
     ('triangular', (48, 96), 'the wheels turn', Fraction(1, 2))
     """
 
+    PAGE = "report.pair_page:describe_pair"
+
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
     tooth_form: NamedForm
@@ -46,6 +49,12 @@ class GearMesh(ABC):
     transmission: TransmissionFunction
     """With that wheel driving, forwards; `coast` is that of the other flanks, `reversed` with the other wheel
     driving."""
+
+    def _summary(self) -> str:
+        driver, driven = self.counts
+        rubs = "" if self.friction is None else f", friction {self.friction:g}"
+        wheels = f"{self.driver} ({driver}) drives {self.driven} ({driven})"
+        return f"{self.name}: {self.tooth_form.words} teeth, {wheels}{rubs}"
 
     @property
     def gear(self) -> DeclaredPair:

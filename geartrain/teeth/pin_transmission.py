@@ -49,6 +49,8 @@ def mean_over_the_pin(r: float, e: float, f: float) -> float:
 class PinTransmission(TransmissionFunction):
     """What a pin in a slot and a pin in a follower share. `friction` is that of the pin along the slot."""
 
+    PAGE = "report.pair_page:describe_pin"
+
     period = 2 * pi
     driver: ClassVar[Literal["pin", "slot"]]
     """Which of the two drives."""

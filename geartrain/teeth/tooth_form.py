@@ -11,6 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity
+from geartrain.numerics.results import summary_line, values_summary
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
@@ -77,6 +78,10 @@ class ToothForm(BaseModel, ABC):
         None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length"
     )
 
+    def __repr__(self) -> str:
+        given = (name for name in type(self).model_fields if name in self.model_fields_set and name != "form")
+        return summary_line(type(self).__name__, values_summary(self, given))
+
     @classmethod
     def declared(cls, parameters: Mapping[str, object]) -> Self:
         """The form with these parameters.
@@ -105,6 +110,17 @@ class ToothForm(BaseModel, ABC):
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
         what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
         return Problem(what, "", str(context.get("fix", "")), str(place))
+
+    @classmethod
+    def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """Return parameters with defaults for those that a declaration of the form must have.
+
+        Parameters
+        ----------
+        parameters : mapping
+            As a declaration writes them, without `form`.
+        """
+        return dict(parameters)
 
     @property
     def words(self) -> str:

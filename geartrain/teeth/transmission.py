@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from math import inf
+from math import degrees, inf
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.results import Shown
 
 if TYPE_CHECKING:
     import numpy as np
@@ -53,7 +54,7 @@ class ContactRubbing(NamedTuple):
     without friction: the efficiency of a contact is (1 + f out) / (1 + f into)."""
 
 
-class TransmissionFunction(ABC):
+class TransmissionFunction(Shown, ABC):
     """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle S.
 
     The transmission error is q - ratio S, positive where the driven side is ahead of uniform motion. Its mean, a lag
@@ -88,6 +89,9 @@ class TransmissionFunction(ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
+
+    def _summary(self) -> str:
+        return f"ratio {self.ratio}, period {degrees(self.period):.6g} deg, friction {self.friction:g}"
 
     @abstractmethod
     def error(self, S: ArrayLike) -> Floats:

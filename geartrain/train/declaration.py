@@ -17,6 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import Figure, PairDamping, PairStiffness, Quantity, Speed, Torque, in_unit, same_kind
+from geartrain.numerics.results import summary_line
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train.fields import (
@@ -237,6 +238,11 @@ class Train(Declared):
 
     _marks: Marks | None = PrivateAttr(None)
 
+    def __repr__(self) -> str:
+        counts = f"{len(self.links)} links, {len(self.gears)} gear pairs"
+        more = f", {len(self.states)} states" if self.states else ""
+        return summary_line("Train", f"{self.name}: {counts}{more}")
+
     def place(self, *loc: str | int) -> str:
         """Where a declared thing was written: `file.yaml:12`, or its path if it came from no file.
 
@@ -403,6 +409,18 @@ class Train(Declared):
         """True if some link has a moment of inertia, declared or from the density of its wheels."""
         wheels = (wheel.density is not None for _, wheel in self.wheels.values())
         return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
+
+    def has_torque_units(self, state: str | None) -> bool:
+        """Return True if the loads and bearings of one state are given in units.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None for the train without any.
+        """
+        bearings = (part.bearing.sliding for part in self.links.values() if part.bearing is not None)
+        torques = [torque for torque in (*self.case(state).loads.values(), *bearings) if torque.value]
+        return bool(torques) and all(torque.unit is not None for torque in torques)
 
     def is_loaded(self, state: str | None) -> bool:
         """True if torques follow from something declared: loads, or friction of bearings.

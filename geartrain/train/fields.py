@@ -12,6 +12,7 @@ from pydantic import (
     BaseModel,
     BeforeValidator,
     ConfigDict,
+    GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     TypeAdapter,
     ValidationError,
@@ -21,6 +22,8 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.results import summary_line, values_summary
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
 
 MOST_TEETH = 10**12
@@ -37,6 +40,10 @@ class Declared(BaseModel):
     model_config = ConfigDict(
         frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
     )
+
+    def __repr__(self) -> str:
+        given = (name for name in type(self).model_fields if name in self.model_fields_set)
+        return summary_line(type(self).__name__, values_summary(self, given))
 
     def changed(self, **update: Any) -> Self:
         """A copy with other fields, which remembers nothing that was derived from the old ones.
@@ -63,6 +70,9 @@ class Declared(BaseModel):
 
 def _refused(error: Mapping[str, Any]) -> Problem:
     """What is wrong about a value that was to replace another."""
+    if error["type"] == "missing":
+        *parent, key = error["loc"]
+        return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")
     fix = error.get("ctx", {}).get("fix", "see docs/reference.md")
     return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"it is {str(error['input'])[:60]!r}", fix)
 
@@ -142,11 +152,16 @@ Nothing = BeforeValidator(_empty_for_nothing)
 
 
 @cache
-def tooth_forms() -> TypeAdapter[Any]:
-    """The reader of all tooth forms; most trains declare none, and import none."""
-    from geartrain.teeth.any_tooth_form import AnyToothForm
+def _form_reader(*names: str) -> TypeAdapter[Any]:
+    """Return the reader of the union of these tooth forms, which imports no other form."""
 
-    return TypeAdapter(AnyToothForm)
+    class Forms:
+        @classmethod
+        def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+            forms = {name: handler.generate_schema(tooth_form(name)) for name in names}
+            return core_schema.tagged_union_schema(forms, "form")
+
+    return TypeAdapter(Forms)
 
 
 @cache
@@ -180,8 +195,14 @@ def _tell_friction(friction: Any) -> Any:
 
 
 def _read_tooth_form(raw: Any) -> Any:
-    """A name alone is the form with all its defaults."""
-    form = tooth_forms().validate_python({"form": raw} if isinstance(raw, str) else raw)
+    """Return a tooth form from its keys, or from its name only, with default values.
+
+    An unknown name is validated by all forms, whose error lists their names.
+    """
+    keys = {"form": raw} if isinstance(raw, str) else raw
+    name = keys.get("form") if isinstance(keys, dict) else getattr(keys, "form", None)
+    known = isinstance(name, str) and name in TOOTH_FORMS
+    form = _form_reader(*([name] if known else TOOTH_FORMS)).validate_python(keys)
     # of a union, pydantic builds the members' validators only; writing a form needs its serializer
     type(form).model_rebuild()
     return form
@@ -193,10 +214,10 @@ def _coulomb_friction() -> TypeAdapter[Any]:
 
 
 if TYPE_CHECKING:
-    from geartrain.teeth.any_tooth_form import AnyToothForm
     from geartrain.teeth.friction_law import FrictionLaw
+    from geartrain.teeth.tooth_form import ToothForm
 
-    DeclaredToothForm = AnyToothForm
+    DeclaredToothForm = ToothForm
     DeclaredFriction = CoulombFriction | FrictionLaw
 else:
 
@@ -213,7 +234,7 @@ else:
             return {"anyOf": [handler(_coulomb_friction().core_schema), handler(friction_laws().core_schema)]}
 
     class DeclaredToothForm:
-        """A tooth form, or the name of one, as a field of a model: the forms are imported when the first is read."""
+        """A tooth form, or its name, as a field of a model. A form is imported when a declaration names it."""
 
         @classmethod
         def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
@@ -221,6 +242,4 @@ else:
 
         @classmethod
         def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-            from geartrain.teeth.any_tooth_form import tooth_forms as by_name
-
-            return {"anyOf": [{"enum": [*by_name()]}, handler(tooth_forms().core_schema)]}
+            return {"anyOf": [{"enum": [*TOOTH_FORMS]}, handler(_form_reader(*TOOTH_FORMS).core_schema)]}

@@ -210,6 +210,11 @@ class Teeth(Declared):
         fail_fast=True,
         description="The count is to be found: within two bounds, inclusive, or among three or more counts",
     )
+
+    def _brief(self) -> str:
+        """The count, in the line of a wheel."""
+        return str(self.value)
+
     note: str | None = Field(None, description="A remark for the reader")
 
     @model_validator(mode="after")

@@ -29,6 +29,7 @@ from geartrain.numerics.quantity import (
     above_zero,
     not_below_zero,
 )
+from geartrain.numerics.results import Shown
 from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id, Nothing
 from geartrain.train.outputs import Output
 
@@ -302,7 +303,7 @@ class Remove(Declared):
 
 
 @dataclass(frozen=True, slots=True)
-class StateCase:
+class StateCase(Shown):
     """What is prescribed when the train is run in one state.
 
     Examples

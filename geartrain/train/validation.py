@@ -15,7 +15,7 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 
 from geartrain.errors import (
-    MOST_TOLD,
+    MOST_REPORTED,
     DeclarationError,
     Loc,
     Marks,
@@ -26,6 +26,7 @@ from geartrain.errors import (
     suggest,
 )
 from geartrain.numerics.containers import collector_paused
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_forms
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
@@ -120,7 +121,7 @@ def _refuse_many(head: Mapping[str, Any], place: Marks) -> None:
     try:
         Train.model_validate(head)
     except ValidationError as error:
-        if error.error_count() > MOST_TOLD:
+        if error.error_count() > MOST_REPORTED:
             raise DeclarationError(_explained(error, place)) from None
 
 
@@ -141,14 +142,6 @@ def _name(kind: Any) -> tuple[Any, ...]:
     """The names by which a union chooses a tooth form, a law or a coupling; nothing for other models."""
     field = next((kind.model_fields[key] for key in ("form", "law", "kind") if key in kind.model_fields), None)
     return get_args(field.annotation) if field else ()
-
-
-@cache
-def _forms() -> dict[str, type[BaseModel]]:
-    """Every tooth form by the name that chooses it."""
-    from geartrain.teeth.any_tooth_form import AnyToothForm
-
-    return {name: form for form in get_args(get_args(AnyToothForm)[0]) for name in _name(form)}
 
 
 @cache
@@ -217,7 +210,7 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """`loc` without the tags pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *_forms(), *_laws()}
+    tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *TOOTH_FORMS, *_laws()}
     return tuple(
         step
         for at, step in enumerate(loc)
@@ -249,7 +242,7 @@ def _step(kind: Any, step: str | int) -> Iterator[Any]:
 
 def _models_in(annotation: Any) -> Iterator[Any]:
     if annotation is DeclaredToothForm:
-        yield from _forms().values()
+        yield from tooth_forms().values()
     elif annotation is DeclaredFriction:
         yield CoulombFriction
         yield from _laws().values()

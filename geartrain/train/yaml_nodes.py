@@ -15,7 +15,7 @@ from typing import Any
 import yaml
 from pydantic import BaseModel
 
-from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Marks, Problem, dotted
+from geartrain.errors import MOST_REPORTED, DeclarationError, Loc, Marks, Problem, dotted
 
 MOST_DEPTH = 32
 MOST_VALUES = 3_000_000  # some 200,000 links; the parser needs a quarter of a kilobyte for each
@@ -129,7 +129,7 @@ class _Builder:
         if self.values > MOST_VALUES:
             why = f"a file has at most {MOST_VALUES} values"
             raise DeclarationError(Problem("the file is too large", why, "build the train in Python", self.name))
-        if len(self.problems) > MOST_TOLD + 1:
+        if len(self.problems) > MOST_REPORTED + 1:
             raise DeclarationError(self.problems)
         place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
         match event:

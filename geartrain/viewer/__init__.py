@@ -1,8 +1,8 @@
-"""The interactive page: one file of HTML in which a train turns.
+"""Interactive page of a train: one HTML file with an animated, three-dimensional view.
 
-In: one or two scenes of `geartrain.scene`. Out: one self-contained page, with the scene's data and the program that
-shows them; it computes angles as `geartrain.scene` says, exactly at any number of turns. Pictures and films are saved
-from the page, by its own buttons.
+Input is one or more scenes of `geartrain.scene`. Output is a self-contained page with the data of the scenes and the
+program that displays them; it computes angles exactly at any number of revolutions. Pictures and films are saved with
+buttons of the page.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Pages of a train that is being written, on the local address: made anew when a file of it is saved.
+"""Local web server for the pages of a train that is being edited; they are rebuilt when one of its files is saved.
 
-One page holds the report and the turning train side by side. It keeps a line open to the server; when that says that
-there is something new, both are loaded again, and camera, crank and chosen state are put back where they were.
+One page shows the report and the animated train side by side. It keeps a connection to the server; when a new version
+is announced, both are reloaded, and camera, crank and selected state are restored.
 """
 
 from __future__ import annotations
@@ -20,36 +20,36 @@ from geartrain.viewer.viewer_page import own_script_only
 if TYPE_CHECKING:
     from tornado.web import Application
 
-_SETTLING = 0.1  # s that an editor may take to write a file in several steps
+_SETTLING = 0.1  # [s] an editor may write a file in several steps
 _LOCAL = "127.0.0.1"
 
 
 @dataclass(frozen=True, slots=True)
 class LivePages:
-    """What is shown of a train: whole documents of HTML."""
+    """Pages of a train as complete HTML documents."""
 
     report: str
     view: str
 
 
 class LiveServer:
-    """Serves a train's pages on the local address alone, until it is interrupted.
+    """Server of the pages of a train on the local address only, until it is interrupted.
 
     Parameters
     ----------
     make : callable
-        Makes the pages anew; a `GearTrainError` is shown above the pages made last.
+        Function that builds the pages; a `GearTrainError` is shown above the last pages.
     watched : callable
-        Files whose change makes them old, asked after each change.
+        Function that returns the files to watch; it is called after each change.
     port : int
-        0 for one that is free.
+        Port number, 0 for any free port.
 
     Raises
     ------
     MissingExtraError
-        Where server or watcher are not installed.
+        If tornado or watchdog is not installed.
     QuestionError
-        Where the port is taken.
+        If the port is in use.
     """
 
     def __init__(self, make: Callable[[], LivePages], watched: Callable[[], Iterable[Path]], port: int = 0) -> None:
@@ -57,7 +57,7 @@ class LiveServer:
             import tornado.netutil
             import watchdog.observers  # noqa: F401
         except ImportError:
-            raise MissingExtraError("tornado or watchdog", "watch", "a page that follows a file") from None
+            raise MissingExtraError("tornado or watchdog", "watch", "the live page of a file") from None
         self.make, self.watched = make, watched
         self.pages: LivePages | None = None
         self.error = ""
@@ -66,34 +66,34 @@ class LiveServer:
         try:
             self._sockets = tornado.netutil.bind_sockets(port, _LOCAL)
         except (OSError, OverflowError) as error:
-            fix = "give another --port, or none"
-            raise QuestionError(Problem(f"no page can be served at port {port}", str(error), fix)) from None
+            fix = "give another --port, or omit it"
+            raise QuestionError(Problem(f"port {port} cannot be used", str(error), fix)) from None
 
     @property
     def address(self) -> str:
-        """Where the page is."""
+        """URL of the page."""
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Make the pages; what is wrong with the train is kept, to be shown."""
+        """Build the pages; if the train has errors, keep the message to display it."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
             self.error = str(error)
         self.version += 1
 
-    def run(self, told: Callable[[str], object]) -> None:
-        """Serve until interrupted.
+    def run(self, report: Callable[[str], object]) -> None:
+        """Serve the pages until interrupted.
 
         Parameters
         ----------
-        told : callable
-            Called with what is wrong after each change, or with nothing.
+        report : callable
+            Function called after each change with the error message, empty if it has none.
         """
         with suppress(KeyboardInterrupt):
-            asyncio.run(self._serve(told))
+            asyncio.run(self._serve(report))
 
-    async def _serve(self, told: Callable[[str], object]) -> None:
+    async def _serve(self, report: Callable[[str], object]) -> None:
         from tornado.httpserver import HTTPServer
         from watchdog.events import FileSystemEvent, FileSystemEventHandler
         from watchdog.observers import Observer
@@ -105,6 +105,7 @@ class LiveServer:
                 if event.event_type in ("modified", "created", "moved", "deleted"):
                     paths = {Path(str(path)).resolve() for path in (event.src_path, event.dest_path) if path}
                     if paths & {path.resolve() for path in known}:
+                        # the observer runs in its own thread
                         loop.call_soon_threadsafe(changed.set)
 
         server = HTTPServer(self._application())
@@ -113,6 +114,7 @@ class LiveServer:
 
         def watch() -> None:
             known[:] = self.watched()
+            # folders are watched, because editors may replace a file instead of writing it
             for folder in {path.resolve().parent for path in known} - folders:
                 observer.schedule(Saved(), str(folder))
                 folders.add(folder)
@@ -125,7 +127,7 @@ class LiveServer:
                 await asyncio.sleep(_SETTLING)
                 changed.clear()
                 await loop.run_in_executor(None, self.refresh)
-                told(self.error)
+                report(self.error)
                 watch()
                 for each in tuple(self._listening):
                     each.tell()
@@ -146,7 +148,7 @@ class LiveServer:
                 pages = live.pages
                 text = shell if not name else "" if pages is None else getattr(pages, name)
                 self.set_header("Cache-Control", "no-store")
-                if not name:  # the two within have policies of their own
+                if not name:  # the two inner pages have their own policies
                     self.set_header("Content-Security-Policy", policy)
                 self.finish(text)
 
@@ -164,13 +166,15 @@ class LiveServer:
             def on_close(self) -> None:
                 live._listening.discard(self)
 
-        # a name that another site has pointed here is answered by nothing
+        # requests for other host names are not answered (DNS rebinding)
         application = Application(log_function=lambda handler: None)
         application.add_handlers(r"(127\.0\.0\.1|localhost)", [(r"/(report|view|)", Shown), (r"/changes", Changes)])
         return application
 
     def _policy(self, shell: str) -> str:
-        """What the outer page may do: run its script, show the two pages of this server, and listen to it."""
+        """Return the content security policy of the outer page: its script, frames of this server, and the connection
+        to it.
+        """
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]
         reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"

@@ -1,4 +1,4 @@
-"""Scenes to one self-contained page: nothing is fetched, and no name in a train is ever read as HTML."""
+"""Conversion of scenes to a self-contained HTML page that loads nothing; names in a train are always escaped."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
 Shown = Literal["page", "embed", "kiosk"]
-"""How a page shows a train."""
+"""Layout of a page."""
 
 _IN_SCRIPTS: dict[str, str | int | None] = {
     "<": "\\u003c",
@@ -29,7 +29,7 @@ _IN_SCRIPTS: dict[str, str | int | None] = {
     "\u2028": "\\u2028",
     "\u2029": "\\u2029",
 }
-"""Letters that could end a script element, or start another; within JSON their escapes mean the same."""
+"""Escapes of characters that could end a script element or start another; in JSON they have the same meaning."""
 
 
 _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
@@ -38,30 +38,30 @@ _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 def page(
     scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True, shown: Shown = "page"
 ) -> str:
-    """One self-contained page of HTML that shows trains turning; it works from a file and asks the network for nothing.
+    """Build a self-contained HTML page with animated trains; it works from a file and makes no network requests.
 
     Parameters
     ----------
     scenes : sequence of Scene
-        What is shown, one or more; without `compare` the reader chooses among them.
+        Scenes to show, at least one; without `compare` the user selects one of them.
     compare : bool
-        The first two scenes side by side, with one crank.
+        True to show the first two scenes side by side, driven by one crank.
     title : str, optional
-        Of the page; default the names of the trains.
+        Title of the page; by default the names of the trains.
     teeth : bool
-        False draws plain discs until the reader wants teeth.
+        False to draw plain discs until the user switches teeth on.
     shown : {"page", "embed", "kiosk"}
-        The whole page, or the picture with three buttons, for a frame in another page or for a museum's screen.
+        The whole page, or the picture with three buttons, for a frame in another page or for an exhibition screen.
 
     Returns
     -------
     str
-        The whole document. No name in a train is read as HTML in it.
+        The whole document. Names in a train are escaped.
 
     Raises
     ------
     QuestionError
-        If there is no scene, or `compare` has fewer than two.
+        If there are too few scenes: none, or fewer than two with `compare`.
 
     Examples
     --------
@@ -72,7 +72,13 @@ def page(
     (True, True, False)
     """
     if len(scenes) < 1 + compare:
-        raise QuestionError(Problem("too few scenes for a page", f"it was given {len(scenes)}", "give it one, or two"))
+        raise QuestionError(
+            Problem(
+                "too few scenes for a page",
+                f"{len(scenes)} scenes are given",
+                "pass one scene, or two with compare=True",
+            )
+        )
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
     program = _built("viewer.js")
@@ -87,19 +93,19 @@ def page(
 
 
 def train_page(train: GearTrain, state: str | None = None) -> str:
-    """The page of one train: in one of its states, or in all of them, to be chosen among.
+    """Build the page of one train in one of its states, or with a choice of all states.
 
     Parameters
     ----------
     train : GearTrain
-        What turns.
+        Train to show.
     state : str, optional
-        One of its states.
+        Name of one of its states.
 
     Returns
     -------
     str
-        As `page` gives it.
+        Whole document, as returned by `page`.
 
     Examples
     --------
@@ -117,7 +123,7 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
 
 @dataclass(frozen=True)
 class EmbeddedPage:
-    """A page of a train that turns, within another page: a notebook shows it as it is.
+    """Page of an animated train inside another page, displayed by notebooks.
 
     Examples
     --------
@@ -127,35 +133,35 @@ class EmbeddedPage:
     """
 
     train: GearTrain
-    """What turns."""
+    """Train to show."""
     state: str | None = None
-    """One of its states; by default all, to be chosen among."""
+    """Name of one of its states; by default all states can be selected."""
     height: int = 620
-    """Of the frame [px]."""
+    """Height of the frame [px]."""
 
     def _repr_html_(self) -> str:
-        # the script counts by the letter: what shows this may join lines, widen tabs and read formulas
+        # the script is checked by its hash, but notebooks may join lines, expand tabs and interpret formulas
         inner = escape(train_page(self.train, self.state)).translate(_AS_NUMBERS)
         style = f"width:100%;height:{self.height}px;border:0"
         return f'<iframe title="{escape(self.train.name)}, turning" style="{style}" srcdoc="{inner}"></iframe>'
 
 
 def frame_of(address: str, title: str, height: int = 480) -> str:
-    """The line of HTML that shows a page of a train within another page.
+    """Return an HTML element that shows the page of a train inside another page.
 
     Parameters
     ----------
     address : str
-        Of the page, as seen from the one in which it is shown.
+        URL of the page, relative to the page that contains the frame.
     title : str
-        What it shows, for readers who do not see it.
+        Description of the content for screen readers.
     height : int
-        Of the frame [px].
+        Height of the frame [px].
 
     Returns
     -------
     str
-        An `iframe`.
+        An `iframe` element.
 
     Examples
     --------
@@ -167,7 +173,8 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
 
 
 def json_in_script(data: object) -> str:
-    """JSON that can stand inside a script element, whatever its strings hold."""
+    """Return JSON that is safe inside a script element, whatever its strings contain."""
+    # NaN is not valid JSON
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.translate(str.maketrans(_IN_SCRIPTS))
 
@@ -177,26 +184,26 @@ def _names(scenes: Sequence[Scene]) -> str:
 
 
 def _words(scene: Scene) -> str:
-    """What a reader without scripts is told."""
+    """Return the text for readers without scripts."""
     state = f" ({scene.state})" if scene.state else ""
     verdict = scene.verdict.get("text", "")
     return f"<h1>{escape(scene.title or scene.name)}{escape(state)}</h1>\n<p>{escape(str(verdict))}</p>"
 
 
 def _policy(program: str) -> str:
-    """What the page may do: run its own script, be styled, and reach nothing."""
+    """Return the content security policy of the page: its own script and styles, no connections."""
     return f"{own_script_only(program)}; img-src data: blob:; connect-src 'none'"
 
 
 def own_script_only(program: str) -> str:
-    """A content security policy that allows styles and one script, known by its hash; without images, connections."""
+    """Return a content security policy that permits styles and one script, identified by its hash, but no images."""
     digest = b64encode(sha256(program.encode("utf-8")).digest()).decode("ascii")
     allowed = f"script-src 'sha256-{digest}'; style-src 'unsafe-inline'"
     return f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"
 
 
 def _built(name: str) -> str:
-    """A file of the built viewer, as it stands between tags."""
+    """Return a file of the built viewer without newlines at its ends."""
     return _part(f"built/{name}").strip("\n")
 
 

@@ -65,7 +65,7 @@ def test_floats_are_as_far_off_as_a_third_of_a_turn_is() -> None:
 
 
 def test_tables_are_within_their_tolerance_and_the_formula_is_the_reference(moon: TrainAccuracy) -> None:
-    assert row_of(moon, TRANSMISSIONS, "direct, 4 laws").error is None
+    assert row_of(moon, TRANSMISSIONS, "direct, 4 functions").error is None
     for tolerance in (1e-6, 1e-12):
         table = row_of(moon, TRANSMISSIONS, f"tabulated, {tolerance:.0e}")
         assert 0 < table.error < tolerance
@@ -78,17 +78,18 @@ def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAc
     motion = train.motion(outputs=["moon"])
     turns = np.arange(500) * (20.0 / 500)
     total = np.zeros(500)
-    for source in motion.ahead.used:
+    for source in motion._forward.used:
         S = float(source.cycles) * turns * source.transmission.period + source.phase
-        seen = motion.ahead.outputs[0]
+        seen = motion._forward.outputs[0]
         total += (
             source.sense
-            * motion.ahead.spread.sensitivity(seen.of, seen.base)[source.pair]
+            * motion._forward.spread.sensitivity(seen.of, seen.base)[source.pair]
             * source.transmission.error(S)
         )
-    off = degrees(np.abs(total - motion.hung.at(turns).error[0]).max())
+    off = degrees(np.abs(total - motion._unset.at(turns).error[0]).max())
     assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
-    lagged, tables = (row_of(moon, MOTION, name).error for name in ("superposed with lag", "composed, tabulated laws"))
+    names = ("superposed with lag", "composed, tabulated functions")
+    lagged, tables = (row_of(moon, MOTION, name).error for name in names)
     assert 0 < tables < 1e-9 < lagged < off
     compiled = row_of(moon, MOTION, "composed, compiled").error
     assert compiled < 1e-11
@@ -97,7 +98,7 @@ def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAc
 def test_teeth_whose_transmission_is_their_ratio_have_nothing_to_measure_and_it_is_said_so() -> None:
     found = find_accuracy(load("planetary-24-18-60-involute"), positions=10)
     assert "exact ratio" in found.left_out[TRANSMISSIONS]
-    assert "no error" in found.left_out[MOTION]
+    assert "no transmission error" in found.left_out[MOTION]
     assert {row.stage for row in found.methods} == {SPEEDS, TORQUES}
 
 

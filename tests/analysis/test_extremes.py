@@ -90,7 +90,7 @@ def test_a_differential_near_locking_cannot_be_driven_from_its_slow_side(teeth: 
     """The product of both ratios ripples by more than it differs from 1: past a dead centre the arm turns back."""
     train = suns((teeth, teeth + 1, teeth, teeth - 1), {"right": 1, "left": 0})
     with pytest.raises(GearTrainError, match="depend on each other"):
-        load(declared(train)).motion().ripples(1.0, 101)
+        load(declared(train)).motion().transmission_errors(1.0, 101)
 
 
 # ------------------------------------------------------------------------------------------------ circulating power
@@ -128,9 +128,9 @@ def test_a_long_run_of_a_long_chain_keeps_few_numbers() -> None:
     """Errors and speeds of 100 pairs at 60 000 positions would be 96 MB."""
     train = chain([(100, 101), (101, 100)], 100, triangular())
     motion = load(declared(train)).motion(outputs=["s100"])
-    motion.ripples(1.0, 2)
+    motion.transmission_errors(1.0, 2)
     tracemalloc.start()
-    motion.ripples(50.0, 60_000)
+    motion.transmission_errors(50.0, 60_000)
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert most < 60e6

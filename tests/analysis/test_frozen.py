@@ -124,11 +124,11 @@ def test_what_a_train_does_not_have_is_refused_with_what_it_has() -> None:
     one, other = next(iter(train.declaration.inputs)), list(train.declaration.links)[-1]
     floats = train.kinematics.floats
     questions = {
-        "there is no method 'quick'": lambda: train.solve(method="quick"),  # type: ignore[arg-type]
-        "there is no link 'nowhere'": lambda: train.driven("nowhere", one),
-        "there is no link 'noone'": lambda: train.driven(other, "noone"),
-        "there is no link 'here'": lambda: floats(condition_of=["here"]),
-        "there is no input 'nothing'": lambda: floats(inputs={one: [1.0], "nothing": [1.0]}),
+        "unknown method 'quick'": lambda: train.solve(method="quick"),  # type: ignore[arg-type]
+        "unknown link 'nowhere'": lambda: train.driven("nowhere", one),
+        "unknown link 'noone'": lambda: train.driven(other, "noone"),
+        "unknown link 'here'": lambda: floats(condition_of=["here"]),
+        "unknown input 'nothing'": lambda: floats(inputs={one: [1.0], "nothing": [1.0]}),
         "is not finite": lambda: floats(inputs={link: [float("nan")] for link in train.declaration.inputs}),
         "the tolerance is nan": lambda: train.motion(tolerance=float("nan")),
         "the tolerance is -1": lambda: train.motion(tolerance=-1),

@@ -83,7 +83,7 @@ def test_a_table_is_a_data_frame_and_says_what_it_lacks() -> None:
     assert "<table>" in found._repr_html_()
     with pytest.raises(KeyError, match="no column 'sun'"):
         found["sun"]
-    with pytest.raises(GearTrainError, match="no output 'carier'"):
+    with pytest.raises(GearTrainError, match="unknown output 'carier'"):
         load("planetary-24-18-60").variants({"s": (20,)}, ["carier"])
     with pytest.raises(GearTrainError, match="too many"):
         load("planetary-24-18-60").variants(dict.fromkeys(("s", "p", "ring"), range(1, 1001)))

@@ -24,7 +24,7 @@ TURN = 2 * pi
 KINDS = diagrams.KINDS
 DRAGGED = [kind for kind in KINDS if kind != "circuits"]  # the others are pointed at
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
-GROUND, ARM = "from the ground", "from the carrier"
+GROUND, ARM = "relative to the frame", "relative to the carrier"
 
 
 @dataclass
@@ -297,7 +297,7 @@ def test_each_gear_pair_lights_up_its_circuit_carrier_and_equation(draw: Opening
         drawn.page.get_by_role("button", name=f"Gear pair {circuit.id}", exact=True).focus()
         assert re.search(rf"^{re.escape(circuit.id)} +{re.escape(drawn.remark.replace(chr(0x2212), '-'))}$", rows, re.M)
         assert drawn.number("carrier", circuit.id) == circuit.carrier
-        assert drawn.fraction("seen from it", circuit.id) == circuit.ratio
+        assert drawn.fraction("relative ratio", circuit.id) == circuit.ratio
         links = drawn.number("circuit", circuit.id).split(" \N{EN DASH} ")
         assert (links[0], links[-2], links[-1]) == (circuit.i, circuit.j, circuit.i)
         assert all(frozenset(pair) in joined for pair in pairwise(links[:-1]))
@@ -359,7 +359,7 @@ def test_the_slot_is_where_a_triangle_of_pin_and_axes_puts_it(draw: Opening) -> 
         assert (slot / 360 - atan2(y, x) / TURN + 0.5) % 1 == pytest.approx(0.5, abs=1e-8)
         ahead = float(drawn.number("ahead by", "now"))
         assert ahead == pytest.approx(slot - 360 * float(pin), abs=2e-6)
-        assert abs(ahead) <= float(drawn.number("at most", "now")) == pytest.approx(degrees(asin(1.1 / 9.6)), abs=1e-6)
+        assert abs(ahead) <= float(drawn.number("maximum", "now")) == pytest.approx(degrees(asin(1.1 / 9.6)), abs=1e-6)
 
 
 # ------------------------------------------------------------------------------------------------------------ closure
@@ -406,12 +406,12 @@ def test_planets_equally_spaced_all_fit_where_their_number_divides_sun_and_ring(
 def test_what_arrives_is_what_the_balance_of_torques_gives_and_the_set_locks_where_theory_says(draw: Opening) -> None:
     drawn = draw("locking")
     declared = diagram_data.block("torques.md", "near.yaml")
-    at = drawn.fraction("each pair of teeth", "efficiency")
+    at = drawn.fraction("each mesh", "efficiency")
     seen = set()
     for wanted in (Fraction("0.97"), Fraction("0.984"), Fraction("0.9905"), Fraction("0.92")):
         path = [46 + 410 * (float(each) - 0.9) / 0.1 for each in (at, wanted)]
         drawn.drag([drawn.place(x, 250, ".gd-picture") for x in path])
-        at = drawn.fraction("each pair of teeth", "efficiency")
+        at = drawn.fraction("each mesh", "efficiency")
         assert abs(at - wanted) <= Fraction(1, 1000)
         gears = [{**gear, "efficiency": float(at)} for gear in declared["gears"]]
         for way, load in (("sun drives arm", -1), ("arm drives sun", 1)):

@@ -20,7 +20,7 @@ from geartrain.scene import make_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import OpenPage, Shown
+    from conftest import OpenPage, SharePage, Shown
 
     from geartrain import Answer
 
@@ -52,14 +52,12 @@ ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tbody tr')]
 
 
 @pytest.fixture
-def opened(open_page: OpenPage, tmp_path: Path) -> Any:
-    """Opens the page of a train on which counts may be changed, in all its states."""
+def opened(share: SharePage) -> Any:
+    """Shows the page of a train on which counts may be changed, in all its states."""
 
     def show(train: GearTrain) -> Shown:
-        path = tmp_path / "page.html"
         scenes = [make_scene(train, state, formulas=True) for state in train.states or (None,)]
-        path.write_text(page(scenes, teeth=False), encoding="utf-8")
-        return open_page(path, **DESK)
+        return share(page(scenes, teeth=False))
 
     return show
 
@@ -149,8 +147,8 @@ def test_a_step_is_one_tooth_and_pointers_follow(opened: Any) -> None:
     changes = shown.page.locator(".change").inner_text()
     assert "s: 24 \u2192 26 teeth" in changes
     # centres stand (24 + 18)/2 and (60 - 18)/2 modules apart; these ask for (26 + 17)/2 and (60 - 17)/2
-    assert "s~p: asks for axes 1/2 of a module further apart" in changes
-    assert "p~ring: asks for axes 1/2 of a module further apart" in changes
+    assert "s~p: needs axes 1/2 of a module further apart" in changes
+    assert "p~ring: needs axes 1/2 of a module further apart" in changes
     give(shown, "s", 24)
     give(shown, "p", 18)
     assert shown.page.locator(".changed").count() == 0
@@ -166,15 +164,15 @@ def test_a_step_is_one_tooth_and_pointers_follow(opened: Any) -> None:
 def test_meshes_tell_by_how_much_they_miss_their_axes(opened: Any) -> None:
     shown = opened(load(LOOP))
     for counts, said in (
-        ({"a1": 22, "b1": 38}, ["b1~c1: asks for axes 1 module nearer together"]),
-        ({"c1": 28}, ["b1~c1: asks for axes 3/2 of a module further apart"]),
-        ({"b1": 39, "c1": 26}, ["a1~b1: asks for axes 1/2 of a module nearer together"]),
+        ({"a1": 22, "b1": 38}, ["b1~c1: needs axes 1 module closer together"]),
+        ({"c1": 28}, ["b1~c1: needs axes 3/2 of a module further apart"]),
+        ({"b1": 39, "c1": 26}, ["a1~b1: needs axes 1/2 of a module closer together"]),
     ):
         for wheel, count in counts.items():
             give(shown, wheel, count)
         tab(shown, "Change")
         texts = shown.page.locator(".misfits li").all_inner_texts()
-        assert [text.partition(" than")[0] for text in texts] == said
+        assert [text.partition(" (")[0] for text in texts] == said
         size = {wheel.id: wheel.module for wheel in make_scene(load(LOOP)).wheels}["b1"]
         modules = float(Fraction(said[0].split("axes ")[1].split(" ")[0]))
         millimetres = float(texts[0].split("(")[1].split(" mm")[0])
@@ -184,22 +182,23 @@ def test_meshes_tell_by_how_much_they_miss_their_axes(opened: Any) -> None:
     give(shown, "b1", 38)
     give(shown, "c1", 27)
     tab(shown, "Change")
-    assert "All still fit their axes" in shown.page.locator(".change").inner_text()
+    assert "All meshes still fit their axes" in shown.page.locator(".change").inner_text()
 
 
 def test_meshes_of_other_axes_are_judged_by_what_they_have(opened: Any) -> None:
     for name, wheel, more, said in (
-        ("worm", "w60", 2, "asks for axes 1 module further apart"),
+        ("worm", "w60", 2, "needs axes 1 module further apart"),
         ("worm", "w2", 1, None),  # a start more leaves a worm as thick as it is
-        ("bevel-differential", "pinion", 1, "its axes meet, and its wheels have to be cut and set along them anew"),
-        ("crossed-helical", "w20", 1, " mm further apart than they stand (as drawn)"),
+        ("bevel-differential", "pinion", 1, "its axes intersect, so its wheels must be redesigned and repositioned"),
+        ("crossed-helical", "w20", 1, " mm further apart (as drawn)"),
     ):
         train = shipped.train(name)
         shown = opened(train)
         give(shown, wheel, (train.declaration.wheels[wheel][1].count or 0) + more)
         tab(shown, "Change")
         texts = shown.page.locator(".change").inner_text()
-        assert (said or "All still fit their axes") in texts, name
+        assert (said or "All meshes still fit their axes") in texts, name
+        shown.page.get_by_role("button", name="All as declared").click()
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -221,7 +220,7 @@ def test_a_loop_that_no_longer_closes_locks_the_train(opened: Any) -> None:
     assert answer.verdict.kind == "locked"
     verdict = shown.page.locator(".verdict")
     assert verdict.get_attribute("data-verdict") == "locked"
-    assert "loop a - b no longer closes: its wheels hold each other still" in verdict.inner_text()
+    assert "loop a - b no longer closes: its wheels lock each other" in verdict.inner_text()
     tab(shown, "Outputs")
     assert set(shown.run(ROWS).values()) == {"not determined"}
     assert shown.page.get_by_role("button", name="play", exact=True).is_disabled()
@@ -240,7 +239,7 @@ def test_counts_at_which_nothing_is_determined_are_told(opened: Any) -> None:
     tab(shown, "Outputs")
     assert shown.run(ROWS) == {"arm": "not determined"}
     assert shown.page.locator(".verdict").get_attribute("data-verdict") == "not determined"
-    assert "locked, or free" in shown.page.locator(".verdict").inner_text()
+    assert "locked or free" in shown.page.locator(".verdict").inner_text()
 
 
 def test_where_there_is_no_webgl_the_plan_has_the_new_count(open_page: OpenPage, tmp_path: Path) -> None:

@@ -14,15 +14,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 import shipped
+from conftest import OpenedPage
 from matplotlib.image import imread, imsave
-from viewing import wait
+from viewing import DESK, SIMPLE, Opening, tab, wait
 
 from geartrain import load
 from geartrain.scene import build_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import Asked, OpenPage, Shown
+    from conftest import OpenPage, Shown
 
 TURN = 2 * pi
 DRAWN = """() => new Promise((done) => {
@@ -83,10 +84,37 @@ def test_a_page_opens_from_disk_without_errors_or_requests(open_page: OpenPage, 
     assert shown.run("geartrain.stages[0] !== null"), "no WebGL"
 
 
+# what a reader sees: the picture, from where it is taken, the panels, and how far the crank is turned
+SEEN = """() => {
+  const [stage] = geartrain.stages;
+  stage.render();
+  return [stage.canvas.toDataURL('image/png'), document.querySelector('.panel').innerText, String(geartrain.turns)];
+}"""
+
+
+def test_a_page_that_tests_share_is_brought_back_to_how_it_opened(open_page: OpenPage, tmp_path: Path) -> None:
+    opened = OpenedPage(open_page(write_page(tmp_path, "planetary-24-18-60"), **DESK))
+    shown = opened.shown
+    before = shown.run(SEEN)
+    shown.page.get_by_label("Colours").select_option("speed")
+    shown.page.get_by_label("Apart").fill("1")
+    shown.page.get_by_label("Teeth").uncheck()
+    shown.page.get_by_role("button", name="Front", exact=True).click()
+    tab(shown, "Wheels")
+    shown.page.locator("[data-wheel='p']").click()
+    shown.page.get_by_role("button", name="play backwards").click()
+    shown.page.get_by_role("button", name="play", exact=True).click()
+    wait(shown, "String(geartrain.turns).startsWith('-')")
+    changed = shown.run(SEEN)
+    assert all(one != other for one, other in zip(before, changed, strict=True))
+    opened.restore()
+    assert shown.run(SEEN) == before
+
+
 @pytest.mark.parametrize("name", ["price-1974", "prague-orloj", "gosper-2005", "humpage"])
-def test_pointers_of_ideal_trains_stand_where_fractions_say(requested: Asked, name: str) -> None:
+def test_pointers_of_ideal_trains_stand_where_fractions_say(show_shared: Opening, name: str) -> None:
     texts = ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003")
-    stand_as_fractions_say(requested(name), name, texts)
+    stand_as_fractions_say(show_shared(name), name, texts)
 
 
 # how far the end of a part stands out of what it ends in (mm): where a ray along its axis meets these, below the plates
@@ -113,17 +141,17 @@ OUT = """([wheel, post]) => {
     ("name", "wheel", "end"), [("cycloidal-reducer", "ring", (31.3, 0.2, 0)), ("lantern-mill", "nut20", None)]
 )
 def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
-    requested: Asked, name: str, wheel: str, end: tuple[float, float, float] | None
+    show_shared: Opening, name: str, wheel: str, end: tuple[float, float, float] | None
 ) -> None:
     """Two faces in one plane flicker."""
-    shown = requested(name)
+    shown = show_shared(name)
     at = [each.id for each in shipped.built(name).wheels].index(wheel)
     assert 0.02 < shown.run(OUT, [at, end]) < 0.1
 
 
-def test_a_dial_about_two_axes_has_a_face_for_each(requested: Asked) -> None:
+def test_a_dial_about_two_axes_has_a_face_for_each(show_shared: Opening) -> None:
     """They are told apart by what is read on them; on each, the one hand is in the first colour."""
-    shown = requested("price-1974")
+    shown = show_shared("price-1974")
     faces = shown.run("[...document.querySelectorAll('.card')].map((each) => each.querySelector('strong').textContent)")
     assert faces == ["zodiac", "lower (synodic month)", "lower (lunar year)", "upper"]
     hands = shown.run(
@@ -133,48 +161,48 @@ def test_a_dial_about_two_axes_has_a_face_for_each(requested: Asked) -> None:
     assert hands[1:] == [[["synodic month", True]], [["lunar year", True]], [["four years", True]]]
 
 
-def test_a_float_of_turns_is_taken_as_exactly_what_it_is(requested: Asked) -> None:
-    stand_as_fractions_say(requested("price-1974"), "price-1974", (0.1, -2.7, 1e9 + 0.1, 123456.789))
+def test_a_float_of_turns_is_taken_as_exactly_what_it_is(show_shared: Opening) -> None:
+    stand_as_fractions_say(show_shared("price-1974"), "price-1974", (0.1, -2.7, 1e9 + 0.1, 123456.789))
 
 
 @pytest.mark.parametrize(
     "name", ["freeth-2008", "freeth-2021", "moon-triangular", "freeth-2021-teeth", "pennestri-2002-teeth"]
 )
-def test_pins_and_real_teeth_move_as_the_motion_says(requested: Asked, name: str) -> None:
+def test_pins_and_real_teeth_move_as_the_motion_says(show_shared: Opening, name: str) -> None:
     motion = shipped.train(name).motion()
     turns = np.array([0.0, 0.4140625, 3.25, 1000.0, 76543.21875, 1e6 + 0.8125])
     errors = motion.at(turns).error
-    shown = requested(name)
+    shown = show_shared(name)
     angles = shown.angles(turns.tolist(), motion.outputs)
     for at, turn in enumerate(turns):
         mean = dict(directions(name, Fraction(turn)))
         for row, output in enumerate(motion.outputs):
-            expected = mean[output] + motion.starts[row] + errors[row, at]
+            expected = mean[output] + motion._start_angles[row] + errors[row, at]
             assert apart(angles[at][row], expected) < 1e-9, (output, turn)
     assert np.abs(errors).max() > 1e-3, "nothing rippled: this asks nothing"
 
 
-def test_backwards_the_other_flanks_drive(requested: Asked) -> None:
+def test_backwards_the_other_flanks_drive(show_shared: Opening) -> None:
     """Negative turns, against a run backwards; forwards the teeth stand otherwise, by their play."""
     name = "pennestri-2002-teeth"
     motion = shipped.train(name).motion()
-    shown = requested(name)
+    shown = show_shared(name)
     differ = 0.0
-    for passage in motion.passages(-37.6875, 5, first=1):
+    for passage in motion._stretches(-37.6875, 5, first=1):
         forwards = motion.at(passage.turns).error
         angles = shown.angles(passage.turns.tolist(), motion.outputs)
         for at, turn in enumerate(passage.turns):
             mean = dict(directions(name, Fraction(float(turn))))
             for row, output in enumerate(motion.outputs):
-                expected = mean[output] + motion.starts[row] + passage.error[row, at]
+                expected = mean[output] + motion._start_angles[row] + passage.error[row, at]
                 assert apart(angles[at][row], expected) < 1e-9, (output, turn)
                 differ = max(differ, abs(passage.error[row, at] - forwards[row, at]))
     assert differ > 1e-4, "the way back is the way forth: this asks nothing"
 
 
-def test_a_slot_follows_its_pin_as_plane_geometry_says(requested: Asked) -> None:
+def test_a_slot_follows_its_pin_as_plane_geometry_says(show_shared: Opening) -> None:
     """The drawn pin stays in the drawn slot: both parts are asked where they are."""
-    shown = requested("freeth-2008")
+    shown = show_shared("freeth-2008")
     script = """t => {
       geartrain.setTurns(t);
       const stage = geartrain.stages[0]; stage.render(); stage.world.root.updateMatrixWorld(true);
@@ -190,9 +218,9 @@ def test_a_slot_follows_its_pin_as_plane_geometry_says(requested: Asked) -> None
         assert shown.run(script, turns) == pytest.approx([1.0], abs=1e-9)
 
 
-def test_meshing_wheels_have_one_velocity_where_they_touch(requested: Asked) -> None:
+def test_meshing_wheels_have_one_velocity_where_they_touch(show_shared: Opening) -> None:
     """Spin of both wheels at the pitch point, by finite differences of what is drawn."""
-    shown = requested("planetary")
+    shown = show_shared("planetary")
     script = """h => {
       const stage = geartrain.stages[0], scene = geartrain.scenes[0], Vector = stage.camera.position.constructor;
       const at = t => {
@@ -250,9 +278,9 @@ def test_the_picture_is_the_one_that_was_looked_at_and_approved(open_page: OpenP
     assert np.quantile(off, 0.99) < 0.15
 
 
-def test_dragging_the_crank_turns_the_train(open_page: OpenPage, tmp_path: Path) -> None:
+def test_dragging_the_crank_turns_the_train(show_shared: Opening) -> None:
     """A quarter turn about the arbor, counter-clockwise as seen, is a quarter turn of the sun."""
-    shown = open_page(write_page(tmp_path, "planetary-24-18-60"))
+    shown = show_shared(SIMPLE, teeth=True)
     script = """() => {
       const [stage] = geartrain.stages, {crank, root} = stage.world;
       stage.look('front'); stage.render(); root.updateMatrixWorld(true);
@@ -276,12 +304,11 @@ def test_dragging_the_crank_turns_the_train(open_page: OpenPage, tmp_path: Path)
 
 
 @pytest.mark.parametrize("apart", [0, 1])
-def test_a_tap_on_a_wheel_tells_which_one(open_page: OpenPage, tmp_path: Path, apart: int) -> None:
-    shown = open_page(write_page(tmp_path, "planetary-24-18-60"))
-    script = """apart => {
+def test_a_tap_on_a_wheel_tells_which_one(show_shared: Opening, apart: int) -> None:
+    shown = show_shared(SIMPLE, teeth=True)
+    shown.page.get_by_label("Apart").fill(str(apart))
+    script = """() => {
       const [stage] = geartrain.stages;
-      stage.explode(apart);
-      stage.onPick = wheel => { globalThis.picked = wheel; };
       stage.look('front'); stage.render();
       const box = stage.canvas.getBoundingClientRect(), Vector = stage.camera.position.constructor;
       const {wheels} = geartrain.scenes[0], [x, y] = wheels[2].centre, off = Math.hypot(x, y);
@@ -291,9 +318,9 @@ def test_a_tap_on_a_wheel_tells_which_one(open_page: OpenPage, tmp_path: Path, a
         return [box.left + (rim.x + 1) / 2 * box.width, box.top + (1 - rim.y) / 2 * box.height];
       });
     }"""
-    for wheel, (x, y) in enumerate(shown.run(script, apart)):
+    for wheel, (x, y) in enumerate(shown.run(script)):
         shown.page.mouse.click(x, y)
-        assert shown.run("globalThis.picked") == wheel
+        assert shown.run("geartrain.stages[0].world.looks.selected") == wheel
 
 
 @pytest.mark.parametrize(
@@ -329,8 +356,8 @@ def test_without_webgl_all_else_is_there(open_page: OpenPage, tmp_path: Path) ->
     assert "determined" in shown.page.inner_text("body")
 
 
-def test_nothing_is_drawn_while_nothing_changes(open_page: OpenPage, tmp_path: Path) -> None:
-    shown = open_page(write_page(tmp_path, "planetary-24-18-60"))
+def test_nothing_is_drawn_while_nothing_changes(show_shared: Opening) -> None:
+    shown = show_shared(SIMPLE, teeth=True)
     shown.run(DRAWN)
     frames = "geartrain.stages[0].renderer.info.render.frame"
     before = shown.run(frames)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shipped
-from conftest import OpenPage, Shown
+from conftest import OpenPage, SharePage, Shown
 from viewing import DESK, tab, wait
 
 from geartrain import load
@@ -27,10 +27,8 @@ def played() -> Played:
 
 
 @pytest.fixture
-def shown(played: Played, open_page: OpenPage, tmp_path: Path) -> Shown:
-    path = tmp_path / "run.html"
-    path.write_text(page([played[1]], teeth=False), encoding="utf-8")
-    return open_page(path, **DESK)
+def shown(played: Played, share: SharePage) -> Shown:
+    return share(page([played[1]], teeth=False))
 
 
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
@@ -84,10 +82,10 @@ def test_the_next_impact_is_found_and_seen(played: Played, shown: Shown) -> None
     assert scene.run is not None
     first = min(each.impact_times[0] for each in scene.run.contacts if len(each.impact_times))
     assert glow(shown) == 0
-    shown.page.get_by_label("to the next blow").click()
+    shown.page.get_by_label("next impact").click()
     assert shown.run("geartrain.machines[0].time()") == pytest.approx(float(first), abs=1e-6)
     assert glow(shown) >= 0.3
-    shown.page.get_by_label("to the blow before").click()
+    shown.page.get_by_label("previous impact").click()
     assert shown.run("geartrain.machines[0].time()") == 0
 
 
@@ -99,7 +97,7 @@ def test_the_table_of_contacts_tells_what_each_does_now(played: Played, shown: S
     apart = [at for at in range(30) if min(front[at], back[at]) > 1e-3]
     touching = [at for at in range(30) if front[at] < 1e-7]
     words = {}
-    for name, at in (("apart", apart[0]), ("drive flank", touching[0])):
+    for name, at in (("separated", apart[0]), ("drive flank", touching[0])):
         shown.run("(turns) => geartrain.setTurns(turns)", turns[at])
         words[name] = shown.page.locator("[data-contact='d2~e'] .now").inner_text()
     assert words == {name: name for name in words}
@@ -110,7 +108,7 @@ def test_the_table_of_contacts_tells_what_each_does_now(played: Played, shown: S
 def test_the_same_train_stands_beside_with_all_drive_flanks_touching(played: Played, shown: Shown) -> None:
     run = played[0]
     samples, turns = times(played, 8)
-    shown.page.get_by_label("Beside").select_option("teeth touching")
+    shown.page.get_by_label("Beside").select_option("drive flanks in contact")
     gaps = shown.run(
         """(turns) => turns.map((each) => {
           geartrain.setTurns(each);
@@ -145,13 +143,13 @@ def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
     assert shown.run("geartrain.machines[0].time()") > later
 
 
-def test_a_run_backlashes_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
-    shown.page.get_by_label("Again at the end").uncheck()
+def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
+    shown.page.get_by_label("Repeat").uncheck()
     shown.page.get_by_role("slider", name="Speed").fill("1")
     shown.page.get_by_role("button", name="play", exact=True).click()
     wait(shown, "geartrain.machines[0].time() > 0.2499")
     shown.page.get_by_role("button", name="play", exact=True).wait_for()
-    shown.page.get_by_label("Again at the end").check()
+    shown.page.get_by_label("Repeat").check()
     shown.page.get_by_role("button", name="play", exact=True).click()
     wait(shown, "geartrain.machines[0].time() > 0.15")
     wait(shown, "geartrain.machines[0].time() < 0.15")

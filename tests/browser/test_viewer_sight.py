@@ -6,15 +6,12 @@ import io
 from base64 import b64decode
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
 from viewing import Opening, tab
-
-if TYPE_CHECKING:
-    from conftest import Asked
 
 USUAL, INTO = [0.36, 0.3, 0.88], [0.62, 0.46, 0.64]
 # a picture from a side (null: from where the train opens) in which some wheels are blue and nothing else is
@@ -44,7 +41,7 @@ TOWARDS = """() => {
 
 
 def blue(
-    requested: Asked,
+    show_shared: Opening,
     name: str,
     towards: list[float] | None,
     wheels: list[int] | None,
@@ -52,7 +49,7 @@ def blue(
     covers: bool = False,
 ) -> int:
     """Points of a picture in which wheels are seen."""
-    data: Any = requested(name).run(PICTURE, [towards, wheels, pillars, covers])
+    data: Any = show_shared(name).run(PICTURE, [towards, wheels, pillars, covers])
     red, _, strong = np.asarray(
         Image.open(io.BytesIO(b64decode(data.partition(",")[2]))).convert("RGB"), dtype=int
     ).transpose(2, 0, 1)
@@ -61,39 +58,41 @@ def blue(
 
 @pytest.mark.parametrize("name", ["worm", "bevel-differential", "south-pointing-chariot"])
 @pytest.mark.parametrize("towards", [USUAL, [-0.36, 0.3, 0.88], [0.1, -0.2, -0.97]])
-def test_pillars_before_wheels_hide_next_to_nothing_of_them(requested: Asked, name: str, towards: list[float]) -> None:
-    whole = blue(requested, name, towards, None, pillars=False)
+def test_pillars_before_wheels_hide_next_to_nothing_of_them(
+    show_shared: Opening, name: str, towards: list[float]
+) -> None:
+    whole = blue(show_shared, name, towards, None, pillars=False)
     assert whole > 2000
-    assert blue(requested, name, towards, None) > 0.93 * whole
+    assert blue(show_shared, name, towards, None) > 0.93 * whole
 
 
 @pytest.mark.parametrize("name", ["bevel-differential", "pennestri-2002", "huygens-planetarium-1682"])
-def test_no_plate_hides_a_wheel(requested: Asked, name: str) -> None:
+def test_no_plate_hides_a_wheel(show_shared: Opening, name: str) -> None:
     """Of a differential the pinion, and of a planetarium a wheel, stood behind a plate that was none of glass."""
-    for wheel in range(requested(name).run("geartrain.scenes[0].wheels.length")):
-        alone = blue(requested, name, None, [wheel])
-        assert blue(requested, name, None, [wheel], covers=True) >= 0.7 * alone, wheel
+    for wheel in range(show_shared(name).run("geartrain.scenes[0].wheels.length")):
+        alone = blue(show_shared, name, None, [wheel])
+        assert blue(show_shared, name, None, [wheel], covers=True) >= 0.7 * alone, wheel
 
 
-def test_pillars_that_hide_nothing_are_no_glass(requested: Asked) -> None:
-    blue(requested, "planetary-24-18-60", [0, 0, 1], None)
-    assert requested("planetary-24-18-60").run(PILLARS) == [0, 4]
-    blue(requested, "worm", USUAL, None)
-    glass, all_ = requested("worm").run(PILLARS)
+def test_pillars_that_hide_nothing_are_no_glass(show_shared: Opening) -> None:
+    blue(show_shared, "planetary-24-18-60", [0, 0, 1], None)
+    assert show_shared("planetary-24-18-60").run(PILLARS) == [0, 4]
+    blue(show_shared, "worm", USUAL, None)
+    glass, all_ = show_shared("worm").run(PILLARS)
     assert 0 < glass < all_
 
 
 @pytest.mark.parametrize(("name", "times"), [("worm", 2), ("humpage", 1.4)])
 def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(
-    requested: Asked, name: str, times: float
+    show_shared: Opening, name: str, times: float
 ) -> None:
     """The wheel of a worm was seen from its edge, and a large planet stood before the small wheels."""
-    shown = requested(name)
+    shown = show_shared(name)
 
     def shares(towards: list[float] | None) -> list[float]:
         """Points of each wheel, as far off and as large as the others."""
         radii: list[float] = shown.run("geartrain.scenes[0].wheels.map(({radius}) => radius)")
-        seen = [blue(requested, name, towards, [wheel], pillars=False) for wheel in range(len(radii))]
+        seen = [blue(show_shared, name, towards, [wheel], pillars=False) for wheel in range(len(radii))]
         away: float = shown.run("geartrain.stages[0].controls.getDistance()")
         return [points * (away / radius) ** 2 for points, radius in zip(seen, radii, strict=True)]
 
@@ -101,34 +100,36 @@ def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(
 
 
 @pytest.mark.parametrize("name", ["two-k-h-10000", "ferguson-paradox"])
-def test_an_orbit_is_looked_at_from_where_it_leaves_more_of_the_picture_to_wheels(requested: Asked, name: str) -> None:
-    assert blue(requested, name, None, None) > 1.1 * blue(requested, name, USUAL, None)
+def test_an_orbit_is_looked_at_from_where_it_leaves_more_of_the_picture_to_wheels(
+    show_shared: Opening, name: str
+) -> None:
+    assert blue(show_shared, name, None, None) > 1.1 * blue(show_shared, name, USUAL, None)
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "norton-compound"])
-def test_others_open_slantwise_from_the_front(requested: Asked, name: str) -> None:
-    requested(name).run("() => geartrain.stages[0].look('free')")
+def test_others_open_slantwise_from_the_front(show_shared: Opening, name: str) -> None:
+    show_shared(name).run("() => geartrain.stages[0].look('free')")
     x, y, z = (each / hypot(*USUAL) for each in USUAL)
-    front = requested(name).run("geartrain.scenes[0].front")
-    assert requested(name).run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
+    front = show_shared(name).run("geartrain.scenes[0].front")
+    assert show_shared(name).run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
 
 
 @pytest.mark.parametrize(("name", "times"), [("strain-wave", 1.35), ("zf-9hp48", 1.1)])
 def test_a_train_is_looked_into_from_behind_where_its_wheels_are_seen_better(
-    requested: Asked, name: str, times: float
+    show_shared: Opening, name: str, times: float
 ) -> None:
     """One looked into the cup of a strain wave, at whose far end its teeth are; roots, so that the worst seen weigh."""
-    wheels = range(requested(name).run("geartrain.scenes[0].wheels.length"))
+    wheels = range(show_shared(name).run("geartrain.scenes[0].wheels.length"))
     behind, before = (
-        sum(blue(requested, name, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels)
+        sum(blue(show_shared, name, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels)
         for towards in (None, INTO)
     )
     assert behind > times * before
 
 
-def test_others_that_are_cut_open_are_looked_into_from_the_front(requested: Asked) -> None:
-    requested("wolfrom-175").run("() => geartrain.stages[0].look('free')")
-    assert requested("wolfrom-175").run(TOWARDS) == pytest.approx([each / hypot(*INTO) for each in INTO], abs=1e-6)
+def test_others_that_are_cut_open_are_looked_into_from_the_front(show_shared: Opening) -> None:
+    show_shared("wolfrom-175").run("() => geartrain.stages[0].look('free')")
+    assert show_shared("wolfrom-175").run(TOWARDS) == pytest.approx([each / hypot(*INTO) for each in INTO], abs=1e-6)
 
 
 def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on_one_line(show: Opening) -> None:

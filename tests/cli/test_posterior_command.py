@@ -64,7 +64,7 @@ def test_json_csv_and_parquet_hold_the_same_combinations(train: Path) -> None:
 
 def test_pages_are_written_whole(train: Path) -> None:
     assert call("posterior", train, "-o", "out.md").exit_code == 0
-    assert Path("out.md").read_text().startswith("# Counts in doubt of pair")
+    assert Path("out.md").read_text().startswith("# Uncertain tooth counts of pair")
     assert call("posterior", train, "-o", "out.html").exit_code == 0
     assert "Which wheel decides which output" in Path("out.html").read_text()
 
@@ -137,6 +137,6 @@ def test_an_interrupted_exact_run_prints_a_short_sample_and_keeps_nothing(
     assert result.exit_code == 130
     found = json.loads(result.stdout)
     assert (found["ended"], found["method"], found["ranked"]) == ("interrupted", "sample", False)
-    assert any("knows nothing before its end" in remark for remark in found["remarks"])
+    assert any("has no partial result" in remark for remark in found["remarks"])
     assert "stopped before anything was done that could be kept" in result.stderr
     assert not list(train.parent.glob("*.partial.jsonl"))

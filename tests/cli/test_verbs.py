@@ -9,6 +9,7 @@ import sys
 import pytest
 from commands import call, functions
 
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS
 from geartrain.wings import WINGS
 
 BEHIND_VERSION = {"geartrain", "geartrain.cli", "geartrain.errors", "geartrain.numerics", "geartrain.wings"}
@@ -64,6 +65,15 @@ def test_a_verb_brings_no_page_but_its_own() -> None:
     pages = {name for name in loaded("torques", "norton-planetary") if name.startswith("geartrain.report.")}
     assert "geartrain.report.torque_report" in pages
     assert not pages & {f"geartrain.report.{other}" for other in ("spherical_report", "pair_page", "motion_report")}
+
+
+def test_motion_imports_only_the_tooth_forms_that_the_train_names_and_the_computations_that_are_requested() -> None:
+    modules = loaded("motion", "moon-triangular", "--turns", "1", "--samples", "100")
+    forms = {name for name in TOOTH_FORMS if f"geartrain.teeth.{name}" in modules}
+    assert forms == {"triangular"}
+    unused = ("motion.compiled_composition", "motion.superposition", "torques.mean_efficiencies")
+    assert not modules & {f"geartrain.dynamics.{name}" for name in unused}
+    assert sum(name.startswith("geartrain.") for name in modules) <= 100
 
 
 def test_commands_of_a_wing_are_in_the_folder_of_their_capability_and_all_others_in_the_command_line() -> None:

@@ -132,7 +132,7 @@ def test_the_digits_agree_with_an_equation_solved_for_its_one_unknown() -> None:
 
     crank = brentq(residue, abs(ratio) * given - 0.2, abs(ratio) * given + 0.2, xtol=1e-14)
     found = np.sign(ratio) * crank - ratio * given
-    assert float(whole.hung.at(np.array([turns])).error[0, 0]) == pytest.approx(found, abs=1e-12)
+    assert float(whole._unset.at(np.array([turns])).error[0, 0]) == pytest.approx(found, abs=1e-12)
     assert MotionTruth(whole).off(turns, np.array([found]))[0] == pytest.approx(0, abs=1e-12)
     # an error that is there is told
     assert MotionTruth(whole).off(turns, np.array([found + 1e-6]))[0] == pytest.approx(1e-6, rel=1e-5)
@@ -143,7 +143,7 @@ def test_marching_follows_pins_without_a_kink_to_many_digits() -> None:
     outputs = ["mars", "moon", "venus"]
     turns = np.linspace(0, 0.1, 21)
     error = Marching(train, outputs).follow(turns, 10)
-    assert np.abs(error - train.motion(outputs=outputs).hung.at(turns).error).max() < 1e-7
+    assert np.abs(error - train.motion(outputs=outputs)._unset.at(turns).error).max() < 1e-7
 
 
 FORM = "name: toothed\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\n"

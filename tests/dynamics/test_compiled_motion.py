@@ -25,7 +25,7 @@ def compiled(composition: Any) -> CompiledComposition:
 
 
 @pytest.mark.parametrize("name", TOOTHED)
-@pytest.mark.parametrize("way", ["ahead", "back"])
+@pytest.mark.parametrize("way", ["_forward", "_backward"])
 def test_every_link_of_a_shipped_train_moves_as_without_kernels(name: str, way: str) -> None:
     train = load(name)
     composition = getattr(train.motion(outputs=list(train.declaration.links)), way)
@@ -40,15 +40,15 @@ def test_every_link_of_a_shipped_train_moves_as_without_kernels(name: str, way: 
 
 
 def test_transmissions_that_are_read_from_tables_are_read_from_the_same() -> None:
-    composition = load("moon-triangular").motion(outputs=["moon"], tolerance=1e-6).ahead
+    composition = load("moon-triangular").motion(outputs=["moon"], tolerance=1e-6)._forward
     turns = np.linspace(0, 95, 3001)
     plain, fast = composition.at(turns), compiled(composition).at(turns)
     assert np.abs(fast.error - plain.error).max() < 1e-14
-    assert np.abs(fast.error - load("moon-triangular").motion(outputs=["moon"]).ahead.at(turns).error).max() > 1e-12
+    assert np.abs(fast.error - load("moon-triangular").motion(outputs=["moon"])._forward.at(turns).error).max() > 1e-12
 
 
 def test_a_transmission_in_tables_is_the_transmission_itself_and_bit_for_bit_the_same_compiled() -> None:
-    for source in load("freeth-2021-teeth").motion(outputs=["mars"]).ahead.used:
+    for source in load("freeth-2021-teeth").motion(outputs=["mars"])._forward.used:
         table = make_transmission_table(source.transmission)
         assert table is not None
         tables = join_transmission_tables([table])
@@ -65,7 +65,7 @@ def test_a_transmission_in_tables_is_the_transmission_itself_and_bit_for_bit_the
 def test_the_kernel_in_plain_python_is_the_compiled_one() -> None:
     for name in ("freeth-2021-teeth", "moon-triangular"):
         train = load(name)
-        kernel = compiled(train.motion(outputs=list(train.declaration.links)).ahead)
+        kernel = compiled(train.motion(outputs=list(train.declaration.links))._forward)
         turns = np.linspace(0, 2, 7)
         plain, fast = CompiledComposition(kernel.composition, kernel.arrays, fast=False).at(turns), kernel.at(turns)
         assert np.abs(plain.error - fast.error).max() < 1e-14
@@ -74,11 +74,11 @@ def test_the_kernel_in_plain_python_is_the_compiled_one() -> None:
 
 def test_pairs_that_depend_on_each_other_are_left_to_numpy() -> None:
     for name in ("pennestri-2002-teeth", "planetary-24-18-60-triangular"):
-        assert compiled_composition(load(name).motion().ahead) is None
+        assert compiled_composition(load(name).motion()._forward) is None
 
 
 def test_pairs_that_cannot_be_followed_are_refused_with_their_names(monkeypatch: pytest.MonkeyPatch) -> None:
-    composition = load("pennestri-2002-teeth").motion().ahead
+    composition = load("pennestri-2002-teeth").motion()._forward
     gain = type(composition).gain
     # the pairs of the step with three sources move each other's drivers a thousand times as far
     monkeypatch.setattr(
@@ -90,7 +90,9 @@ def test_pairs_that_cannot_be_followed_are_refused_with_their_names(monkeypatch:
 
 def test_a_run_is_the_same_whether_kernels_are_requested_for_or_not() -> None:
     train = load("moon-triangular")
-    slow, fast = (train.motion(outputs=["moon"], fast=fast).ripples(-3.0, 5001)[1]["moon"] for fast in (False, True))
+    slow, fast = (
+        train.motion(outputs=["moon"], fast=fast).transmission_errors(-3.0, 5001)["moon"] for fast in (False, True)
+    )
     assert slow.peak_to_peak == pytest.approx(fast.peak_to_peak, abs=1e-13)
     assert slow.rms == pytest.approx(fast.rms, abs=1e-13)
 

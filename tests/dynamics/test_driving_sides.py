@@ -288,9 +288,9 @@ def test_an_output_moves_alone_as_it_does_with_all_others(name: str) -> None:
     state = next(iter(train.states), None)
     together = train.motion(state)
     for turns in (1.7, -1.3):
-        (every,) = together.passages(turns, 101)
+        (every,) = together._stretches(turns, 101)
         for at, output in enumerate(together.outputs):
-            (own,) = train.motion(state, outputs=[output]).passages(turns, 101)
+            (own,) = train.motion(state, outputs=[output])._stretches(turns, 101)
             assert (own.error[0] == every.error[at]).all(), output
             assert (own.rate[0] == every.rate[at]).all(), output
 
@@ -301,7 +301,7 @@ def test_a_pair_written_the_other_way_round_moves_alike_from_the_same_phase(name
     motion = train.motion()
     meshes = {mesh.name: mesh for mesh in train.meshes}
     swapped = []
-    for source in motion.ahead.sources:
+    for source in motion._forward.sources:
         mesh, transmission = meshes[source.id], source.transmission
         first, second = mesh.gear.pair
         # where a tooth of the wheel that is now written first stands
@@ -326,7 +326,7 @@ def test_a_phase_that_vanishes_is_none(pair: str) -> None:
     def moved(phase: str) -> np.ndarray:
         text = BEHIND.format(pair=pair, window="0.5", rest="").replace("friction: 0.2\n", f"friction: 0.2\n{phase}")
         motion = load(text).motion(outputs=["out"])
-        return motion.hung.at(turns).error[0]
+        return motion._unset.at(turns).error[0]
 
     assert np.abs(moved("    phase: 1e-9\n") - moved("")).max() < 1e-8
     assert np.abs(moved("    phase: 0.3\n") - moved("")).max() > 1e-4
@@ -374,7 +374,7 @@ def test_pins_keep_what_they_show_at_the_start() -> None:
 
 
 def lag_of(motion: Motion) -> float:
-    return max(abs(each) for each in motion.setting.values())
+    return max(abs(each) for each in motion.pointer_offsets.values())
 
 
 def test_what_is_set_away_is_the_lag_of_the_teeth() -> None:

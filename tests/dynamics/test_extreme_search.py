@@ -16,9 +16,9 @@ FREETH = ("moon", "mars", "saturn", "draconic month", "mercury")
 
 def extremes(motion: Motion, turns: float, samples: int) -> np.ndarray:
     run = MotionRun(motion, turns, samples)
-    run.go()
-    assert all(tally.error_within == tally.speed_within == 0 for tally in run.tallies)
-    return np.array([(t.most, t.minimum, t.fast, t.slow) for t in run.tallies])
+    run.run()
+    assert all(tally.error_within == tally.speed_within == 0 for tally in run.statistics)
+    return np.array([(t.most, t.minimum, t.fast, t.slow) for t in run.statistics])
 
 
 @pytest.mark.parametrize(
@@ -43,7 +43,7 @@ def test_extremes_do_not_depend_on_the_samples(name: str, outputs: tuple[str, ..
 def test_no_sample_is_beyond_them_and_samples_at_corners_reach_them(name: str, way: int) -> None:
     motion = load(name).motion(outputs=["5"]) if name.startswith("pennestri") else load(name).motion()
     end = 0.37 * way
-    composition = motion.ahead if way > 0 else motion.back
+    composition = motion._forward if way > 0 else motion._backward
     low, high = sorted((0.0, end))
     found = extremes(motion, end, 50)
     corners = motion.kink_positions(0, end).turns
@@ -58,14 +58,14 @@ def test_no_sample_is_beyond_them_and_samples_at_corners_reach_them(name: str, w
 
 
 def test_of_a_pin_alone_they_are_those_of_its_formula() -> None:
-    (tally,) = _run(load("freeth-2021").motion(outputs=["mars"]), 40, 30).tallies
+    (tally,) = _run(load("freeth-2021").motion(outputs=["mars"]), 40, 30).statistics
     r, e = 10.00, 6.58
     assert tally.peak_to_peak == pytest.approx(2 * asin(e / r), rel=1e-8)
 
 
 def test_of_one_pair_they_are_those_of_its_transmission() -> None:
     train = load("moon-triangular")
-    (tally,) = _run(train.motion(outputs=["sun"]), 3, 30).tallies
+    (tally,) = _run(train.motion(outputs=["sun"]), 3, 30).statistics
     transmission = train.meshes[0].transmission
     assert tally.peak_to_peak == pytest.approx(np.ptp(transmission.error_range()), rel=1e-10)
     slow, fast = transmission.speed_range()
@@ -75,24 +75,24 @@ def test_of_one_pair_they_are_those_of_its_transmission() -> None:
 
 def _run(motion: Motion, turns: float, samples: int) -> MotionRun:
     run = MotionRun(motion, turns, samples)
-    run.go()
+    run.run()
     return run
 
 
 @pytest.mark.slow
 def test_a_run_too_long_to_be_searched_says_how_far_it_may_be_off() -> None:
     motion = load("freeth-2021-teeth").motion(outputs=["moon"])
-    (tally,) = _run(motion, 5_000, 2_000).tallies
+    (tally,) = _run(motion, 5_000, 2_000).statistics
     assert tally.error_within > 0
     assert tally.speed_within is None or tally.speed_within > 0
     # what is told is attained, and what may be more does not pass the sum of all ranges
-    (whole,) = _run(motion, 20, 2_000).tallies
+    (whole,) = _run(motion, 20, 2_000).statistics
     assert tally.peak_to_peak + 2 * tally.error_within > whole.peak_to_peak
 
 
 @pytest.mark.parametrize("name", ["moon-triangular", "longcase-clock-bs978", "pennestri-2002-teeth", "freeth-2021"])
 def test_bounds_over_steps_hold_what_lies_in_them(name: str) -> None:
-    composition = load(name).motion().ahead
+    composition = load(name).motion()._forward
     random = np.random.default_rng(5)
     for width in (1e-5, 1e-3, 0.03):
         low = random.uniform(0, 2, 200)
@@ -119,7 +119,7 @@ def test_extremes_of_runs_of_a_row_are_those_of_its_entries() -> None:
 
 def test_speeds_at_a_jump_count_from_both_sides() -> None:
     motion = load("longcase-clock-bs978").motion()
-    found = _run(motion, 0.5, 11).tallies
+    found = _run(motion, 0.5, 11).statistics
     for at, tally in enumerate(found):
         corners = motion.kink_positions(0, 0.5).turns
         beside = np.concatenate([corners - 1e-11, corners + 1e-11])

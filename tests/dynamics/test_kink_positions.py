@@ -46,7 +46,7 @@ def dense_passages(S: np.ndarray, transmission: TransmissionFunction) -> int:
 def driver_angle(motion: Motion, transmission: TransmissionFunction, link: str, turns: np.ndarray) -> np.ndarray:
     """Of a driver on the frame: mean motion and error; a tooth of it is on the line of centres at 0."""
     at = list(motion.outputs).index(link)
-    mean = float(motion.train.ratio(link))
+    mean = float(motion._problem.ratio(link))
     return np.sign(mean or 1) * (2 * pi * mean * turns + motion.at(turns).error[at])
 
 
@@ -88,7 +88,7 @@ def test_speeds_jump_at_kinks_alone(name: str) -> None:
 
 def test_a_driver_that_rocks_passes_its_kinks_both_ways() -> None:
     motion = load(ROCKING).motion()
-    transmission = next(source.transmission for source in motion.ahead.used if source.id == "x~y")
+    transmission = next(source.transmission for source in motion._forward.used if source.id == "x~y")
     found = of(motion.kink_positions(0, 1.5), "x~y")
     dense = driver_angle(motion, transmission, "out", np.linspace(0, 1.5, 200_001))
     assert len(found) == dense_passages(dense, transmission) > 150

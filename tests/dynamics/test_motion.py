@@ -25,7 +25,8 @@ from geartrain.teeth import Ideal, PinToSlotTransmission
 def test_along_an_ordinary_train_transmissions_are_composed_one_in_the_other() -> None:
     train = load("moon-triangular")
     motion = train.motion(outputs=["sun", "c", "d", "moon"])
-    angle, ripples = motion.ripples(3.0, 5001)
+    ripples = motion.transmission_errors(3.0, 5001)
+    angle = next(iter(ripples.values())).angle
     transmissions = [mesh.transmission for mesh in train.meshes]
     S, rate = angle, np.ones_like(angle)
     for name, transmission in zip(ripples, transmissions, strict=True):
@@ -69,7 +70,7 @@ def test_the_moon_runs_as_in_the_table(
             phases.append(S / mesh.transmission.period)
             S = float(mesh.transmission.angle(S))
         train = load(LAGGING % tuple(phases[1:]))
-    _, found = train.motion(outputs=["moon"]).ripples(turns, samples)
+    found = train.motion(outputs=["moon"]).transmission_errors(turns, samples)
     ripple = found["moon"]
     assert degrees(ripple.peak_to_peak) == pytest.approx(peak, rel=2e-3)
     assert degrees(ripple.rms) == pytest.approx(rms, rel=1e-3)
@@ -83,20 +84,21 @@ def test_the_error_repeats_after_the_common_period_and_speeds_keep_their_mean() 
     assert motion.period == 95
     error, later = (motion.at(np.array([0.0, 1.0, 7.3]) + shift).error for shift in (0, 95))
     assert np.allclose(error, later, atol=1e-12)
-    _, found = motion.ripples(95, 200_001)
+    found = motion.transmission_errors(95, 200_001)
     ripple = found["moon"]
     assert float(np.mean(ripple.speed[:-1])) == pytest.approx(ripple.mean, rel=1e-4)
 
 
 def test_speed_is_the_derivative_of_the_angle() -> None:
-    angle, found = load("freeth-2021").motion(outputs=["mars", "moon", "venus"]).ripples(2.0, 200_001)
+    found = load("freeth-2021").motion(outputs=["mars", "moon", "venus"]).transmission_errors(2.0, 200_001)
+    angle = next(iter(found.values())).angle
     for ripple in found.values():
         slope = np.gradient(ripple.mean * angle + ripple.error, angle)
         assert np.allclose(slope[1:-1], ripple.speed[1:-1], atol=1e-6 * np.abs(ripple.speed).max())
 
 
 def test_the_lunar_pointer_has_the_anomaly_of_its_pin() -> None:
-    _, found = load("freeth-2008").motion(outputs=["moon"]).ripples(40.0, 200_001)
+    found = load("freeth-2008").motion(outputs=["moon"]).transmission_errors(40.0, 200_001)
     assert found["moon"].peak_to_peak / 2 == pytest.approx(asin(1.1 / 9.6), rel=1e-6)
 
 
@@ -106,9 +108,9 @@ def test_the_lunar_pointer_has_the_anomaly_of_its_pin() -> None:
 def test_the_superior_planets_go_back(planet: str, minimum: float, most: float) -> None:
     train = load("freeth-2021")
     motion = train.motion(outputs=[planet])
-    _, found = motion.ripples(100.0, 200_001)
+    found = motion.transmission_errors(100.0, 200_001)
     ripple = found[planet]
-    lead = float(train.solve()[motion.train.driving_link])
+    lead = float(train.solve()[motion._problem.driving_link])
     speeds = ripple.speed * lead * np.sign(ripple.mean * lead)
     assert speeds.min() == pytest.approx(minimum, abs=6e-4)
     assert speeds.max() == pytest.approx(most, abs=6e-4)
@@ -137,7 +139,8 @@ outputs: {right: {}}
 def test_a_differential_is_the_solution_of_its_two_transmissions() -> None:
     train = load(DIFFERENTIAL)
     motion = train.motion()
-    angle, found = motion.ripples(0.5, 101)
+    found = motion.transmission_errors(0.5, 101)
+    angle = next(iter(found.values())).angle
     ripple = found["right"]
     first, second = (mesh.transmission for mesh in train.meshes)
     for at in (0, 13, 50, 99):
@@ -186,8 +189,9 @@ def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_trans
     """The arm is turned by the wheel that its own planet turns."""
     train = load(SHUNT)
     motion = train.motion()
-    assert [len(step.sources) for step in motion.ahead.steps if step.coupled] == [4]
-    angle, found = motion.ripples(0.3, 61)
+    assert [len(step.sources) for step in motion._forward.steps if step.coupled] == [4]
+    found = motion.transmission_errors(0.3, 61)
+    angle = next(iter(found.values())).angle
     transmissions = {mesh.name: mesh.transmission for mesh in train.meshes}
     pairs = (("l~p", "left", "planet", "arm"), ("q~r", "planet", "right", "arm"))
     pairs += (("v~w", "right", "lay", None), ("u~y", "lay", "arm", None))
@@ -209,9 +213,9 @@ def test_teeth_that_close_a_redundant_loop_are_named() -> None:
     # along a path that spans the loop it moves: around the other way without either pair next to d
     train = load(text)
     one, other = (train.motion(outputs=["d"], without=[pair]) for pair in ("c40~d50", "d50~a20"))
-    ids = [[source.id for source in motion.ahead.sources] for motion in (one, other)]
+    ids = [[source.id for source in motion._forward.sources] for motion in (one, other)]
     assert ids == [["d50~a20"], ["a20~b30", "b30~c40", "c40~d50"]]
-    first, second = (motion.ripples(3.0, 2001)[1]["d"] for motion in (one, other))
+    first, second = (motion.transmission_errors(3.0, 2001)["d"] for motion in (one, other))
     assert first.ratio == second.ratio
     assert np.abs(np.ptp(first.error - second.error)) > 1e-3
     with pytest.raises(GearTrainError, match="did you mean 'c40~d50'"):
@@ -219,7 +223,7 @@ def test_teeth_that_close_a_redundant_loop_are_named() -> None:
 
 
 def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
-    _, found = load("pennestri-2002").motion(outputs=["moon"]).ripples(1.0, 11)
+    found = load("pennestri-2002").motion(outputs=["moon"]).transmission_errors(1.0, 11)
     assert found["moon"].peak_to_peak == 0
     assert (found["moon"].speed == found["moon"].mean).all()
 
@@ -228,7 +232,7 @@ def test_a_pin_alone_moves_its_slot_by_its_transmission() -> None:
     train = load("freeth-2008")
     (joint,) = train.mechanics.pins
     assert isinstance(joint.transmission, PinToSlotTransmission)
-    source = train.motion(outputs=["moon"]).ahead.sources
+    source = train.motion(outputs=["moon"])._forward.sources
     assert [each.id for each in source] == [joint.coupling.name]
 
 
@@ -269,8 +273,8 @@ def test_a_phase_is_that_of_the_first_wheel_whoever_drives() -> None:
     plain = load(PAIR).motion()
     declared = PAIR.replace("{pair: [p, w]}", "{pair: [p, w], phase: 1/4}").replace("[u, v]", "[u, v], phase: 0.3")
     shifted = load(declared).motion()
-    transmission = {source.id: source.transmission for source in plain.ahead.sources}
-    first, second = shifted.ahead.sources
+    transmission = {source.id: source.transmission for source in plain._forward.sources}
+    first, second = shifted._forward.sources
     assert first.phase == pytest.approx(2 * pi / 24 / 4, rel=1e-15)
     # the first wheel of the second pair is driven: its own tooth is 0.3 of a pitch past the line of centres
     assert float(transmission["u~v"].angle(second.phase)) == pytest.approx(0.3 * 2 * pi / 30, rel=1e-11)
@@ -291,22 +295,24 @@ def test_a_starting_angle_turns_the_teeth_with_the_link() -> None:
 def test_random_phases_are_those_of_their_seed_and_leave_declared_ones() -> None:
     train = load(PAIR.replace("{pair: [p, w]}", "{pair: [p, w], phase: 1/4}")).motion()
     starts = [
-        [source.phase for source in train.at_random(np.random.default_rng(seed)).ahead.sources] for seed in (1, 1, 2)
+        [source.phase for source in train.with_random_phases(np.random.default_rng(seed))._forward.sources]
+        for seed in (1, 1, 2)
     ]
     assert starts[0] == starts[1] != starts[2]
-    assert {each[0] for each in starts} == {train.ahead.sources[0].phase}
+    assert {each[0] for each in starts} == {train._forward.sources[0].phase}
 
 
 def test_turned_back_the_other_flanks_drive_and_all_backlash_is_taken_up() -> None:
     motion = load(PAIR).motion()
-    _, ahead = motion.ripples(1.0, 4001)
-    angle, back = motion.ripples(-1.0, 4001)
+    ahead = motion.transmission_errors(1.0, 4001)
+    back = motion.transmission_errors(-1.0, 4001)
+    angle = next(iter(back.values())).angle
     assert angle[-1] == pytest.approx(-2 * pi)
     # the mirror image: the same range, and the teeth apart by the play
     assert back["b"].peak_to_peak == pytest.approx(ahead["b"].peak_to_peak, rel=1e-5)
     (mesh, _) = load(PAIR).meshes
-    first = [motion.ahead.at(-angle).error[0] for angle in (np.linspace(0, 1 / 24, 50),)]
-    behind = motion.back.at(-np.linspace(0, 1 / 24, 50)).error[0]
+    first = [motion._forward.at(-angle).error[0] for angle in (np.linspace(0, 1 / 24, 50),)]
+    behind = motion._backward.at(-np.linspace(0, 1 / 24, 50)).error[0]
     backlash = -(behind - first[0])  # b turns against a
     assert (backlash > 0).all()
     assert backlash.min() == pytest.approx(mesh.verdict.backlash, rel=0.05)
@@ -314,16 +320,16 @@ def test_turned_back_the_other_flanks_drive_and_all_backlash_is_taken_up() -> No
 
 def test_power_decides_who_drives_where_a_load_is_declared() -> None:
     loaded = PAIR.replace("inputs: {a: 1}", "inputs: {a: 1}\nloads: {a: -2 N m}\nsolve_for: c")
-    drivers = load(loaded).motion().train.drivers
+    drivers = load(loaded).motion()._problem.drivers
     assert (drivers["p~w"].wheel, drivers["u~v"].wheel) == ("w", "u")
     assert "power" in drivers["p~w"].why
-    ideal = load(PAIR).motion().train.drivers
+    ideal = load(PAIR).motion()._problem.drivers
     assert (ideal["p~w"].wheel, ideal["p~w"].why) == ("p", "power flows so from a to b and c")
     page = call("motion", "moon-triangular", "--turns", 1, "--samples", 101).stdout
     assert "power flows so from crank to moon" in page
     # driven from the far end, the wheel near the input still follows the law of the other
     backwards = load(loaded).motion()
-    (source,) = (source for source in backwards.ahead.sources if source.id == "p~w")
+    (source,) = (source for source in backwards._forward.sources if source.id == "p~w")
     passage = backwards.at(np.linspace(0, 1, 201))
     b = -24 / 36 * 2 * pi * passage.turns + passage.error[0]
     # the first wheel is driven here: a tooth of it, not of its driver, is on the line of centres at the start
@@ -340,7 +346,7 @@ def test_the_mean_angle_keeps_its_phase_over_a_million_million_turns() -> None:
 
 def test_estimates_and_spectrum_are_those_of_the_table_and_of_a_fourier_sum() -> None:
     run = MotionRun(load("moon-triangular").motion(outputs=["moon"]), 95.0, 380_001)
-    run.estimate()
+    run.find_estimates()
     found = run.estimates["moon"].to_dict()
     assert degrees(found["bound"]["peak_to_peak"]) == pytest.approx(6.46, abs=5e-3)
     assert degrees(found["independent"]["rms"]) == pytest.approx(1.2385, abs=5e-5)
@@ -348,7 +354,7 @@ def test_estimates_and_spectrum_are_those_of_the_table_and_of_a_fourier_sum() ->
     for how, maximum, rms in (("superposed", 0.9538, 0.19181), ("superposed_with_lag", 0.7162, 0.11933)):
         assert degrees(found[how]["difference"]["maximum"]) == pytest.approx(maximum, abs=1e-4)
         assert degrees(found[how]["difference"]["rms"]) == pytest.approx(rms, abs=1e-5)
-    run.analyse()
+    run.find_spectra()
     lines = run.spectra["moon"]
     assert lines[0].order == Fraction(1536, 95)  # 24-wheel: 64/38 turns of the 225-wheel's 1/5, times 48 teeth
     assert [pair for pair, _, _ in lines[1].shares] == ["b2~c1"]
@@ -365,24 +371,24 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
     train = load(name)
     state = train.states[0] if train.states else None
     motion = train.motion(state)
-    speeds = {link: motion.train.ratio(link) for link in train.declaration.links}
+    speeds = {link: motion._problem.ratio(link) for link in train.declaration.links}
     step = Fraction(1, 10**12)
     checked = 0
     for at, circuit in enumerate(train.circuits):
-        if circuit.kind != "gear" or circuit.id not in motion.spread.pairs:
+        if circuit.kind != "gear" or circuit.id not in motion._propagation.pairs:
             continue
-        driven = int(motion.train.drivers[circuit.id].wheel == circuit.wheels[0])
+        driven = int(motion._problem.drivers[circuit.id].wheel == circuit.wheels[0])
         a, b = (10**12 * count + (side == driven) * count for side, count in enumerate((circuit.a, circuit.b)))
         circuits = [*train.circuits[:at], circuit._replace(a=a, b=b), *train.circuits[at + 1 :]]
         case = train.declaration.case(state)
-        lead = case.inputs[motion.train.driving_link]
+        lead = case.inputs[motion._problem.driving_link]
         changed = solve(
             replace(train.kinematics.whole, circuits=circuits),
             case,
             train.kinematics.signs,
         )
         link = (circuit.i, circuit.j)[driven]
-        relative = motion.train.relative(link, circuit.carrier)
+        relative = motion._problem.relative(link, circuit.carrier)
         for output, (of, base) in motion.outputs.items():
             found = (changed.speeds[of] - changed.speeds[base]) / lead - (speeds[of] - speeds[base])
             expected = -motion.sensitivity[output][circuit.id] * float(relative * step)
@@ -414,7 +420,7 @@ def test_an_axis_may_point_down_where_an_output_is_seen_from_another_link(tmp_pa
         train = load(path)
         speeds = train.solve()
         motion = train.motion()
-        assert [tally.ratio for tally in motion.tallies()] == [speeds[name] for name in motion.outputs]
+        assert [tally.ratio for tally in motion._statistics()] == [speeds[name] for name in motion.outputs]
         runs[sense] = motion, speeds
     (up, speeds), (down, turned) = runs[1], runs[-1]
     assert [speeds["seen"], speeds["back"]] == [Fraction(-4, 3), Fraction(4, 3)]
@@ -433,7 +439,7 @@ def test_an_axis_may_point_down_where_an_output_is_seen_from_another_link(tmp_pa
 def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out, partial = tmp_path / "run.csv", tmp_path / "run.partial.csv"
     arguments = ("motion", "moon-triangular", "--turns", 3, "--samples", 100_001, "--output", "moon", "-o", out)
-    composition = type(load("moon-triangular").motion(outputs=["moon"]).ahead)
+    composition = type(load("moon-triangular").motion(outputs=["moon"])._forward)
     whole = composition.at
     calls = []
 
@@ -566,8 +572,8 @@ outputs: {k: {}, out: {}, last: {}}
 @pytest.mark.parametrize("turns", [2.0, -2.0])
 def test_a_slot_points_to_its_pin_whichever_way_the_pin_goes(kind: str, radius: float, turns: float) -> None:
     motion = load(REVERSED_PIN.replace("KIND", kind).replace("RADIUS", str(radius))).motion()
-    passage = next(motion.passages(turns, 1001))
-    ratios = [float(tally.ratio) for tally in motion.tallies()]
+    passage = next(motion._stretches(turns, 1001))
+    ratios = [float(tally.ratio) for tally in motion._statistics()]
     k, out, _ = (2 * pi * ratio * passage.turns + e for ratio, e in zip(ratios, passage.error, strict=True))
     # the slot's axis is 5 mm from the pin's, in the direction from which the pin's angle counts
     to_pin = radius * np.exp(1j * k) - 5
@@ -582,11 +588,11 @@ def test_a_slot_points_to_its_pin_whichever_way_the_pin_goes(kind: str, radius: 
 def test_what_a_run_tells_is_of_that_run_alone() -> None:
     motion = load(REVERSED_PIN.replace("KIND", "pin_follower").replace("RADIUS", "4")).motion()
     whole = MotionRun(motion, turns=1.0, samples=1001)
-    whole.go()
+    whole.run()
     assert whole.reversing_drivers == {"x~y"}
     # the slot has not begun to rock back yet where this run ends
     short = MotionRun(motion, turns=0.1, samples=101)
-    short.go()
+    short.run()
     assert short.reversing_drivers == set()
 
 
@@ -599,7 +605,7 @@ def test_every_transmission_holds_at_the_angle_where_its_driver_stands(name: str
     passage = motion.at(turns)
     angle = dict(zip(links, passage.error, strict=True))
     for link in links:
-        angle[link] = angle[link] + 2 * pi * float(motion.train.ratio(link)) * turns
+        angle[link] = angle[link] + 2 * pi * float(motion._problem.ratio(link)) * turns
     meshes = {mesh.name: mesh for mesh in train.meshes}
     for circuit in train.circuits:
         i, j, k = (
@@ -729,8 +735,8 @@ def test_extremes_are_found_between_the_positions() -> None:
     """Twenty turns in 200,000 positions miss the peaks of the teeth; the search between them does not."""
     motion = load("moon-triangular").motion(outputs=["moon"])
     run = MotionRun(motion, 20.0, 200_001)
-    run.go()
-    (tally,) = run.tallies
+    run.run()
+    (tally,) = run.statistics
     assert degrees(tally.peak_to_peak) == pytest.approx(5.980, abs=5e-4)
     minimum, most = tally.speeds
     assert (minimum, most) == (pytest.approx(0.6365, abs=5e-4), pytest.approx(1.768, abs=5e-4))
@@ -740,8 +746,8 @@ def test_extremes_are_found_between_the_positions() -> None:
     assert tally.most <= fine.max() + 2e-5
     # nothing beyond the ends of the run is counted
     short = MotionRun(motion, 0.05, 51)
-    short.go()
+    short.run()
     kinks = motion.kink_positions(0, 0.05).turns
     inside = motion.at(np.concatenate([np.linspace(0, 0.05, 200_001), kinks])).error[0]
-    assert short.tallies[0].most <= inside.max() + 1e-9
-    assert short.tallies[0].minimum >= inside.min() - 1e-9
+    assert short.statistics[0].most <= inside.max() + 1e-9
+    assert short.statistics[0].minimum >= inside.min() - 1e-9

@@ -68,7 +68,8 @@ TRAINS = {
 @cache
 def composed(name: str, turned: float, samples: int) -> np.ndarray:
     """Angles of all links by composition, (positions, links), the frame last."""
-    angle, found = load(declared(TRAINS[name])).motion().ripples(turned / (2 * pi), samples)
+    found = load(declared(TRAINS[name])).motion().transmission_errors(turned / (2 * pi), samples)
+    angle = next(iter(found.values())).angle
     columns = [found[link].mean * angle + found[link].error for link in TRAINS[name].bases]
     return np.stack([*columns, np.zeros_like(angle)], axis=1)
 
@@ -87,7 +88,7 @@ def order(errors: list[float], steps: list[int]) -> float:
 
 @pytest.mark.parametrize("name", TRAINS)
 def test_all_pairs_touch_at_the_start_where_the_composition_has_them(name: str) -> None:
-    setting = load(declared(TRAINS[name])).motion().setting
+    setting = load(declared(TRAINS[name])).motion().pointer_offsets
     hung = np.array([-setting[link] for link in TRAINS[name].bases])
     assert np.abs(TRAINS[name].lag[:-1] - hung).max() < 2e-14
     assert np.abs(hung).max() > 1e-3
@@ -135,4 +136,4 @@ def test_where_small_steps_jam_there_is_no_composition() -> None:
     with pytest.raises(JammedError):
         list(march(train, QUARTER, 4000, "midpoint"))
     with pytest.raises(GearTrainError, match="depend on each other"):
-        load(declared(train)).motion().ripples(0.25, 101)
+        load(declared(train)).motion().transmission_errors(0.25, 101)

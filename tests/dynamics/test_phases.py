@@ -73,8 +73,8 @@ def test_the_ripple_of_a_train_is_that_of_its_phases(phases: tuple[float, float]
     motion = chain(phases).motion(outputs=["c"])
     assert motion.period == Fraction(31, 20)
     run = MotionRun(motion, 31 / 20, 2001)
-    run.go()
-    assert degrees(run.tallies[0].peak_to_peak) == pytest.approx(degrees(np.ptp(expected)), rel=2e-3)
+    run.run()
+    assert degrees(run.statistics[0].peak_to_peak) == pytest.approx(degrees(np.ptp(expected)), rel=2e-3)
 
 
 @pytest.mark.parametrize("phases", PHASES)

@@ -162,7 +162,7 @@ def test_motion_makes_the_teeth_that_its_outputs_depend_on(
 
     monkeypatch.setattr(Triangular, "mesh", counted)
     for way in (1.0, -1.0):
-        next(load(name).motion(outputs=[output]).passages(way, 3))
+        next(load(name).motion(outputs=[output])._stretches(way, 3))
         assert len(made) == pairs
         made.clear()
 

@@ -191,7 +191,7 @@ def test_a_loop_says_what_it_needs() -> None:
 
 
 def test_an_output_that_is_not_there_or_not_determined_is_refused_in_words() -> None:
-    with pytest.raises(GearTrainError, match="no output 'carier'"):
+    with pytest.raises(GearTrainError, match="unknown output 'carier'"):
         load("planetary-24-18-60").formula("carier")
     free = declared(PLANETARY + "inputs: {sun: 1}\noutputs: {carrier: {}}\n")
     with pytest.raises(GearTrainError, match="inputs do not determine"):

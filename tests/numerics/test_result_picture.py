@@ -41,7 +41,7 @@ def test_a_motion_draws_the_outputs_that_are_requested_for() -> None:
     figure = motion.plot("moon", turns=0.25, samples=101)
     own = drawing.motion_figure(MotionRun(motion, 0.25, 101))
     assert figure._repr_svg_() == own._repr_svg_()
-    with pytest.raises(QuestionError, match="there is no output 'mars'"):
+    with pytest.raises(QuestionError, match="unknown output 'mars'"):
         motion.plot("mars")
 
 

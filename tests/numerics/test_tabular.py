@@ -43,9 +43,19 @@ def test_frames_and_records_hold_the_columns(name: str) -> None:
 
 
 @pytest.mark.needs("pandas")
+@pytest.mark.parametrize("name", ["answer", "torques", "gearbox", "variants", "cycle", "search", "strength", "array"])
+def test_each_column_has_a_meaning_and_its_unit(name: str) -> None:
+    frame = tables()[name].to_frame()
+    assert [*frame.attrs["meanings"]] == [*frame.columns]
+    assert all(frame.attrs["meanings"].values())
+    units = frame.attrs["units"]
+    assert all(f"[{unit}]" in frame.attrs["meanings"][column] for column, unit in units.items())
+
+
+@pytest.mark.needs("pandas")
 def test_columns_that_are_fields_say_what_they_mean() -> None:
     assert tables()["cycle"].to_frame().attrs["meanings"]["turns"].startswith("Positions of the input")
-    assert '<th title="How many elements must be closed' in tables()["search"]._repr_html_()
+    assert '<th title="Tooth count of the wheel.">' in tables()["variants"]._repr_html_()
 
 
 @pytest.mark.needs("pandas")
@@ -111,7 +121,7 @@ def test_a_run_of_a_motion_has_a_row_an_output() -> None:
 
     run = MotionRun(geartrain.load("moon-triangular").motion(outputs=["moon"]), turns=1, samples=2001)
     assert len(run.to_frame()) == 0, "before it is counted"
-    run.go()
+    run.run()
     (row,) = run.to_records()
     assert row["exact"] == "254/95"
     assert row["error p-p (rad)"] == pytest.approx(0.103, abs=5e-4)

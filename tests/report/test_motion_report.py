@@ -12,7 +12,7 @@ TRAIN = "pennestri-2002-teeth"
 
 def pairs(*outputs: str, every_output: bool) -> Section:
     run = MotionRun(shipped.train(TRAIN).motion(outputs=list(outputs)), turns=1.0, samples=11)
-    run.go()
+    run.run()
     page = describe_motion(collect_motion(run, TRAIN, None), every_output)
     (section,) = (each for each in page.sections if each.title == "Pairs")
     return section

@@ -54,7 +54,7 @@ def test_what_all_share_is_told_in_sentences() -> None:
     (section,) = shared_sections(agreed)
     assert list(section.paragraphs) == [
         "In all of them: b2 > l1, l2 > m1.",
-        "A wheel of 53 is needed in all.",
+        "All of them need a wheel of 53.",
         "Besides: e3 has 223 teeth; f1 is not used; the pointer of sun is on g.",
     ]
 
@@ -66,7 +66,7 @@ def test_where_they_part_each_answer_has_its_share() -> None:
         marginal("needed", "53", ("no", Fraction(3, 4), 2), ("yes", Fraction(1, 4), 1)),
     ]
     nothing, section = shared_sections(parted)
-    assert "no fact in which all of them agree" in nothing.paragraphs[0]
+    assert "the trains agree in no fact" in nothing.paragraphs[0]
     meshes, answers, needed = section.tables
     assert list(meshes.rows) == [("e4 > f1", "50 %", "1")]
     assert list(answers.rows) == [
@@ -104,7 +104,7 @@ def test_assumptions_stand_beside_what_is_given() -> None:
     changes = [ChangedCount("without the sense of sun", (0, 5)), ChangedCount("if idle", (), False, "not asked yet")]
     (section,) = assumptions_section([0, 2], changes)
     assert list(section.tables[0].rows) == [
-        ("all that is given", "0", "2", "2"),
+        ("all facts", "0", "2", "2"),
         ("without the sense of sun", "0", "5", "5"),
         ("if idle", "-", "-", "not asked yet"),
     ]
@@ -122,9 +122,9 @@ def test_why_nothing_fits() -> None:
     ]
     assert list(cheapest.tables[0].rows) == [("if a1 has 30 teeth", "1", "2")]
     assert "23 changes" in cheapest.paragraphs[0]
-    assert "Could not be asked: if idle." in cheapest.paragraphs
+    assert "Not searched: if idle." in cheapest.paragraphs
     _, none = missing_sections(MissingExplanation(dials, (), 1, ()), 2)
-    assert "None of them alone leaves an explanation." in none.paragraphs
+    assert "No single change leaves an explanation." in none.paragraphs
     assert list(missing_sections(None, 2)) == []
 
 

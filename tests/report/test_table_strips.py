@@ -1,12 +1,15 @@
-"""Tables within a width: every cell once, no word broken, no line too long."""
+"""Tables of results, and tables within a width: every cell once, no word broken, no line too long."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain.report import Document, Section, Table, to_text
-from geartrain.report.document import column_widths, gap_of, strips
+from geartrain.report.document import column_widths, gap_of, result_table, strips
 
 WORD = st.text("abcdef0123/", min_size=1, max_size=12)
 CELL = st.lists(WORD, max_size=5).map(" ".join)
@@ -59,3 +62,23 @@ def test_what_fits_is_left_whole_and_as_wide_as_it_is() -> None:
 def test_a_column_that_wants_little_gets_it_before_one_that_wants_much() -> None:
     table = Table(("of", "as read"), [("moon seen from b", "clockwise, a turn in 0.0748, a division in 0.0002077865")])
     assert column_widths(table, 50) == [16, 32]
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """A result as tables show it."""
+
+    name: str
+    side_load: float | None
+    """Across the shaft [N]."""
+    turns: int = 3
+    """Not a number with digits."""
+
+
+def test_a_table_of_results_takes_its_heads_from_fields_and_their_units() -> None:
+    found = (Bearing("a", 12.3456), Bearing("b", None))
+    table = result_table(found, "name", "side_load:3", "turns of it=turns", ("twice", lambda each: each.name * 2))
+    assert list(table.header) == ["name", "side load (N)", "turns of it", "twice"]
+    assert list(table.rows) == [("a", "12.3", "3", "aa"), ("b", "-", "3", "bb")]
+    with pytest.raises(AttributeError):
+        result_table(found, "sideload")

@@ -116,13 +116,15 @@ def compared(train: GearTrain, back: bool = False) -> float:
     way = -1 if Fraction(scene["step"]) < 0 else 1
     reader = Reader(scene, back)
     motion, worst = train.motion(), 0.0
-    runs = [motion.passages(stretch, 6, first=1) for stretch in (-0.8125, -1234.5)] if back else [[motion.at(TURNS)]]
+    runs = [motion._stretches(stretch, 6, first=1) for stretch in (-0.8125, -1234.5)] if back else [[motion.at(TURNS)]]
     for passage in chain.from_iterable(runs):
         for column, t in enumerate(passage.turns):
             angles = reader.angles(way * float(t))
-            for row, (pointer, tally) in enumerate(zip(scene["pointers"], motion.tallies(), strict=True)):
+            for row, (pointer, tally) in enumerate(zip(scene["pointers"], motion._statistics(), strict=True)):
                 mean = tally.ratio * Fraction(float(t))
-                wanted = motion.starts[row] + 2 * pi * float(mean - floor(mean)) + float(passage.error[row, column])
+                wanted = (
+                    motion._start_angles[row] + 2 * pi * float(mean - floor(mean)) + float(passage.error[row, column])
+                )
                 worst = max(worst, off(pointer_angle(scene, angles, pointer), way * wanted))
     return worst
 

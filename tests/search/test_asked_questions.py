@@ -39,9 +39,10 @@ def test_what_is_requested_is_counted() -> None:
     """2 x 5 x 19 x 13 x 2 x 3 readings."""
     assert RequestedQuestion.of(doubtful()) == RequestedQuestion(6, 10, 14820, 2, 2, (12, 225))
     assert str(RequestedQuestion.of(doubtful())) == (
-        "6 arbors with 10 wheels, their counts in 14820 ways; 2 dials; at most 2 added wheels of 12 to 225 teeth"
+        "6 arbors with 10 wheels and 14820 combinations of their counts; 2 dials; "
+        "at most 2 added wheels of 12 to 225 teeth"
     )
-    assert str(RequestedQuestion(1, 1, 1, 1, 0, (1, 1))) == "1 arbor with 1 wheel; 1 dial; nothing added"
+    assert str(RequestedQuestion(1, 1, 1, 1, 0, (1, 1))) == "1 arbor with 1 wheel; 1 dial; no added wheels"
 
 
 def test_paths_are_those_found_by_hand() -> None:
@@ -83,7 +84,7 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
         expect_cost(replace(TOY, additions=Additions(1000, 10, 45), idlers=idlers))
     (problem,) = caught.value.problems
     assert "up to 1000 added wheels of 10 to 45 teeth have 1e1556 choices" in problem.what
-    assert "at most 25 with -k" in problem.fix
+    assert "at most 25 wheels: `-k 25`" in problem.fix
 
 
 def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -98,14 +99,14 @@ def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatc
         expect_cost(replace(TOY, additions=Additions(17, 10, 45)))
     (problem,) = caught.value.problems
     assert "about 1e9 years" in problem.what
-    assert "each one more 10 times as long" in problem.why
-    assert "at most 9 with -k" in problem.fix  # 6.4e8 s; 6.4e9 s are two hundred years
+    assert "each further wheel takes 10 times as long" in problem.why
+    assert "at most 9 wheels, with -k" in problem.fix  # 6.4e8 s; 6.4e9 s are two hundred years
 
 
 def test_the_command_says_the_size_first_and_refuses_the_absurd() -> None:
     done = ended("reconstruct", "moon-c-e", "-k", "1000", "--count")
     assert done.returncode == 2
-    assert "asked: 3 arbors with 4 wheels; 1 dial; at most 1000 added wheels" in done.stderr
+    assert "question: 3 arbors with 4 wheels; 1 dial; at most 1000 added wheels" in done.stderr
     assert "1e2330 choices" in done.stderr
 
 
@@ -124,7 +125,7 @@ def test_what_is_too_wide_is_refused_with_what_is_requested(monkeypatch: pytest.
     with pytest.raises(GearTrainError) as caught:
         find_reconstructions(doubtful())
     (problem,) = caught.value.problems
-    assert problem.what == "more than 1000 paths to 'metonic' would have to be looked at"
-    assert problem.why == f"asked are {RequestedQuestion.of(doubtful())}"
+    assert problem.what == "more than 1000 paths to 'metonic' would have to be examined"
+    assert problem.why == f"the question has {RequestedQuestion.of(doubtful())}"
     for way in ("`-k 1`", "e3 has 19, e4 has 13, m1 has 5", "leave out arbors"):
         assert way in problem.fix

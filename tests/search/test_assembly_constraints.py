@@ -155,7 +155,7 @@ def test_shipped_trains_keep_the_rules_that_hold_without_being_requested_for(nam
 def test_two_wheels_of_one_axis_on_one_mate_cannot_differ() -> None:
     wheels = {"a": ("A1", 24), "b": ("A2", 30), "c": ("B", 40)}
     data = ordinary(wheels, [("a", "c"), ("b", "c")])
-    with pytest.raises(QuestionError, match="never have one centre distance"):
+    with pytest.raises(QuestionError, match="cannot have equal centre distances"):
         rules_of(data, ["c"], coaxial=True)
     assert rules_of(data, ["c"]) == ()
     (rule,) = rules_of(data, ["a", "c"], coaxial=True)
@@ -376,7 +376,7 @@ def test_planets_declared_one_by_one_are_equal_and_counted_once() -> None:
     assert sum("gcd" in rule.name for rule in rules) == 1
     some = rules_of(data, ["p", "q-1"], planets=3, coaxial=False)
     assert {rule.name for rule in equations(some)} >= {"equal planets: p = 15", "equal planets: q-1 = 12"}
-    with pytest.raises(QuestionError, match="3 sets are declared"):
+    with pytest.raises(QuestionError, match="3 equal sets are declared"):
         rules_of(data, planets=4)
 
 
@@ -391,7 +391,7 @@ def test_planets_are_requested_for_by_carrier_and_unknown_carriers_are_refused()
         rules_of(train, planets={"S12": 3})
     with pytest.raises(QuestionError, match="no link carries planets"):
         rules_of(reverted([None] * 4), planets=3)
-    with pytest.raises(QuestionError, match="one planet or more"):
+    with pytest.raises(QuestionError, match="at least one planet"):
         rules_of(epicyclic(*SIMPLE), planets=0)
 
 
@@ -529,5 +529,5 @@ def test_what_cannot_be_read_is_refused_with_advice(texts: dict[str, str]) -> No
 
 @pytest.mark.parametrize("angle", ["0 deg", "90 deg", "-20 deg"])
 def test_a_pressure_angle_is_between_nothing_and_a_right_angle(angle: str) -> None:
-    with pytest.raises(QuestionError, match="no pressure angle"):
+    with pytest.raises(QuestionError, match="not a pressure angle"):
         rules_of(epicyclic(*SIMPLE), undercut=Quantity.parse(angle, "angle", False))

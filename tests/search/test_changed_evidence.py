@@ -71,7 +71,7 @@ def test_all_that_distances_keep_apart_is_one_fact() -> None:
     geometry = SurvivingGeometry(wheels, arbors, reach=Fraction(1))
     apart = frozenset(map(frozenset, (("i", "a1"), ("i", "a2"))))
     found = without_each_fact(replace(TOY, apart=apart, geometry=geometry))
-    assert found[0].change == "if the distances of axes keep no wheels apart"
+    assert found[0].change == "if the distances of axes exclude no meshes"
     assert not found[0].problem.apart
     assert found[0].problem.geometry.reach is None
     assert "apart" not in found[1].change
@@ -98,7 +98,7 @@ def test_what_each_fact_of_the_back_train_carries() -> None:
     """The counts of independent programs: 29 without the senses."""
     problem = evidence_question(read_evidence("back-train")).problem
     found = {one.change: one.mechanisms for one in changed_counts(without_each_fact(problem))}
-    assert found["without any sense"] == (0, 0, 29)
+    assert found["without the sense of any dial"] == (0, 0, 29)
     assert found["without the fact that the arbor of metonic is lost"] == (0, 0, 4)
 
 

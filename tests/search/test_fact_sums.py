@@ -112,5 +112,5 @@ def test_facts_are_told_of_all_trains_unless_they_are_too_many(
     assert {one.trains for one in findings.marginals} == {told}
     assert (findings.listed, len(findings.family)) == (1, 1)
     report = ReconstructionAnswer("back", problem, found.counts, True, (), (), findings=findings)
-    said = "are told of all." if told == 4 else "shares are of theirs."
+    said = "computed over all trains." if told == 4 else "Shares are relative to them."
     assert sum(line.endswith(said) for line in describe_reconstruction(report).summary) == 1

@@ -112,30 +112,30 @@ def test_the_moon_has_as_many_trains_behind_the_pin_as_before_it() -> None:
 
 AXES = "axes: {B: {position: [0 mm, 1 mm, 0 mm]}}\n"
 REFUSED = {
-    "frame": (COUPLED.replace("[m, k]", "[m, frame]"), ["would hold an arbor still"]),
+    "frame": (COUPLED.replace("[m, k]", "[m, frame]"), ["would lock an arbor"]),
     "the carrier": (
         COUPLED.replace("[m, k]", "[m, c]").replace("  k: {}", "  c: {}\n  k: {}").replace("{a: 1}", "{a: 1, c: 2}")
         + "  carrier: c\n",
-        ["'m' and 'c' would hold an arbor still"],
+        ["'m' and 'c' would lock an arbor"],
     ),
-    "itself": (COUPLED.replace("[m, k]", "[m, m]"), ["joins what is joined already"]),
-    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "joined already"]),
-    "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["'w~x' was seen", "lock"]),
+    "itself": (COUPLED.replace("[m, k]", "[m, m]"), ["joins arbors that are already joined"]),
+    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "already joined"]),
+    "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["known mesh 'w~x'", "lock"]),
     "follower": (
         COUPLED + "couplings: [{kind: pin_follower, pin: m, slot: n}]\n",
-        ["'m~n' is no pin and slot", "give the speed before it"],
+        ["'m~n' is not a pin and slot", "give the speed of the arbor before it"],
     ),
     "carrier": (
         COUPLED + "revolutes: [{pair: [n, k], axis: K}]\n",
-        ["'k' turns on 'n'", "over a carrier", "before and behind 'n'"],
+        ["'k', which turns on 'n'", "crosses a carrier", "before and behind 'n'"],
     ),
     "axes": (
         COUPLED + "revolutes: [{pair: [frame, n], axis: N}, {pair: [frame, k], axis: N}]\n",
-        ["'m' and 'k' are joined, but lie on different axes", "`apart`"],
+        ["'m' and 'k' are joined, but are on different axes", "`apart`"],
     ),
     "places": (
         COUPLED + f"  geometry: {{}}\n{AXES}revolutes: [{{pair: [frame, m], axis: B}}]\n",
-        ["'m' and 'k' are joined, but lie on different axes"],
+        ["'m' and 'k' are joined, but are on different axes"],
     ),
 }
 

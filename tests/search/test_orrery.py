@@ -117,7 +117,7 @@ def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], lis
         found = set()
         for tree in TreeEnumeration(pair_ratios(counts), requested, extra).trees():
             periods = [arbor.period for arbor in tree]
-            places = tuple(next(at for at, arbor in enumerate(tree) if arbor.aim == aim) for aim in range(len(aims)))
+            places = tuple(next(at for at, arbor in enumerate(tree) if arbor.target == aim) for aim in range(len(aims)))
             found.add(likeness([arbor.parent for arbor in tree[1:]], periods, places))
         assert found == expected
 
@@ -284,7 +284,7 @@ def test_the_published_clock_misses_its_month_alone() -> None:
 
 
 def test_nothing_found_says_what_was_walked() -> None:
-    with pytest.raises(QuestionError, match=r"no orrery found(.|\n)*walked(.|\n)*loosen"):
+    with pytest.raises(QuestionError, match=r"no orrery found(.|\n)*enumerated(.|\n)*loosen"):
         find_orrery({"far": Fraction(10**6)}, [6, 7], Fraction(1, 1000))
 
 

@@ -368,7 +368,7 @@ def test_pairings_are_judged_as_one_by_one(data: st.DataObject, size: int) -> No
 def test_a_sense_that_no_counts_can_give_is_named() -> None:
     found = find_stages(TargetRatio(MONTH, -1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
     assert (found.count, found.complete) == (0, True)
-    assert found.shortfall.removed == {"the other sense of rotation": found.considered}
+    assert found.shortfall.removed == {"opposite sense of rotation": found.considered}
     for word in ("idler", "stage", "internal=1"):
         assert word in found.shortfall.advice
     turned = find_stages(
@@ -409,13 +409,13 @@ def test_a_condition_that_removes_everything_is_charged() -> None:
     removed = found.shortfall.removed
     assert removed is not None
     assert removed["no pairing with coprime counts in every stage"] == 3
-    assert "no counts satisfy the conditions" in found.shortfall.nearest
-    assert "without conditions" in found.shortfall.nearest
+    assert "no counts satisfy the constraints" in found.shortfall.nearest
+    assert "without constraints" in found.shortfall.nearest
 
 
 def test_counts_all_above_the_largest_allowed_are_charged_to_it() -> None:
     found = find_stages(TargetRatio(Fraction(4)), 2, (40, 80), (10, 20), fit=StageConstraints(largest=30))
-    assert found.shortfall.removed == {"a count above 30": 9}
+    assert found.shortfall.removed == {"count above 30": 9}
     assert (found.count, len(found)) == (0, 0)
 
 
@@ -430,9 +430,9 @@ def test_an_order_that_needs_a_tolerance_says_which_was_used() -> None:
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"stages": 6}, "6 stages"),
-        ({"stages": 0}, "0 stages"),
-        ({"best": 0}, "best 0"),
+        ({"stages": 6}, "stages is 6"),
+        ({"stages": 0}, "stages is 0"),
+        ({"best": 0}, "best is 0"),
         ({"by": "beauty"}, "beauty"),
         ({"tolerance": Fraction(-1)}, "tolerance"),
         ({"fit": StageConstraints(internal=3)}, "internal"),
@@ -469,7 +469,7 @@ def test_a_ratio_beyond_all_counts_is_refused_or_missed_by_the_nearest() -> None
 
 def test_a_look_at_too_many_pairs_is_refused_with_a_tolerance_that_will_do() -> None:
     question = (TargetRatio(MONTH), 4, range(12, 212), range(12, 212))
-    with pytest.raises(RangeError, match="narrow the tolerance"):
+    with pytest.raises(RangeError, match="reduce the tolerance"):
         find_stages(*question, tolerance=Fraction(1, 1000), fit=StageConstraints(hunting=True))
 
 

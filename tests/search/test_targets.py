@@ -109,14 +109,14 @@ def test_a_fraction_is_exact_at_any_length(top: int, bottom: int, sign: str) -> 
         ("", "lacks a number"),
         (" - ", "lacks a number"),
         ("235/", "lacks a number"),
-        ("0", "has a zero in it"),
-        ("-0", "has a zero in it"),
-        ("0 months / 19 years", "has a zero in it"),
-        ("235/0", "has a zero in it"),
+        ("0", "contains a zero"),
+        ("-0", "contains a zero"),
+        ("0 months / 19 years", "contains a zero"),
+        ("235/0", "contains a zero"),
         ("5/0 d / 3 d", "divides by zero"),
-        ("--3", "a sign of its own"),
-        ("235/-19", "a sign of its own"),
-        ("1/2/3", "divides more than once"),
+        ("--3", "has a sign"),
+        ("235/-19", "has a sign"),
+        ("1/2/3", "more than one division sign"),
         ("9" * 401, "at most 400 characters"),
         ("9" * 5000, "5000 characters"),
         ("1e9999", "three digits"),
@@ -125,20 +125,20 @@ def test_a_fraction_is_exact_at_any_length(top: int, bottom: int, sign: str) -> 
         ("1e-400", "from 1e-300 to 1e300"),
         ("1e-200/1e200", "from 1e-30 to 1e30"),
         ("1e31", "from 1e-30 to 1e30"),
-        ("1_000", "is no number"),
-        ("%", "is no number"),
+        ("1_000", "is not a number"),
+        ("%", "is not a number"),
         ("year_tropicl_J2000", "did you mean 'year_tropical_J2000'"),
-        ("moon", "is no number"),
-        ("235 months", "half a pair of counts"),
+        ("moon", "is not a number"),
+        ("235 months", "only one count"),
         ("19 years", "'235 months / 19 years'"),
         ("month_synodic_J2000", "'year_tropical_J2000 / month_synodic_J2000'"),
         ("year_tropical_J2000", "'year_tropical_J2000 / month_synodic_J2000'"),
         ("-29.5 d", "'year_tropical_J2000 / 29.5 d'"),
-        ("235 months / 19", "divides unlike things"),
-        ("365 d / 1 lunation", "divides unlike things"),
-        ("year_julian / metonic_months_per_year", "divides unlike things"),
+        ("235 months / 19", "different quantities"),
+        ("365 d / 1 lunation", "different quantities"),
+        ("year_julian / metonic_months_per_year", "different quantities"),
         ("24 hours / 1 day", "the same time on both sides"),
-        ("235 month_synodic_J2000 / 19 year_julian", "two ways"),
+        ("235 month_synodic_J2000 / 19 year_julian", "ambiguous"),
         ("3 mm / 2 mm", "is a length"),
         ("100 rpm / 3 rpm", "is a speed"),
     ],
@@ -156,10 +156,10 @@ def test_what_has_no_meaning_is_refused_with_advice(text: str, said: str) -> Non
 @pytest.mark.parametrize(
     ("text", "per", "said"),
     [
-        ("235/19", "year_julian", "is a ratio already"),
-        ("year_julian / month_metonic", "1 d", "is a ratio already"),
-        ("saros_synodic_months", "year_julian", "is a ratio already"),
-        ("metonic_months_per_year", "1 d", "is a ratio already"),
+        ("235/19", "year_julian", "is already a ratio"),
+        ("year_julian / month_metonic", "1 d", "is already a ratio"),
+        ("saros_synodic_months", "year_julian", "is already a ratio"),
+        ("metonic_months_per_year", "1 d", "is already a ratio"),
         ("month_synodic_J2000", "12", "must be a period"),
         ("month_synodic_J2000", "0 d", "zero"),
         ("month_synodic_J2000", "year_tropicl_J2000", "did you mean"),
@@ -176,7 +176,7 @@ def test_a_speed_per_year_stays_what_it_is_per_year() -> None:
 
 def test_a_wanted_ratio_is_positive() -> None:
     for value in (Fraction(0), Fraction(-1, 3)):
-        with pytest.raises(QuestionError, match="the sense is told apart"):
+        with pytest.raises(QuestionError, match="must be positive"):
             TargetRatio(value)
 
 
@@ -236,7 +236,7 @@ def test_a_range_of_any_length_stays_a_range() -> None:
     assert (len(counts), counts[-1], counts[10**8], 10**9 in counts) == (10**9 - 11, 10**9, 10**8 + 12, True)
     assert counts == CountRuns.of(range(12, 10**9 + 1))
     assert counts.to_dict() == {"counts": "12:1000000000", "minimum": 12, "most": 10**9, "number": 10**9 - 11}
-    with pytest.raises(RangeError, match="999999989 tooth counts to list"):
+    with pytest.raises(RangeError, match="999999989 tooth counts are too many to list"):
         counts.as_array()
 
 
@@ -244,15 +244,15 @@ def test_a_range_of_any_length_stays_a_range() -> None:
     ("text", "said"),
     [
         ("", "no tooth counts"),
-        ("12,,14", "'' is no tooth count"),
-        ("0:5", "no wheel has 0 teeth"),
-        ("-5", "is no tooth count"),
-        ("12-40", "is no tooth count"),
-        ("12.5", "is no tooth count"),
-        ("12:40:2", "is no tooth count"),
+        ("12,,14", "'' is not a tooth count"),
+        ("0:5", "a wheel cannot have 0 teeth"),
+        ("-5", "is not a tooth count"),
+        ("12-40", "is not a tooth count"),
+        ("12.5", "is not a tooth count"),
+        ("12:40:2", "is not a tooth count"),
         ("40:12", "write for example 12:40"),
-        ("1000000000001", "counts run from 1 to"),
-        ("9" * 200, "is no tooth count"),
+        ("1000000000001", "tooth counts are from 1 to"),
+        ("9" * 200, "is not a tooth count"),
     ],
 )
 def test_what_no_wheel_can_have_is_refused_with_advice(text: str, said: str) -> None:

@@ -297,7 +297,7 @@ def test_a_wheel_that_no_teeth_fit_says_why() -> None:
     )
     joints = "{pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]"
     found = geartrain.load(two.replace("{pair: [frame, b], axis: B}]", joints)).strength()
-    assert "ask for different teeth" in found.left_out[0].why
+    assert "require different teeth" in found.left_out[0].why
 
 
 def test_a_load_that_passes_beneath_the_roots_of_a_ring_bends_nothing() -> None:

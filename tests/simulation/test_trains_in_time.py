@@ -507,7 +507,7 @@ def test_a_rate_that_is_none_is_refused(rate: str | float) -> None:
         ({"turns": True}, "turns: True is not a number"),
         ({"restitution": "x"}, "restitution: 'x' is not a number"),
         ({"steps": 2.5}, "steps: 2.5 is not a whole number"),
-        ({"model": "elastic"}, "no model 'elastic'"),
+        ({"model": "elastic"}, "unknown model 'elastic'"),
     ],
 )
 def test_what_is_no_number_is_refused_by_its_name(given: dict[str, Any], told: str) -> None:

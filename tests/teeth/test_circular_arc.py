@@ -301,7 +301,7 @@ def test_a_wheel_is_cut_to_scale_and_its_transmission_drawn(tmp_path: Path) -> N
     assert "transmission error" in plot.read_text() or plot.stat().st_size > 10_000
 
 
-def test_no_file_of_the_package_but_its_own_the_union_and_the_map_names_it() -> None:
+def test_no_file_of_the_package_but_its_own_the_registry_and_the_map_names_it() -> None:
     package = Path(geartrain.__file__).parent
     files = (path for path in package.rglob("*.py") if re.search(r"circular[_-]arc|CircularArc", path.read_text()))
     assert {path.relative_to(package).as_posix() for path in files} == {

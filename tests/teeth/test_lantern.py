@@ -214,8 +214,8 @@ def test_teeth_of_the_mate_have_what_the_pins_leave_of_the_pitch() -> None:
         ({"pin_radius": "20"}, "do not reach the pitch circle"),
         ({"pin_diameter": "3.5"}, "touch each other"),
         ({"arcs": [0.6, 1]}, "too long"),
-        ({"addendum": "60"}, "reaches the tip radius"),
-        ({"pin_diameter": "2 mm"}, "nothing to be compared"),
+        ({"addendum": "60"}, "does not reach the tip radius"),
+        ({"pin_diameter": "2 mm"}, "cannot be converted to modules"),
         ({"centre_distance": "31"}, "off its centre"),
     ],
 )

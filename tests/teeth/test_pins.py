@@ -111,9 +111,7 @@ def test_the_amplitudes_of_the_planets_are_those_of_their_dimensions() -> None:
 @pytest.mark.parametrize(
     ("planet", "minimum", "most"), [("mars", -0.369, 0.718), ("jupiter", -0.134, 0.232), ("saturn", -0.079, 0.125)]
 )
-def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(
-    planet: str, minimum: float, most: float
-) -> None:
+def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(planet: str, minimum: float, most: float) -> None:
     train = load("freeth-2021")
     answer = train.solve()
     (joint,) = (joint for joint in train.mechanics.pins if joint.coupling.name == planet)

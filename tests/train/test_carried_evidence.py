@@ -74,20 +74,20 @@ def test_a_link_that_is_driven_besides_the_carrier() -> None:
 
 MISTAKES = {
     "no such link": (changed("carrier: b", "carrier: bb"), 12, "no link 'bb'"),
-    "the frame": (changed("carrier: b", "carrier: frame"), 12, "the frame is no carrier"),
+    "the frame": (changed("carrier: b", "carrier: frame"), 12, "the frame is not a carrier"),
     "a carrier of unknown speed": (changed("{b: 3}", "{p: 3}"), 12, "the speed of the carrier 'b' is not given"),
-    "a carrier that stands still": (changed("{b: 3}", "{b: 0}"), 6, "the carrier 'b' stands still"),
+    "a carrier that stands still": (changed("{b: 3}", "{b: 0}"), 6, "the speed of the carrier 'b' is 0"),
     "two links besides": (changed("{b: 3}", "{b: 3, p: 1, n: 2}"), 6, "2 links are driven besides the carrier"),
     "a link and wheels of the frame": (changed("{b: 3}", "{b: 3, p: 1}"), 6, "'p' is driven, and the frame has wheels"),
     "a link as fast": (
         changed("frame: {wheels: {x: 51}}", "frame: {}").replace("{b: 3}", "{b: 3, p: 3}"),
         6,
-        "'p' turns as fast as the carrier",
+        "'p' has the same speed as the carrier",
     ),
     "a link that stands still": (
         changed("frame: {wheels: {x: 51}}", "frame: {}").replace("{b: 3}", "{b: 3, p: 0}"),
         6,
-        "an input stands still",
+        "the speed of the input 'p' is 0",
     ),
     "a wheel of the carrier": (changed("b: {}", "b: {wheels: {b1: 225}}"), 3, "'b1' is a wheel of the carrier"),
     "an arbor beside": (
@@ -95,23 +95,23 @@ MISTAKES = {
         7,
         "'n' turns in the frame",
     ),
-    "a second carrier": (changed("{pair: [b, p], axis: P}", "{pair: [n, p], axis: P}"), 7, "second moving arbor"),
+    "a second carrier": (changed("{pair: [b, p], axis: P}", "{pair: [n, p], axis: P}"), 7, "second moving link"),
     "a pointer on the carrier": (changed("of: new", "of: b"), 10, "'epicycle' is on the carrier"),
     "seen from elsewhere": (changed("relative_to: b", "relative_to: n"), 10, "the frame or the carrier 'b'"),
     "a sense from the frame": (
         changed("  carrier", "  sense: free\n  carrier"),
         9,
-        "the sense of 'nodes' is not known, and it is seen from the frame",
+        "the sense of 'nodes' is not known, and its speed is relative to the frame",
     ),
-    "as the frame": (changed("of: n, expect: -5/93", "expect: 0"), 9, "'nodes' turns as the frame does"),
-    "geometry": (changed("  carrier", "  geometry: {}\n  carrier"), 12, "`geometry` on a carrier"),
+    "as the frame": (changed("of: n, expect: -5/93", "expect: 0"), 9, "'nodes' has the speed of the frame"),
+    "geometry": (changed("  carrier", "  geometry: {}\n  carrier"), 12, "`geometry` is not supported"),
     "given": (
         changed("  carrier", "  given: [{pair: [p, n]}]\n  carrier"),
         12,
-        "'n' turns in the frame, and a coupling",
+        "'n' turns in the frame, but its coupling",
     ),
-    "given of the frame": (changed("  carrier", "  given: [{pair: [p, frame]}]\n  carrier"), 12, "hold an arbor still"),
-    "no carrier": (changed("  carrier: b\n", ""), 2, "a wheel that stands still"),
+    "given of the frame": (changed("  carrier", "  given: [{pair: [p, frame]}]\n  carrier"), 12, "lock an arbor"),
+    "no carrier": (changed("  carrier: b\n", ""), 2, "the frame has wheels, but no carrier is named"),
 }
 
 

@@ -137,21 +137,21 @@ MISTAKES = {
     "no such arbor": (changed("{expect", "{of: bb, expect"), 10, ["no link 'bb'", "did you mean 'b'?"]),
     "a link called new": (changed("  b:\n", "  new:\n"), 4, ["a surviving link is called 'new'"]),
     "no such factor": (changed("  add:", "  cost: {wheel: 0}\n  add:"), 12, ["0 is not above 0"]),
-    "given to the frame": (changed("  add:", "  given: [{pair: [a, frame]}]\n  add:"), 12, ["hold an arbor still"]),
+    "given to the frame": (changed("  add:", "  given: [{pair: [a, frame]}]\n  add:"), 12, ["lock an arbor"]),
     "given of nothing": (changed("  add:", "  given: [{pair: [a, c]}]\n  add:"), 12, ["no link 'c'"]),
-    "a lock": (SOUND + "locks: [[a, b]]\n", 13, ["`locks` is not taken up"]),
+    "a lock": (SOUND + "locks: [[a, b]]\n", 13, ["`locks` is not supported"]),
     "a bevel wheel": (changed("      w: 40", "      w: {teeth: 40, kind: bevel}"), 7, ["'w' is a bevel wheel, which"]),
     "a place beside a ring": (
         changed("      w: 40", "      w: {teeth: 40, internal: true}")
         + "  geometry: {}\naxes: {B: {position: [0 mm, 1 mm, 0 mm]}}\nrevolutes: [{pair: [frame, b], axis: B}]\n",
         14,
-        ["where 'b' stands is not weighed beside the ring 'w'", "leave out the position"],
+        ["the position of 'b' cannot be weighed in evidence with the ring 'w'", "remove the position"],
     ),
-    "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor on a moving arbor"]),
-    "seen from an arbor": (changed("{expect", "{relative_to: a, expect"), 10, ["is seen from 'a'"]),
-    "no speed": (changed("{expect: 1/3}", "{}"), 10, ["how fast 'sun' turns is not known"]),
+    "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor on a moving link"]),
+    "seen from an arbor": (changed("{expect", "{relative_to: a, expect"), 10, ["is relative to 'a'"]),
+    "no speed": (changed("{expect: 1/3}", "{}"), 10, ["the speed of 'sun' is not known"]),
     "no tolerance": ("unit: {per: 1 d}\n" + changed("expect: 1/3", "targets: [{period: 3 d}]"), 11, ["is not known"]),
-    "two speeds": (changed("1/3", "1/3, targets: [{speed: 1/2, tolerance: 1 %}]"), 10, ["contradicts itself"]),
+    "two speeds": (changed("1/3", "1/3, targets: [{speed: 1/2, tolerance: 1 %}]"), 10, ["contradict each other"]),
     "two inputs": (changed("{a: 1}", "{a: 1, b: 1}"), 8, ["2 links are driven"]),
     "no input": (changed("inputs: {a: 1}\n", ""), 1, ["0 links are driven"]),
 }
@@ -180,7 +180,7 @@ def test_what_backlashes_no_part_is_told() -> None:
     assert "module of 'w'" in told
     assert "position of axis 'B'" in told
     assert "target of 'sun'" in told
-    assert "published of 'sun'" in told
+    assert "`published` of 'sun'" in told
 
 
 def test_the_number_of_wheels_and_idlers_may_be_requested_otherwise() -> None:
@@ -189,7 +189,7 @@ def test_the_number_of_wheels_and_idlers_may_be_requested_otherwise() -> None:
     assert evidence_question(evidence, idlers=True).problem.idlers
     bare = read_evidence(changed("{wheels: 2, teeth: [10, 20]}", "{}"))
     assert evidence_question(bare).problem.additions.wheels == 0
-    with pytest.raises(GearTrainError, match="no bounds"):
+    with pytest.raises(GearTrainError, match="have no limits"):
         evidence_question(bare, wheels=1)
 
 

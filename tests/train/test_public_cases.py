@@ -67,10 +67,10 @@ def test_a_declared_addendum_decides_whether_they_fit(addendum: str, level: str)
 
 
 def test_a_wheel_with_two_flanks_is_named_by_check_and_report() -> None:
-    sentence = "wheel 'n40' is not cut: its pairs 'n30~n40' and 'n40~n50' ask for different teeth"
+    sentence = "wheel 'n40' is not cut: its pairs 'n30~n40' and 'n40~n50' require different teeth"
     checked, reported = call("check", case("06")), call("report", case("06"))
     assert checked.exit_code == reported.exit_code == 0
-    assert f"{sentence}; they want involute flanks of two shapes" in checked.output
+    assert f"{sentence}; they require involute flanks of two shapes" in checked.output
     assert sentence in " ".join(reported.output.split())
 
 

@@ -191,7 +191,7 @@ def test_the_list_of_parts_has_all_of_them_and_masses_of_their_volumes() -> None
         mass = body(part.placed).volume() * density[row["material"]] / 1000
         assert float(row["mass_g"]) == pytest.approx(mass, rel=4e-3), part.name
     guide = files["README.md"]
-    assert "## Putting it together" in guide
+    assert "## Assembly" in guide
     assert "1. Fix " in guide
     assert all(f"{part.name}" in guide for part in work.parts)
 

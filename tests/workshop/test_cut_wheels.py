@@ -393,7 +393,7 @@ def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
     for form, said in ((triangular, "triangular teeth of pair 'G1'"), ("{form: involute, backlash: 0.1}", "pair 'G1'")):
         with pytest.raises(GearTrainError, match=said) as caught:
             _ = SolidModel(declared(form), ManufacturingSizes(backlash=0.1)).blanks
-        assert caught.value.problems[0].fix.startswith("leave --backlash out, or ")
+        assert caught.value.problems[0].fix.startswith("omit --backlash, or ")
 
 
 @pytest.mark.parametrize(("said", "made", "backlashes"), [
@@ -456,7 +456,7 @@ PLAIN = "{form: involute}"
 def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) -> None:
     work = SolidModel(GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second))), ManufacturingSizes())
     assert set(work.blanks.wheels) == {"p", "x"}
-    told = "wheel 'w' is not cut: its pairs 'one' and 'two' ask for different teeth"
+    told = "wheel 'w' is not cut: its pairs 'one' and 'two' require different teeth"
     assert [each.what for each in notices(work, ["svg"])] == [told]
     assert [(each.rule, each.level, each.problem.what) for each in work.train.build_findings] == [("W3", "note", told)]
     with pytest.raises(GearTrainError, match="'one' and 'two'"):

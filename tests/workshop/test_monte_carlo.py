@@ -177,7 +177,7 @@ def test_teeth_that_turn_against_their_numbering_are_seen_from_behind() -> None:
     back = wheel.mirrored()
     assert back.place[1] == -wheel.place[8]
     plan = find_trial_plan(load("freeth-2021-cut"), outputs=("moon",))
-    train = load("freeth-2021-cut").motion().train
+    train = load("freeth-2021-cut").motion()._problem
     signs: dict[str, set[int]] = {}
     for pair in plan.pairs:
         circuit = next(each for each in train.circuits if each.id == pair.name)

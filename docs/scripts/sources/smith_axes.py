@@ -10,7 +10,7 @@ from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE, screw_eff
 from geartrain.errors import GearTrainError
 from geartrain.simulation.strength.contact_pressure import contact_ellipse
 from geartrain.teeth import Cycloidal, LeastFriction, UniformStress, UniformTemperature
-from geartrain.teeth.any_tooth_form import tooth_forms
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from sources.row import Finding
 from sources.ways import answer
@@ -106,7 +106,7 @@ def fewest_teeth() -> Finding:
 
 def no_steady_heat() -> Finding:
     """The forms that are offered."""
-    return Finding("uniform_heat" not in tooth_forms(), ", ".join(tooth_forms()))
+    return Finding("uniform_heat" not in TOOTH_FORMS, ", ".join(TOOTH_FORMS))
 
 
 def one_pair() -> Finding:

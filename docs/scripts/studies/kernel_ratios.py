@@ -38,7 +38,7 @@ class KernelRow(NamedTuple):
 def motion_rows(rounds: int = _ROUNDS) -> Iterator[KernelRow]:
     """Composition of trains over 19 turns, one chunk of positions."""
     for name, outputs in TRAINS.items():
-        composition = load(name).motion(outputs=outputs).ahead
+        composition = load(name).motion(outputs=outputs)._forward
         kernel = compiled_composition(composition)
         assert kernel is not None
         turns = np.linspace(0, 19, composition.chunk)

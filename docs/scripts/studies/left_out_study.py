@@ -24,7 +24,7 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.search.reconstruct import ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.reconstruction_search import is_all_listed, mechanism, prior, rank_of
+from geartrain.search.reconstruct.reconstruction_search import is_all_listed, prior, rank_of, train_key
 from geartrain.search.reconstruct.spur_tree import (
     SpurTree,
     find_spur_trees,
@@ -166,7 +166,7 @@ def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], list[NotAske
         same = set()
         for tree in parts:
             problem = evidence_question(lost_evidence(tree, [tree.able[0]])).problem
-            key = mechanism(tree.arbor()), problem.dials, problem.input_speed, problem.rings
+            key = train_key(tree.arbor()), problem.dials, problem.input_speed, problem.rings
             own = known.setdefault(key, name)
             if own == name:
                 trees[name, tree.name] = tree

@@ -121,19 +121,19 @@ class MotionCase:
 
     def _ask(self, built: Motion | None, method: str) -> Ask:
         if method in (NOMINAL, LAGGED):
-            superposed = Superposition((built or self.direct).ahead)
+            superposed = Superposition((built or self.direct)._forward)
             return partial(superposed.at, lagged=method == LAGGED)
         made = built or self.train.motion(outputs=self.outputs, tolerance=_tolerance(method))
-        return lambda turns: made.hung.at(turns).error
+        return lambda turns: made._unset.at(turns).error
 
     @property
     def links(self) -> int:
         """Links that an error reaches and that an output depends on."""
-        return sum(len(step.links) for step in self.direct.ahead.steps)
+        return sum(len(step.links) for step in self.direct._forward.steps)
 
     def stretches(self, positions: int) -> Iterator[Floats]:
         """The first of all positions, in stretches that fit in memory."""
-        chunk, last = self.direct.ahead.chunk, self.effort.positions - 1
+        chunk, last = self.direct._forward.chunk, self.effort.positions - 1
         for start in range(0, positions, chunk):
             yield self.turns * (np.arange(start, min(start + chunk, positions)) / last)
 
@@ -164,20 +164,20 @@ class MotionCase:
         if method in PER_POSITION:
             self._ask(self.built, method)(np.zeros(1))
         else:
-            self.built.hung.at(np.zeros(1))
+            self.built._unset.at(np.zeros(1))
 
     def _estimate(self, method: str) -> list[float]:
         """What is worked out without any position, by output (rad), of the train that was prepared last."""
-        superposed = Superposition(self.built.ahead)
+        superposed = Superposition(self.built._forward)
         return superposed.bounds if method == BOUND else superposed.independent
 
     def _compare(self) -> None:
         """All methods against the direct composition, over all positions."""
-        self.tallies = self.direct.tallies()
+        self.tallies = self.direct._statistics()
         others = [method for method in PER_POSITION if method != DIRECT]
         self.off |= {method: _Off.none(len(self.outputs)) for method in others}
         for turns in self.stretches(self.effort.positions):
-            passage = self.direct.hung.at(turns)
+            passage = self.direct._unset.at(turns)
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
             for method in others:
@@ -196,7 +196,7 @@ class MotionCase:
         last = self.effort.positions - 1
         at = np.random.default_rng(3).integers(0, last + 1, self.effort.sample)
         turns = np.append(self.turns * (at / last), [turn for _, turn in self.doubted.values()])
-        truth, found = MotionTruth(self.direct), self.direct.hung.at(turns).error
+        truth, found = MotionTruth(self.direct), self.direct._unset.at(turns).error
         self.off[DIRECT] = _Off.none(len(self.outputs))
         self.off[DIRECT].add(np.array([truth.off(float(each), found[:, n]) for n, each in enumerate(turns)]).T)
 
@@ -214,7 +214,7 @@ class MotionCase:
         turns = np.concatenate(list(self.stretches(self.effort.marched)))
         took, error = timed(partial(marching.follow, turns, steps))
         self.off[method] = _Off.none(len(self.outputs))
-        self.off[method].add(error - self.direct.hung.at(turns).error)
+        self.off[method].add(error - self.direct._unset.at(turns).error)
         self.marched[method] = took * self.effort.positions / len(turns)
 
     # -------------------------------------------------------------------------------------------------------- results
@@ -274,8 +274,8 @@ class MotionCase:
 
     def summary(self) -> TrainRecord:
         """What the train is and does."""
-        pins = (joint.coupling.name for joint in self.direct.train.pins)
-        lawful = {*self.direct.train.meshes, *pins}
+        pins = (joint.coupling.name for joint in self.direct._problem.pins)
+        lawful = {*self.direct._problem.meshes, *pins}
         outputs = {
             tally.name: {"peak_to_peak": math.degrees(tally.peak_to_peak), "rms": math.degrees(tally.rms)}
             for tally in self.tallies
@@ -285,7 +285,7 @@ class MotionCase:
             self.turns,
             self.effort.positions,
             self.links,
-            [source.id for source in self.direct.ahead.used],
+            [source.id for source in self.direct._forward.used],
             [circuit.id for circuit in self.train.circuits if circuit.id not in lawful],
             outputs,
             self.peaks,

@@ -100,8 +100,8 @@ def _grow(pairs: int) -> GrowthRecord:
     built = train.motion()
     built.at(np.zeros(1))
     marks.append(time.perf_counter())
-    for _passage in built.passages(1.0, _GROWN):
+    for _passage in built._stretches(1.0, _GROWN):
         pass
     marks.append(time.perf_counter())
     took = dict(zip(_TIMES, np.diff(marks).tolist(), strict=True))
-    return GrowthRecord(pairs, _GROWN, built.ahead.chunk, **took)
+    return GrowthRecord(pairs, _GROWN, built._forward.chunk, **took)

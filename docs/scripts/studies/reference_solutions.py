@@ -137,11 +137,11 @@ class MotionTruth:
     def __init__(self, motion: Motion) -> None:
         self.real: Any = numbers()
         self.converged = _CONVERGED if find_spec("mpmath") else 1e-18
-        self.motion, self.sources = motion, motion.ahead.used
+        self.motion, self.sources = motion, motion._forward.used
         self.transmissions = [self._transmission(source.transmission) for source in self.sources]
         errors = self._spread()
         self.gains = [self._gain(source, errors) for source in self.sources]
-        self.responses = [self._terms({of: 1, base: -sense}, errors) for of, base, sense in motion.ahead.outputs]
+        self.responses = [self._terms({of: 1, base: -sense}, errors) for of, base, sense in motion._forward.outputs]
 
     def _transmission(self, transmission: TransmissionFunction) -> Callable[[Any], Any]:
         if isinstance(transmission, TriangularTransmission) and transmission.direction > 0:
@@ -151,7 +151,7 @@ class MotionTruth:
 
     def _spread(self) -> dict[int, LinearForm]:
         """Every link's error as a sum over the errors of the sources, by -1 less their number, exactly."""
-        system, spread = self.motion.train.system, self.motion.spread
+        system, spread = self.motion._problem.system, self.motion._propagation
         at = {link: number for number, link in enumerate(system.links)}
         own = {source.id: number for number, source in enumerate(self.sources)}
         forms: list[LinearForm] = []
@@ -173,7 +173,7 @@ class MotionTruth:
         return [(at, number(each.numerator) / number(each.denominator)) for at, each in total.items() if each]
 
     def _gain(self, source: PairErrorSource, errors: dict[int, LinearForm]) -> list[tuple[int, Any]]:
-        joint = self.motion.spread.joints[source.pair]
+        joint = self.motion._propagation.joints[source.pair]
         links = {joint.driver: source.forward * source.driver_sense}
         links[joint.carrier] = links.get(joint.carrier, 0) - source.forward * source.carrier_sense
         return self._terms(links, errors)
@@ -202,7 +202,7 @@ class MotionTruth:
 
     def _stands(self, source: PairErrorSource, turns: Fraction) -> Any:
         """The driver's forward angle (rad, whole turns left out) in mean motion."""
-        joint, train = self.motion.spread.joints[source.pair], self.motion.train
+        joint, train = self.motion._propagation.joints[source.pair], self.motion._problem
         links = train.system.links
         part = abs(train.relative(links[joint.driver], links[joint.carrier])) * turns % 1
         number = self.real.number

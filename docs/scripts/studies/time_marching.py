@@ -29,7 +29,7 @@ class Marching:
 
     def __init__(self, train: GearTrain, outputs: Sequence[str]) -> None:
         motion, whole = train.motion(outputs=outputs), train.motion(outputs=list(train.declaration.links))
-        moving = self.moving = motion.train
+        moving = self.moving = motion._problem
         names = moving.system.links
         at = {link: number for number, link in enumerate(names)}
         lead = float(moving.speeds[moving.driving_link])
@@ -40,16 +40,16 @@ class Marching:
             row_of[row.label] = number
             for link, coefficient in row.terms:
                 self.matrix[number, at[link]] = float(coefficient)
-        self.pairs = [self._pair(motion, source, row_of[source.id]) for source in motion.ahead.sources]
+        self.pairs = [self._pair(motion, source, row_of[source.id]) for source in motion._forward.sources]
         self.ends = [(at[of], at[base]) for of, base in motion.outputs.values()]
-        self.means = np.array([tally.mean for tally in motion.tallies()])
-        start = whole.hung.at(np.zeros(1)).error[:, 0]
+        self.means = np.array([tally.mean for tally in motion._statistics()])
+        start = whole._unset.at(np.zeros(1)).error[:, 0]
         self.start = np.zeros(len(names))
         self.start[[at[link] for link in train.declaration.links]] = start
 
     @staticmethod
     def _pair(motion: Motion, source: PairErrorSource, row: int) -> Marched:
-        joint = motion.spread.joints[source.pair]
+        joint = motion._propagation.joints[source.pair]
         own, carried = source.forward * source.driver_sense, source.forward * source.carrier_sense
         ratio, scale = float(source.transmission.ratio), joint.coefficient * source.sense
         return Marched(

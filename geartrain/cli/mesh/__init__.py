@@ -11,20 +11,20 @@ import typer
 
 from geartrain.cli.mesh import any_form
 from geartrain.cli.verbs import LazyGroup, Verbs
-from geartrain.teeth.any_tooth_form import tooth_forms
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS
 
 _OWN = {
     "triangular": "geartrain.cli.mesh.triangular",
     "pin": "geartrain.cli.mesh.any_form:pin",
     "compare": "geartrain.cli.mesh.compare",
 }
-_FORMS = {name: model for name, model in tooth_forms().items() if name not in (*_OWN, "ideal")}
+_FORMS = [name for name in TOOTH_FORMS if name not in (*_OWN, "ideal")]
 
 
 class PairGroup(LazyGroup):
     """What can be asked of one pair, and the forms of its teeth."""
 
-    verbs = Verbs(_OWN, {name: partial(any_form.command, name, form) for name, form in _FORMS.items()})
+    verbs = Verbs(_OWN, {name: partial(any_form.command, name) for name in _FORMS})
 
 
 app = typer.Typer(

@@ -47,6 +47,7 @@ from geartrain.cli.mesh.form_options import (
 from geartrain.cli.option_values import Theme, at_option, quantity, read_quantity
 from geartrain.cli.option_values import friction as read_friction
 from geartrain.errors import GearTrainError
+from geartrain.teeth.any_tooth_form import tooth_form
 from geartrain.teeth.tooth_form import ToothForm
 
 if TYPE_CHECKING:
@@ -62,8 +63,9 @@ _LEANING = ("helix",)
 """Options of the form whose teeth may lean."""
 
 
-def command(name: str, model: type[ToothForm]) -> Callable[..., None]:
+def command(name: str) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
+    model = tooth_form(name)
     kind = "Costs, faults and outlines" if model.conjugate else "Motion, losses and outlines"
     words = f"{kind} of a pair with {name.replace('_', '-')} teeth."
     without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _LEANING))

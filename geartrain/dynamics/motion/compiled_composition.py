@@ -19,7 +19,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
-from geartrain.numerics.kernels import is_fast, kernel
+from geartrain.numerics.kernels import kernel
 from geartrain.numerics.rounding_bounds import SPLITTER, split
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.transmission_table import join_transmission_tables, make_transmission_table, transmission_along
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 
 BLOCK = 2048  # positions: so many that what is done once a block does not count, and their angles stay in a cache
-_PACE = 2e6  # links a second that numpy goes through, in most trains
 
 
 @dataclass(frozen=True)
@@ -407,15 +406,6 @@ class CompiledComposition:
         compose.chosen(self.fast)(self.arrays, turns, plain, error, rate, behind)
         back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)
         return ErrorSamples(turns, error, rate, back)
-
-
-def pays(composition: ErrorComposition, fast: bool | None, positions: int) -> bool:
-    """Whether so many positions are asked of a kernel: where that pays, or as the user says.
-
-    Raises `MissingExtraError` where kernels are asked for and numba is not installed.
-    """
-    links = sum(len(step.links) for step in composition.steps)
-    return links > 0 and is_fast(fast, positions * links / _PACE)
 
 
 def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:

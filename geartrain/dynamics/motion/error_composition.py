@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
+from geartrain.numerics.results import short_repr
 from geartrain.numerics.rounding_bounds import split
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ class ErrorSamples(NamedTuple):
 
     See Also
     --------
-    Motion.at, Motion.passages : what gives these.
+    Motion.at : what gives these.
     """
 
     turns: Floats
@@ -114,6 +115,9 @@ class ErrorSamples(NamedTuple):
     reversing_drivers: frozenset[str] = frozenset()
     """Pairs whose driver turns against its mean at one of these positions: their flanks change there, and the law,
     which is that of the flanks in front, does not follow the play."""
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 @dataclass

@@ -17,6 +17,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, SeenLink
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
 from geartrain.teeth.transmission_table import folded_kinks
 
@@ -51,6 +52,9 @@ class KinkPositions(NamedTuple):
     """Which pair is at a corner there, as an index into `pairs`. Shape (n,)."""
     pairs: tuple[str, ...]
     """Names of pairs and couplings."""
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def names(self) -> list[str]:
         """The pair at each position, by name."""

@@ -7,16 +7,16 @@ starts.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from math import pi
+from itertools import islice
+from math import degrees, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition, pays
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
 from geartrain.dynamics.motion.kink_positions import KinkPositions, KinkSearch
 from geartrain.dynamics.motion.motion_problem import MotionProblem
@@ -24,14 +24,18 @@ from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.willis_system import axis_sense
-from geartrain.numerics.results import Key, Result, picture_maker
+from geartrain.numerics.kernels import is_fast
+from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, picture_maker
 
 if TYPE_CHECKING:
     from numpy.random import Generator
 
+    from geartrain.dynamics.motion.compiled_composition import CompiledComposition
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
+
+_PACE = 2e6  # links per second that numpy computes, in most trains
 
 
 @dataclass(frozen=True)
@@ -74,24 +78,35 @@ class PointerCompositions:
 
 
 @dataclass(frozen=True)
-class TransmissionErrorCurve(Result):
+class TransmissionErrorCurve(Tabular, Result):
     """The transmission error of one output, position by position.
 
     See Also
     --------
-    Motion.ripples : what gives these.
+    Motion.transmission_error : Gives it.
     """
 
-    KEYS = (Key("", "tally"),)
+    KEYS = (Key("", "statistics"),)
 
     name: str
     """The output."""
     ratio: Fraction
     """Exact mean speed over the input's."""
+    angle: Floats
+    """Angle of the input [rad]. Shape (n,)."""
     error: Floats
     """Angle less its mean motion [rad]. Shape (n,)."""
     speed: Floats
-    """Speed over the input's. Shape (n,)."""
+    """Speed over the input's [1]. Shape (n,)."""
+
+    def _summary(self) -> str:
+        figures = f"p-p {degrees(self.peak_to_peak):.4g} deg, rms {degrees(self.rms):.4g} deg"
+        return f"{self.name}: {figures}, mean ratio {brief(self.ratio)}, {len(self.angle)} positions"
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each position: angle of the input, transmission error and speed."""
+        return {"angle": self.angle.tolist(), "error": self.error.tolist(), "speed": self.speed.tolist()}
 
     @property
     def mean(self) -> float:
@@ -99,24 +114,27 @@ class TransmissionErrorCurve(Result):
         return mean_speed(self.name, self.ratio)
 
     @cached_property
-    def tally(self) -> RunningStatistics:
+    def statistics(self) -> RunningStatistics:
         """Peaks and moments."""
-        tally = RunningStatistics(self.name, self.ratio)
-        tally.add(self.error, self.speed - self.mean)
-        return tally
+        found = RunningStatistics(self.name, self.ratio)
+        found.add(self.error, self.speed - self.mean)
+        return found
 
     @property
     def peak_to_peak(self) -> float:
-        """Greatest less least error (rad)."""
-        return self.tally.peak_to_peak
+        """Maximum less minimum of the transmission error [rad]."""
+        return self.statistics.peak_to_peak
 
     @property
     def rms(self) -> float:
-        """Root mean square of the error about its mean (rad)."""
-        return self.tally.rms
+        """Root mean square of the transmission error about its mean [rad]."""
+        return self.statistics.rms
 
 
-class Motion:
+_MAIN = 3  # outputs in a summary
+
+
+class Motion(Shown):
     """A train's motion with real teeth and pins, as a function of the turns of its input.
 
     Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At
@@ -157,6 +175,8 @@ class Motion:
     (True, -0.061)
     """
 
+    PAGE = "report.motion_report:motion_document"
+
     def __init__(
         self,
         train: MotionProblem,
@@ -164,23 +184,35 @@ class Motion:
         tolerance: float | None = None,
         fast: bool | None = None,
     ) -> None:
-        self.train, self.outputs, self.tolerance, self.fast = train, outputs, tolerance, fast
+        self._problem, self.outputs, self.tolerance, self.fast = train, outputs, tolerance, fast
         self._errors = PairErrors(train, tolerance, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
         if tolerance is not None and not 0 < tolerance < 1:
             why = "a table's accuracy is a part of a pitch"
             fix = "give a part of a pitch such as 1e-9, or none"
             raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
+        self._declaration: Any = None  # what `print` needs of the train
+        self._state: str | None = None
+        self._without: tuple[str, ...] = ()
         self._refuse_loops()
+
+    def _summary(self) -> str:
+        name = "" if self._declaration is None else self._declaration.name
+        state = "" if self._state is None else f" state {self._state}"
+        lead = self._problem.driving_link
+        means = [(each, self._problem.seen_ratio(*self.outputs[each])) for each in islice(self.outputs, _MAIN)]
+        shown = ", ".join(f"{each} = {brief(ratio)} of {lead}" for each, ratio in means)
+        more = f", {len(self.outputs) - _MAIN} more" if len(self.outputs) > _MAIN else ""
+        return f"{name}{state}: mean {shown or 'of no output'}{more}".strip()
 
     # ----------------------------------------------------------------------------------------------- what it is made of
 
     @property
-    def spread(self) -> ErrorPropagation:
+    def _propagation(self) -> ErrorPropagation:
         """The solved order of the train, as far as its outputs depend on it."""
         return self._errors.spread
 
-    def path(self, pair: str) -> ErrorPath:
+    def _path(self, pair: str) -> ErrorPath:
         """Where the sides of a pair or coupling stand, which says how its errors spread.
 
         Parameters
@@ -188,18 +220,18 @@ class Motion:
         pair : str
             Its name; one that closes a loop which others close has none: `QuestionError`.
         """
-        if pair in self.spread.pairs:
-            return self.spread.joints[self.spread.pairs.index(pair)]
+        if pair in self._propagation.pairs:
+            return self._propagation.joints[self._propagation.pairs.index(pair)]
         why = "other pairs say already how its wheels turn; which of them bears how much is a matter of play and errors"
         fix = f"leave it out: --without {pair}; or declare one of equal planets, with `copies: 3`"
         raise QuestionError(Problem(f"the motion in time of '{pair}' is not worked out", why, fix))
 
     @cached_property
-    def ahead(self) -> ErrorComposition:
+    def _forward(self) -> ErrorComposition:
         """The composition while the input turns as declared."""
         return self._compositions.composed(1)
 
-    def with_sources(self, pairs: Collection[str]) -> ErrorComposition:
+    def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
         """The composition while the input turns as declared, some pairs that keep their ratio among its sources.
 
         So that laws which do not keep it can be put in their place.
@@ -212,18 +244,18 @@ class Motion:
         return self._compositions.composed(1, pairs)
 
     @cached_property
-    def hung(self) -> ErrorComposition:
+    def _unset(self) -> ErrorComposition:
         """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
-        return replace(self.ahead, offsets=())
+        return replace(self._forward, offsets=())
 
     @cached_property
-    def back(self) -> ErrorComposition:
+    def _backward(self) -> ErrorComposition:
         """The composition while the input turns the other way: the other flanks drive."""
         return self._compositions.composed(-1)
 
     @cached_property
     def _seen(self) -> tuple[SeenLink, ...]:
-        index, signs = self._index, self.train.signs
+        index, signs = self._index, self._problem.signs
         return tuple(
             SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
         )
@@ -233,13 +265,13 @@ class Motion:
         return PointerCompositions(self._errors, self._seen)
 
     @cached_property
-    def setting(self) -> Mapping[str, float]:
+    def pointer_offsets(self) -> Mapping[str, float]:
         """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
         found = self._compositions.setting
         return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
     def _refuse_loops(self) -> None:
-        for loop, real in self.train.contradictions():
+        for loop, real in self._problem.contradictions():
             path = " - ".join((*loop.links, loop.links[0]))
             raise GearTrainError(
                 Problem(
@@ -250,7 +282,7 @@ class Motion:
                 )
             )
 
-    def at_random(self, random: Generator) -> Motion:
+    def with_random_phases(self, random: Generator) -> Motion:
         """The same train with a random phase for every pair with real teeth that declares none.
 
         Parameters
@@ -263,38 +295,40 @@ class Motion:
         Motion
             Of the same outputs and tolerance.
         """
-        declared = self.train.phases
+        declared = self._problem.phases
         # the first pair of a planet places its teeth in the second
-        free = [mesh.name for mesh in self.train.rippling if self.train.placed_by(mesh.name) is None]
+        free = [mesh.name for mesh in self._problem.rippling if self._problem.placed_by(mesh.name) is None]
         drawn = {name: float(random.random()) for name in free if name not in declared}
-        return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
+        return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
 
     # -------------------------------------------------------------------------------------------------- what it answers
 
     @cached_property
     def period(self) -> Fraction | None:
         """Turns of the input after which every rippling pair stands as at the start; None where nothing ripples."""
-        return common_period(self.ahead.used)
+        return common_period(self._forward.used)
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
         """Radians of each output per radian of error of the driven side of each pair, real teeth or not."""
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
-            found[name] = dict(zip(self.spread.pairs, self.spread.sensitivity(*seen).tolist(), strict=True))
+            found[name] = dict(zip(self._propagation.pairs, self._propagation.sensitivity(*seen).tolist(), strict=True))
         return found
 
-    def tallies(self) -> list[RunningStatistics]:
+    def _statistics(self) -> list[RunningStatistics]:
         """An empty tally for each output."""
-        return [RunningStatistics(name, self.train.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()]
+        return [
+            RunningStatistics(name, self._problem.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()
+        ]
 
     @property
-    def starts(self) -> list[float]:
+    def _start_angles(self) -> list[float]:
         """Starting angle of each output (rad), in the sense of the input as its motion is."""
-        angles = self.train.way * np.array([self.train.angles.get(link, 0.0) for link in self.spread.links])
+        angles = self._problem.way * np.array([self._problem.angles.get(link, 0.0) for link in self._propagation.links])
         return [seen.difference(angles) for seen in self._seen]
 
-    def passages(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
+    def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
         """The run in stretches that fit in memory.
 
         Parameters
@@ -311,14 +345,14 @@ class Motion:
         ErrorSamples
             One stretch after the other.
         """
-        composition = self.sampler(turns, samples)
+        composition = self._sampler(turns, samples)
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
             # divided first: the last position is `turns` to the last bit, wherever stretches begin
             yield composition.at(turns * (at / (samples - 1)))
 
-    def sampler(self, turns: float, samples: int) -> ErrorSampler:
+    def _sampler(self, turns: float, samples: int) -> ErrorSampler:
         """What is asked for errors at some positions.
 
         Parameters
@@ -333,18 +367,20 @@ class Motion:
         ErrorSampler
             The composition, or its compiled kernel.
         """
-        composition = self.ahead if turns >= 0 else self.back
-        if not pays(composition, self.fast, samples):
+        composition = self._forward if turns >= 0 else self._backward
+        links = sum(len(step.links) for step in composition.steps)
+        if not links or not is_fast(self.fast, samples * links / _PACE):
             return composition
-        return (self._compiled_ahead if turns >= 0 else self._compiled_back) or composition
+        if (turns >= 0) not in self._compiled:
+            from geartrain.dynamics.motion.compiled_composition import compiled_composition
+
+            self._compiled[turns >= 0] = compiled_composition(composition)
+        return self._compiled[turns >= 0] or composition
 
     @cached_property
-    def _compiled_ahead(self) -> CompiledComposition | None:
-        return compiled_composition(self.ahead)
-
-    @cached_property
-    def _compiled_back(self) -> CompiledComposition | None:
-        return compiled_composition(self.back)
+    def _compiled(self) -> dict[bool, CompiledComposition | None]:
+        """Compiled kernels of the compositions forwards (True) and backwards (False), as far as they were requested."""
+        return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Errors and rates of the outputs, turning as declared.
@@ -360,7 +396,7 @@ class Motion:
             Errors [rad] and rates at them.
         """
         turns = np.asarray(turns, dtype=float)
-        composition = self.sampler(1, len(turns))
+        composition = self._sampler(1, len(turns))
         chunk = composition.chunk
         parts = [composition.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
         error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
@@ -395,43 +431,114 @@ class Motion:
         >>> len(kinks.turns), kinks.names().count("a~b1")
         (160, 45)
         """
-        composition = self.ahead if end >= start else self.back
+        composition = self._forward if end >= start else self._backward
         return KinkSearch(composition).over(min(start, end), max(start, end))
 
-    def ripples(
-        self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
-    ) -> tuple[Floats, dict[str, TransmissionErrorCurve]]:
-        """The error of every output at equal steps of the input.
+    def transmission_errors(
+        self, turns: float = 1.0, samples: int = 2001, on_done: Callable[[int], None] = lambda _: None
+    ) -> dict[str, TransmissionErrorCurve]:
+        """Return the transmission error of every output at equal steps of the input.
 
         Parameters
         ----------
-        turns, samples : float, int
-            As in `passages`.
+        turns : float
+            Turns of the input from 0; negative turns go the other way, on the other flanks.
+        samples : int
+            Positions, 2 or more, both ends included.
         on_done : callable
             Called with the number of positions of each stretch that is done.
 
         Returns
         -------
-        angle : array of float, (samples,)
-            Angle of the input [rad].
-        curves : dict of str to TransmissionErrorCurve
+        dict of str to TransmissionErrorCurve
             By output.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> motion = geartrain.load("moon-triangular").motion()
+        >>> {name: round(error.peak_to_peak, 3) for name, error in motion.transmission_errors().items()}
+        {'sun': 0.001, 'moon': 0.102}
         """
         error = np.empty((len(self.outputs), samples))
         rate = np.empty_like(error)
         angle = np.empty(samples)
         done = 0
-        for passage in self.passages(turns, samples):
+        for passage in self._stretches(turns, samples):
             part = slice(done, done + len(passage.turns))
             angle[part], error[:, part], rate[:, part] = passage[:3]
             done = part.stop
             on_done(len(passage.turns))
         angle *= 2 * pi
-        found = {
-            tally.name: TransmissionErrorCurve(tally.name, tally.ratio, error[at], tally.mean + rate[at])
-            for at, tally in enumerate(self.tallies())
+        return {
+            each.name: TransmissionErrorCurve(each.name, each.ratio, angle, error[at], each.mean + rate[at])
+            for at, each in enumerate(self._statistics())
         }
-        return angle, found
+
+    def transmission_error(self, output: str, turns: float = 1.0, samples: int = 2001) -> TransmissionErrorCurve:
+        """Return the transmission error of one output at equal steps of the input.
+
+        Parameters
+        ----------
+        output : str
+            One of the outputs.
+        turns, samples : float, int
+            As of `transmission_errors`.
+
+        Returns
+        -------
+        TransmissionErrorCurve
+            Its peak-to-peak value, its root mean square, and its value at every position.
+
+        Raises
+        ------
+        QuestionError
+            For an output that is not followed.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> motion = geartrain.load("moon-triangular").motion()
+        >>> round(motion.transmission_error("moon").peak_to_peak, 3)
+        0.102
+        """
+        check_choice("output", output, list(self.outputs))
+        return self._of((output,)).transmission_errors(turns, samples)[output]
+
+    def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
+        """Follow the motion over some turns of the input, and return its peaks and moments by output.
+
+        Parameters
+        ----------
+        turns, samples : float, int
+            As of `transmission_errors`.
+
+        Returns
+        -------
+        geartrain.dynamics.MotionRun
+            `print` shows the report of `geartrain motion`.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> geartrain.load("moon-triangular").motion().run(turns=1, samples=2001)
+        <MotionRun moon-triangular: 1 turn, transmission error p-p sun 0.02904 deg, moon 5.895 deg>
+        """
+        run = picture_maker("dynamics.motion.motion_run", "MotionRun")(self, turns, samples)
+        run.run()
+        return run
+
+    @cached_property
+    def _usual_run(self) -> Any:
+        """The run of the command; `print` shows it."""
+        return self.run()
+
+    def _of(self, outputs: Sequence[str]) -> Motion:
+        """The motion of some of the outputs."""
+        shown = {name: self.outputs[name] for name in outputs}
+        motion = Motion(self._problem, shown, self.tolerance, self.fast)
+        motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
+        return motion
 
     def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
         """Angles, errors and speeds over turns of the input, as a figure that notebooks show.
@@ -466,6 +573,5 @@ class Motion:
         """
         for name in outputs:
             check_choice("output", name, list(self.outputs))
-        shown = {name: self.outputs[name] for name in outputs or self.outputs}
-        motion = Motion(self.train, shown, self.tolerance, self.fast)
-        return picture_maker("drawing", "outputs_figure")(motion, turns, samples)
+        shown = self._of(outputs or tuple(self.outputs))
+        return picture_maker("drawing", "outputs_figure")(shown, turns, samples)

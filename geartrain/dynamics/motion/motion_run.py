@@ -12,15 +12,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import pi
-from typing import TYPE_CHECKING, Any, NamedTuple
+from math import degrees, pi
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.extreme_search import ExtremeSearch
 from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
-from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -33,11 +32,13 @@ if TYPE_CHECKING:
     Complex = NDArray[np.complex128]
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
+    from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition
 
     OnDone = Callable[[int], None]
 
 _SAMPLES = 1 << 14  # of one period of a law
 _HARMONICS = 24  # of each pair that are looked at
+_MAIN = 3  # outputs in a summary
 _FAINT = 1e-6  # of the strongest line
 
 
@@ -81,7 +82,9 @@ def find_spectrum(
     Lines are told apart if they differ by two periods over the run; over whole common periods the measure is exact but
     for harmonics beyond half the sampling rate.
     """
-    superposed = Superposition(motion.ahead if turns >= 0 else motion.back)
+    from geartrain.dynamics.motion.superposition import Superposition
+
+    superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
     found = {}
     for at, name in enumerate(motion.outputs):
@@ -142,7 +145,7 @@ def _measure(
     centre, weights = np.zeros(len(motion.outputs)), 0.0
     means = np.zeros(len(orders), dtype=complex)
     done = 0
-    for passage in motion.passages(turns, samples):
+    for passage in motion._stretches(turns, samples):
         at = np.arange(done, done + len(passage.turns)) / (samples - 1)
         done += len(passage.turns)
         # over whole periods every line closes, and the last position repeats the first; else Hann against leakage
@@ -170,7 +173,7 @@ def _untold(_: int) -> None:
 class MotionRun(Tabular, Pictured):
     """One run of a motion: positions from 0 to `turns` of the input, and what is asked of them.
 
-    Results stand here as far as they were asked for, by `go`, `try_phases`, `estimate` and `analyse`.
+    It has the results that were requested by `run`, `run_random_phases`, `find_estimates` and `find_spectra`.
 
     Raises
     ------
@@ -181,11 +184,23 @@ class MotionRun(Tabular, Pictured):
     --------
     >>> import geartrain
     >>> run = MotionRun(geartrain.load("moon-triangular").motion(outputs=["moon"]), turns=1, samples=2001)
-    >>> run.go()
-    >>> moon, = run.tallies
+    >>> run.run()
+    >>> moon, = run.statistics
     >>> moon.ratio, round(moon.peak_to_peak, 3), round(moon.rms, 3)
     (Fraction(254, 95), 0.103, 0.022)
     """
+
+    MEANINGS: ClassVar = {
+        "output": "Output or link.",
+        "mean speed": "Mean speed over that of the input [1].",
+        "exact": "Mean speed over that of the input, as a fraction [1].",
+        "error p-p (rad)": "Maximum less minimum of the transmission error [rad].",
+        "error rms (rad)": "Root mean square of the transmission error about its mean [rad].",
+        "slowest": "Minimum of the speed less its mean, over the speed of the input [1].",
+        "fastest": "Maximum of the speed less its mean, over the speed of the input [1].",
+    }
+
+    PAGE = "report.motion_report:motion_document"
 
     FIGURE = "motion_figure"
 
@@ -195,9 +210,9 @@ class MotionRun(Tabular, Pictured):
     """Turns of the input, within 1e12 either way; negative turns go on the other flanks."""
     samples: int
     """Positions, 2 or more, both ends included."""
-    tallies: list[RunningStatistics] = field(default_factory=list)
+    statistics: list[RunningStatistics] = field(default_factory=list)
     """Peaks and moments by output."""
-    phased: list[list[RunningStatistics]] = field(default_factory=list)
+    phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
     """The same for each set of random phases."""
     seed: int | None = None
     """Of these phases; None where none were drawn."""
@@ -223,20 +238,29 @@ class MotionRun(Tabular, Pictured):
                 Problem(f"{self.samples} positions of the input", "from one to the next it turns", "give 2 or more")
             )
 
+    def _summary(self) -> str:
+        declared = self.motion._declaration
+        turns = f"{self.turns:g} turn{'' if self.turns == 1 else 's'}"
+        peaks = [f"{each.name} {degrees(each.peak_to_peak):.4g} deg" for each in self.statistics[:_MAIN]]
+        shown = f"transmission error p-p {', '.join(peaks)}" if peaks else "not run yet"
+        more = f", {len(self.statistics) - _MAIN} more" if len(self.statistics) > _MAIN else ""
+        cut = f", stopped after {self.done} of {self.samples} positions" if 0 < self.done < self.samples else ""
+        return f"{'' if declared is None else declared.name + ': '}{turns}, {shown}{more}{cut}"
+
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """A row for each output that was counted: mean speed over the input's, error [rad], speed over its mean."""
         return {
-            "output": [each.name for each in self.tallies],
-            "mean speed": [float(each.ratio) for each in self.tallies],
-            "exact": [str(each.ratio) for each in self.tallies],
-            "error p-p (rad)": [each.peak_to_peak for each in self.tallies],
-            "error rms (rad)": [each.rms for each in self.tallies],
-            "slowest": [each.slow for each in self.tallies],
-            "fastest": [each.fast for each in self.tallies],
+            "output": [each.name for each in self.statistics],
+            "mean speed": [float(each.ratio) for each in self.statistics],
+            "exact": [str(each.ratio) for each in self.statistics],
+            "error p-p (rad)": [each.peak_to_peak for each in self.statistics],
+            "error rms (rad)": [each.rms for each in self.statistics],
+            "slowest": [each.slow for each in self.statistics],
+            "fastest": [each.fast for each in self.statistics],
         }
 
-    def go(self, on_done: OnDone = _untold) -> None:
+    def run(self, on_done: OnDone = _untold) -> None:
         """Count every position, and seek the extremes between them.
 
         Parameters
@@ -249,21 +273,21 @@ class MotionRun(Tabular, Pictured):
         GearTrainError
             If pairs depend on each other in a way that cannot be followed.
         """
-        self.tallies = self.motion.tallies()
-        peaks = SampledPeaks(len(self.tallies))
-        for passage in self.motion.passages(self.turns, self.samples):
-            for at, tally in enumerate(self.tallies):
+        self.statistics = self.motion._statistics()
+        peaks = SampledPeaks(len(self.statistics))
+        for passage in self.motion._stretches(self.turns, self.samples):
+            for at, tally in enumerate(self.statistics):
                 tally.add(passage.error[at], passage.rate[at])
             peaks.add(passage)
             self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
-        composition = self.motion.ahead if self.turns >= 0 else self.motion.back
+        composition = self.motion._forward if self.turns >= 0 else self.motion._backward
         search = ExtremeSearch(composition)
-        count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.tallies)
+        count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)
         self.reversing_drivers |= search.reversing_drivers
 
-    def try_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
+    def run_random_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
         """The same run with random phases of the pairs that declare none.
 
         Parameters
@@ -273,44 +297,46 @@ class MotionRun(Tabular, Pictured):
         seed : int
             Of the random numbers, 0 or more.
         on_done : callable
-            As in `go`.
+            As of `run`.
         """
         self.seed = seed if count else None
         if seed < 0:
             raise QuestionError(Problem(f"a seed of {seed}", "random numbers begin at 0 or more", "give 0 or more"))
         random = np.random.default_rng(seed)
         for _ in range(count):
-            other = MotionRun(self.motion.at_random(random), self.turns, self.samples)
-            other.go(on_done)
-            self.phased.append(other.tallies)
+            other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)
+            other.run(on_done)
+            self.phase_statistics.append(other.statistics)
 
-    def estimate(self, on_done: OnDone = _untold) -> None:
+    def find_estimates(self, on_done: OnDone = _untold) -> None:
         """Make the cheap estimates, with their true error.
 
         Parameters
         ----------
         on_done : callable
-            As in `go`.
+            As of `run`.
         """
+        from geartrain.dynamics.motion.superposition import find_estimates
+
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
-    def analyse(self, on_done: OnDone = _untold) -> None:
+    def find_spectra(self, on_done: OnDone = _untold) -> None:
         """Make the spectra by exact order.
 
         Parameters
         ----------
         on_done : callable
-            As in `go`.
+            As of `run`.
         """
         self.spectra = find_spectrum(self.motion, self.turns, self.samples, on_done=on_done)
 
     @property
-    def position_columns(self) -> list[str]:
+    def _position_columns(self) -> list[str]:
         """Names of the columns of a table of all positions."""
         names = self.motion.outputs
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
-    def values(self, passage: ErrorSamples) -> list[Floats]:
+    def _values(self, passage: ErrorSamples) -> list[Floats]:
         """The columns of one stretch: an angle is its start, mean motion and error; a speed is over the input's.
 
         Parameters
@@ -321,16 +347,16 @@ class MotionRun(Tabular, Pictured):
         Returns
         -------
         list of array of float, (n,)
-            As `position_columns` names them.
+            As `_position_columns` names them.
         """
         found = [passage.turns]
         angle = 2 * pi * passage.turns
-        for at, (tally, start) in enumerate(zip(self.motion.tallies(), self.motion.starts, strict=True)):
+        for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):
             error = passage.error[at]
             found += [start + tally.mean * angle + error, error, tally.mean + passage.rate[at]]
         return found
 
-    def check_resumed(self, row: str, rows: int) -> None:
+    def _check_resumed(self, row: str, rows: int) -> None:
         """Refuse to go on with a table whose last row is not of this run.
 
         Parameters
@@ -345,7 +371,7 @@ class MotionRun(Tabular, Pictured):
         GearTrainError
             If this run has other turns there, or fewer positions.
         """
-        # the operations of `passages` in their order: the same float, and so the same text
+        # the operations of `_stretches` in their order: the same float, and so the same text
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):
             what = f"its row {rows} stands at {row.split(',')[0]} turns, and this run has {turns!r} there"

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class ToothImpact:
+class ToothImpact(Shown):
     """Collisions of the teeth of one pair, where its speed ratio leaps up: equation (7) of docs/motion.md.
 
     See Also
@@ -54,10 +54,10 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
 
     inertias   of links about their own axes (kg m2); links without one count as having none
     """
-    spread = motion.spread
+    spread = motion._propagation
     weight = np.array([inertias.get(link, 0.0) for link in spread.links])
     found = {}
-    for source in motion.ahead.sources:
+    for source in motion._forward.sources:
         transmission = source.transmission
         leaps = transmission.speed_leaps()
         if leaps is None:

@@ -51,7 +51,7 @@ class RunningStatistics(Result):
 
     See Also
     --------
-    MotionRun.tallies : where these stand.
+    MotionRun.statistics : where these stand.
     """
 
     KEYS = (

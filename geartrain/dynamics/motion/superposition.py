@@ -138,9 +138,9 @@ def find_estimates(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, ErrorEstimates]:
     """Every estimate of every output's ripple with its true error, over `samples` positions."""
-    superposed = Superposition(motion.ahead if turns >= 0 else motion.back)
-    true, nominal, lagged = motion.tallies(), *((motion.tallies(), motion.tallies()) for _ in range(2))
-    for passage in motion.passages(turns, samples):
+    superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
+    true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))
+    for passage in motion._stretches(turns, samples):
         for at, tally in enumerate(true):
             tally.add(passage.error[at], passage.rate[at])
         for counted, tallies in ((False, nominal), (True, lagged)):

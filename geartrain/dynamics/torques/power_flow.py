@@ -333,9 +333,7 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
 
 def has_torque_units(train: Train, state: str | None) -> bool:
     """True if the loads and bearings of one state are given in units."""
-    bearings = (part.bearing.sliding for part in train.links.values() if part.bearing is not None)
-    torques = [torque for torque in (*train.case(state).loads.values(), *bearings) if torque.value]
-    return bool(torques) and all(torque.unit is not None for torque in torques)
+    return train.has_torque_units(state)
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:

@@ -12,12 +12,6 @@ from fractions import Fraction
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies, balancing_torque, unbalanced_motions
-from geartrain.dynamics.torques.mean_efficiencies import (
-    all_mean_efficiencies,
-    find_mean_efficiencies,
-    settle_mean_efficiencies,
-)
-from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 from geartrain.dynamics.torques.torque_balance import LoadedPair, LoadShares, TorqueBalance, generic_balance, idle_pairs
 from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
 from geartrain.kinematics.circuits import Circuit
@@ -405,6 +399,8 @@ def _balanced(
     state = setting.case.state
     if not requested.enough and (lacking := find_imbalance(setting, known, requested.links)) is not None:
         return Torques(state, _with_reason(requested, lacking), requested.links)
+    from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies, settle_mean_efficiencies
+
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
     balance, neither = settle_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
@@ -416,6 +412,8 @@ def _balanced(
     loose = flows[0].solved.loose if flows else ()
     left_out: tuple[NeglectedEffect, ...] = ()
     if not flows_only:
+        from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
+
         missed = [name for name in idle if name not in loose]
         left_out = find_neglected_effects(setting, means, neither, missed, bearings)
     verdict = find_torque_verdict(question, flows, complete, left_out)
@@ -543,7 +541,7 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
         mesh.rolling if setting.relative(circuit.i, circuit.carrier) is not None else None,
         mesh.efficiency(ahead),
         mesh.id in flow.solved.loose,
-        find_mean_efficiencies(setting, circuit).exact,
+        setting.means[mesh.id].exact,
     )
 
 

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Literal, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result, Tabular, picture_maker
+from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, picture_maker
 
 
 @dataclass(frozen=True)
@@ -201,6 +201,9 @@ class TorqueVerdict(Result):
     candidates: tuple[str, ...] = ()
     """Links whose torque may be requested (`solve_for`) or would balance the loads; pairs that share a load openly."""
 
+    def _summary(self) -> str:
+        return f"{self.kind}: {self.text}"
+
     def __bool__(self) -> bool:
         return self.kind in ("determined", "incomplete", "ambiguous", "indeterminate")
 
@@ -247,7 +250,7 @@ class DrivenWay(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Torques(FrozenFields, Tabular, Result):
+class Torques(FrozenFields, Tabular, TrainResult):
     """Torques and powers of a train in one state, all exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
     Torques are in N m where loads have units, else in the plain unit of the loads; powers are torques times the train's
@@ -269,6 +272,15 @@ class Torques(FrozenFields, Tabular, Result):
     >>> round(float(found.external["sun"]), 6), found.pairs["s~p"].driver
     (2.940312, 's')
     """
+
+    MEANINGS: ClassVar = {
+        "link": "Link with an external torque.",
+        "torque": "External torque on the link",
+        "speed": "Speed of the link; empty where it is not determined",
+        "power": "Power that the torque puts into the train; empty where the speed is not determined",
+    }
+
+    PAGE = "report.torque_report:torques_document"
 
     KEYS = (
         "state",
@@ -301,6 +313,26 @@ class Torques(FrozenFields, Tabular, Result):
     """Brakes and locks with the torques they exert."""
     left_out: tuple[NeglectedEffect, ...] = ()
     """What is not counted."""
+
+    def _meaning(self, column: str) -> str:
+        text = self.MEANINGS[column]
+        return text if column == "link" else f"{text} [{self._units[column]}]."
+
+    @property
+    def _units(self) -> Mapping[str, str]:
+        """Units of torque, speed and power, as the declaration has them."""
+        declared = self._declaration
+        torque, speed = "N m, or the plain unit of the loads", "unit of the train"
+        if declared is not None:
+            torque = "N m" if declared.has_torque_units(self.state) else "plain number"
+            speed = declared.unit_name or "plain number"
+        return {"torque": torque, "speed": speed, "power": f"{torque} x {speed}"}
+
+    def _summary(self) -> str:
+        figures = [f"{link} {brief(as_float(self.external[link]))}" for link in self.requested if link in self.external]
+        if self.verdict and (efficiency := self.efficiency) is not None:
+            figures.append(f"efficiency {as_float(efficiency):.6g}")
+        return f"{self._named}: {', '.join([self.verdict.kind, *figures])}".strip()
 
     @property
     def powers(self) -> Mapping[str, Fraction]:

@@ -101,7 +101,7 @@ class PositionMotion:
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
         self.motion = motion
         self._kinks: dict[tuple[frozenset[str], float], Floats] = {}
-        self.composition = motion.with_sources(pairs)
+        self.composition = motion._with_sources(pairs)
         self.sources: Mapping[str, PairErrorSource] = {
             source.id: source for source in self.composition.sources if source.id in pairs
         }
@@ -114,7 +114,7 @@ class PositionMotion:
     @cached_property
     def _columns(self) -> list[int]:
         """The number of each link in the solved order."""
-        at = {link: number for number, link in enumerate(self.motion.spread.links)}
+        at = {link: number for number, link in enumerate(self.motion._propagation.links)}
         return [at[link] for link in self.links]
 
     @property
@@ -125,17 +125,17 @@ class PositionMotion:
     @property
     def way(self) -> int:
         """-1 where the input turns backwards about its own axis: motion counts in its own sense."""
-        return self.motion.train.way
+        return self.motion._problem.way
 
     @cached_property
     def senses(self) -> Floats:
         """Of each link: 1 or -1, that of its axis over the input's own."""
-        return np.array([float(self.way * self.motion.train.signs.get(link, 1)) for link in self.links])
+        return np.array([float(self.way * self.motion._problem.signs.get(link, 1)) for link in self.links])
 
     @cached_property
     def means(self) -> Floats:
         """Mean speed of each link over the input's."""
-        return np.array([float(self.motion.train.ratio(link)) for link in self.links])
+        return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
         """Speeds and angles at some positions, at most a chunk of them.

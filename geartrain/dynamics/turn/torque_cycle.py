@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
+from geartrain.numerics.results import Key, Pictured, Result, Tabular, TrainResult, group
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -140,7 +138,7 @@ class PairCycle(Result):
 
 
 @dataclass(frozen=True)
-class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
+class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 16 to 18.
 
     Positions are about `samples` even ones, every corner and jump of the laws with a position on either side of it,
@@ -165,6 +163,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     >>> found.link, round(found.mean, 6), round(found.maximum.torque, 6), round(found.efficiency, 6)
     ('a', 12.098195, 50.978459, 0.82657)
     """
+
+    PAGE = "report.torque_report:torques_document"
 
     FIGURE = "torque_cycle_figure"
 
@@ -245,6 +245,21 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
             value = getattr(self, each.name)
             if hasattr(value, "flags"):
                 value.flags.writeable = False
+
+    def _meaning(self, column: str) -> str:
+        text = super()._meaning(column).split(" [")[0].rstrip(".")
+        return f"{text} [{'turn' if column == 'turns' else self.unit or 'plain number'}]."
+
+    def _summary(self) -> str:
+        figures: list[str] = [self.verdict.kind]
+        if self.mean is not None:
+            figures.append(f"mean {self.mean:.6g} {self.unit}".rstrip())
+        if self.minimum is not None and self.maximum is not None:
+            figures.append(f"{self.minimum.torque:.6g} to {self.maximum.torque:.6g}")
+        if (efficiency := self.efficiency) is not None:
+            figures.append(f"efficiency {efficiency:.6g}")
+        turns = f"{self.span:g} turn{'' if self.span == 1 else 's'}"
+        return f"{self._named}: torque at {self.link or 'no link'} over {turns}: {', '.join(figures)}".strip()
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -330,23 +345,6 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
         assert self.torque is not None
         return float(np.interp(turns, self.turns, self.torque))
 
-    def _repr_html_(self) -> str:
-        figures = {
-            "mean": self.mean,
-            "maximum": self.maximum_torque,
-            "minimum": self.minimum_torque,
-            "starting": self.starting_torque,
-            "efficiency": self.efficiency or None,  # where nothing is taken out there is none
-        }
-        rows = "".join(f"<tr><td>{name}</td><td>{_shown(value)}</td></tr>" for name, value in figures.items())
-        turns = f"{self.span:g} turn{'' if self.span == 1 else 's'}"
-        head = f"torque at {html.escape(self.link)} over {turns}, {self.unit or 'plain'}"
-        return f"<p>{head}: {html.escape(self.verdict.text)}</p><table>{rows}</table>"
-
 
 def _place(extreme: TorqueExtreme | None) -> PlaceInRun | None:
     return None if extreme is None else PlaceInRun(extreme.turns, extreme.days)
-
-
-def _shown(value: float | None) -> str:
-    return "" if value is None or not isfinite(value) else f"{value:.8g}"

@@ -236,7 +236,7 @@ class _Answer:
 
     def _left_out(self) -> tuple[NeglectedEffect, ...]:
         train = self.run.train
-        teeth = {mesh.name: mesh for mesh in train.motion.motion.train.teeth}
+        teeth = {mesh.name: mesh for mesh in train.motion.motion._problem.teeth}
         found = neglected_over_turn(
             train.setting, tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
         )
@@ -271,7 +271,7 @@ class _Answer:
         train = self.run.train.setting.train
         if train.unit_days is None:
             return PlaceInRun(turns)
-        speed = abs(float(self.run.train.setting.speeds[self.run.train.motion.motion.train.driving_link]))
+        speed = abs(float(self.run.train.setting.speeds[self.run.train.motion.motion._problem.driving_link]))
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:

@@ -42,6 +42,9 @@ class BuildFinding(Result):
     problem: Problem
     """Place, what, why, and what to do that cures it."""
 
+    def _summary(self) -> str:
+        return f"{self.level} {self.rule}: {self.problem.what}"
+
     @property
     def is_error(self) -> bool:
         """True for what cannot be built."""

@@ -166,6 +166,8 @@ class ClosedForm(Result):
         """As text."""
         return self.text
 
+    _repr_html_ = None  # type: ignore[assignment]  # notebooks show the formula
+
     def _repr_latex_(self) -> str:
         """As notebooks show it."""
         return f"${self.latex}$"

@@ -56,9 +56,16 @@ class OutputFormula(Result):
     poles: tuple[str, ...] = ()
     """Equations between counts at which the output is locked, or free."""
 
+    def _summary(self) -> str:
+        names = ", ".join(share.input for share in self.shares)
+        state = "" if self.state is None else f" in state {self.state}"
+        return f"{self.output}{state} by {names or 'no input'}"
+
     def __str__(self) -> str:
         """As text."""
         return self.text
+
+    _repr_html_ = None  # type: ignore[assignment]  # notebooks show the formula
 
     def _repr_latex_(self) -> str:
         """As notebooks show it."""

@@ -62,6 +62,9 @@ class MeshRemoval(Result):
     proofs: tuple[RemovalBound, ...] = ()
     """Loops that prove the bound; empty where it rests on the method alone."""
 
+    def _summary(self) -> str:
+        return str(self)
+
     @property
     def minimum(self) -> bool:
         """True if no smaller set frees the train."""
@@ -112,6 +115,9 @@ class LockedSubgraph(Result):
     release: MeshRemoval
     """What frees this component alone."""
 
+    def _summary(self) -> str:
+        return str(self)
+
     def __str__(self) -> str:
         loop = self.loop
         if loop.product == -1:
@@ -154,6 +160,9 @@ class Gridlock(Result):
     """Links that meshes about several carriers hold still together, though each loop closes."""
     release: MeshRemoval | None = None
     """What frees the whole train; None if it moves, or if nothing was found."""
+
+    def _summary(self) -> str:
+        return str(self)
 
     @property
     def moves(self) -> bool:

@@ -394,6 +394,8 @@ class MeshPhasing(Result):
         Key("complete", "problem.complete"),
     )
 
+    PAGE = "report.train_report:phasing_document"
+
     problem: PhaseSystem = field(repr=False)
     """The phases of all meshes."""
     backlashes: Mapping[str, float] = field(default_factory=dict)
@@ -402,6 +404,12 @@ class MeshPhasing(Result):
     """Gives wheel -> name under which its tooth number stands in `rule`."""
     unjudged: int = 0
     """Loops of the train that go through a pair or pin without a known place."""
+
+    def _summary(self) -> str:
+        if "kind" not in vars(self):
+            return "not judged yet"
+        worst = "" if self.kind == "open" else f", worst miss {float(self.worst):.3g} pitches"
+        return f"{self.kind}: {len(self.problem.conditions)} loops{worst}"
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:

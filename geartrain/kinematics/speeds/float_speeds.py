@@ -35,6 +35,7 @@ from geartrain.numerics.elimination import TooDenseError, eliminate
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.labelled_array import LabelledArray, labelled_array
 from geartrain.numerics.long_float import HIGHEST, LOWEST, LongFloat, Real, scaled, split
+from geartrain.numerics.results import Shown
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 
 if TYPE_CHECKING:
@@ -142,7 +143,7 @@ _ORDINARY = 400  # powers of two up to which speeds are solved as they are
 
 
 @dataclass(frozen=True, slots=True)
-class FloatSpeeds(FrozenFields):
+class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds by sparse LU and one refinement step, with an estimate of their error (docs/theory.md, 11).
 
     `floats[link]` is the speed of a link in the first case; `RangeError` where float64 does not hold it.
@@ -173,6 +174,9 @@ class FloatSpeeds(FrozenFields):
     or more, infinite of a link at rest. Made when read."""
     exponents: LabelledArray
     """Axes (link, case): powers of two, 0 wherever float64 holds the speed and its estimate."""
+
+    def _summary(self) -> str:
+        return self.speeds._summary()
 
     def __getitem__(self, link: str) -> float:
         speed = self.number(link)

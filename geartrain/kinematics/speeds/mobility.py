@@ -28,6 +28,8 @@ class Mobility(Result):
     (0, 1, 1)
     """
 
+    PAGE = "report.train_report:mobility_document"
+
     KEYS = (
         "by_count",
         "by_rank",
@@ -63,6 +65,11 @@ class Mobility(Result):
     """Ids of circuits whose wheels never roll on each other."""
     certain: bool = True
     """False where the rank was taken modulo two primes (exact but for accidents of 1e-36)."""
+
+    def _summary(self) -> str:
+        locked = f", {len(self.locked)} loops that do not close" if self.locked else ""
+        redundant = f", {self.redundant} redundant circuits" if self.redundant else ""
+        return f"{self.by_rank} by rank, {self.by_count} by count{redundant}{locked}"
 
     @property
     def by_count(self) -> int:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics.gear_meshes import find_sizes
@@ -18,6 +18,9 @@ from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
 from geartrain.train.outputs import looks_away
 from geartrain.train.wheel_stock import wheel_thickness
+
+if TYPE_CHECKING:
+    from geartrain.teeth.lantern import Lantern
 
 Point = tuple[float, float]
 """A place in plan: coordinates (mm) across parallel axes."""
@@ -285,8 +288,10 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
     """A pin and half of one beyond the pitch circle: the rim of a lantern's discs is a pin wide."""
     for gear in declared.gears:
         form = declared.form_of(gear)
-        if form is not None and form.form == "lantern" and form.pin_diameter.unit is None:
-            yield gear.pair[form.pins - 1], 1.5 * float(form.pin_diameter.value)
+        if form is not None and form.form == "lantern":
+            lantern = cast("Lantern", form)
+            if lantern.pin_diameter.unit is None:
+                yield gear.pair[lantern.pins - 1], 1.5 * float(lantern.pin_diameter.value)
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:

@@ -16,6 +16,7 @@ from typing import Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
+from geartrain.numerics.results import Shown
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
@@ -268,7 +269,7 @@ _PARALLEL = 1e-9  # of the cosine: directions are rounded to floats
 
 
 @dataclass(frozen=True, slots=True)
-class AxisPlace:
+class AxisPlace(Shown):
     """An axis in the zero pose.
 
     See Also
@@ -289,7 +290,7 @@ class AxisPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class WheelPlace:
+class WheelPlace(Shown):
     """A wheel on its axis in the zero pose.
 
     See Also
@@ -331,7 +332,7 @@ class WheelPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(Shown):
     """All axes and wheels of a train in space.
 
     See Also
@@ -350,6 +351,10 @@ class Layout:
     apart: Mapping[str, float] = field(default_factory=dict)
     """Gear pairs whose wheels do not touch as placed: how far their pitch circles are apart [mm], negative into each
     other."""
+
+    def _summary(self) -> str:
+        notices = f", {len(self.notices)} notices" if self.notices else ""
+        return f"{len(self.axes)} axes, {len(self.wheels)} wheels{notices}"
 
     def axis_distance(self, first: str, second: str) -> float | None:
         """How far apart the axes of two wheels are, where they are parallel.

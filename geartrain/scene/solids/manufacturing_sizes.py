@@ -13,6 +13,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity
+from geartrain.numerics.results import Shown
 from geartrain.scene.layout import Layout, WheelPlace
 from geartrain.scene.layout.wheel_modules import WIDE
 from geartrain.scene.parts.processes import process_named
@@ -32,7 +33,7 @@ _NEAR = 1.3  # how much thicker or thinner than 2.5 modules a sheet may be
 
 
 @dataclass(frozen=True, slots=True)
-class ManufacturingSizes:
+class ManufacturingSizes(Shown):
     """Sizes in which a train is made; None leaves one to the layout.
 
     Raises

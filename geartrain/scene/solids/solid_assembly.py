@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.results import Shown
 from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
 from geartrain.scene.layout.declared_geometry import read_geometry
@@ -45,7 +46,7 @@ _GAP = 1.0  # mm between a plate and what turns before it
 
 
 @dataclass(frozen=True)
-class SolidModel:
+class SolidModel(Shown):
     """A train with all that exports ask for, each made once when it is first asked for.
 
     Raises

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.results import Shown
 from geartrain.scene.parts.turned_parts import TurnedPart
 from geartrain.scene.solids.triangle_solids import Solid, plate_solid
 from geartrain.teeth.outlines.contour import Contour
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class SolidPart:
+class SolidPart(Shown):
     """One solid of a body: a point p of it stands at turn p + place.
 
     See Also

@@ -1,1 +1,1 @@
-"""What else must hold of tooth counts besides ratios: assembly, clearance, interference, sums; count constraints."""
+"""Constraints on tooth counts in addition to ratios: assembly, clearance, interference, sums."""

@@ -1,7 +1,7 @@
-"""Constraints on the tooth counts of a declared train besides ratios: assembly, positions of axes, interference.
+"""Constraints on the tooth counts of a declared train: assembly, positions of axes, interference.
 
-`find_constraints` makes them out of a train and of `ConstraintOptions`. There are two kinds: a `CountEquation`, which
-can be solved for a wheel, and a `Condition`, which only tells. Both judge many candidates at once.
+`find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
+solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
 """
 
 from __future__ import annotations
@@ -60,35 +60,36 @@ if TYPE_CHECKING:
 
 
 BACKLASH = 0.05
-"""Half modules by which positions may be off: they are rounded, and teeth have play."""
+"""Tolerance of a distance between declared positions [half modules]: positions are rounded, and teeth have backlash."""
 
 
 def find_constraints(
     train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
 ) -> tuple[CountConstraint, ...]:
-    """The rules that the free wheels of a train must keep, the cheapest first.
+    """Return the constraints on the free wheels of a train, those with the lowest cost first.
 
-    free   wheel -> counts it may have; all other wheels have their declared counts
-    Order: limits of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops. Rules
-    without a free wheel are left out, for the search cannot change what they say. `QuestionError` where one that is
-    asked cannot be judged in this train, or no counts can meet it.
+    free   wheel -> admissible counts; all other wheels have their declared counts
+
+    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops.
+    Constraints without a free wheel are omitted, because the search cannot change them. `QuestionError` is raised if a
+    requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
     """
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
     stand_in = with_counts(train, {wheel: counts[0] for wheel, counts in free.items()})
-    return tuple(_Requesting(train, TrainAssembly.of(stand_in, free), requested).rules()) if free else ()
+    return tuple(_ConstraintBuilder(train, TrainAssembly.of(stand_in, free), requested).rules()) if free else ()
 
 
 @dataclass(frozen=True)
-class _Requesting:
-    """The rules of one train; in `fitting` its free wheels have stand-in counts."""
+class _ConstraintBuilder:
+    """Builder of the constraints of one train; in `fitting` its free wheels have placeholder counts."""
 
     declared: Train
     fitting: TrainAssembly
     requested: ConstraintOptions
 
     def rules(self) -> Iterator[CountConstraint]:
-        """All of them, in order."""
+        """Yield all constraints in order."""
         yield from self._limits()
         linear = [*self._coaxial(), *self._equal()]
         yield from sorted(linear, key=lambda rule: not isinstance(rule, CountEquation))
@@ -123,7 +124,7 @@ class _Requesting:
                 yield Condition(what, (name,), CountBounds(name, minimum=rack))
 
     def _most(self, wheel: str, radius: Quantity) -> int:
-        """The largest count whose pitch radius, m z/2, is within bounds."""
+        """Return the maximum count for which the pitch radius, m z/2, is within the bound."""
         measure, module = self.fitting.module(wheel)
         if (measure == "m") != (radius.unit is not None) or module is None:
             declared = "a length" if measure == "m" else "a plain number" if measure else "not declared"
@@ -131,20 +132,22 @@ class _Requesting:
                 Problem(
                     f"the radius of '{wheel}' cannot be compared with {radius}",
                     f"its module is {declared}" if module else "several modules are declared for it",
-                    "give lengths and modules both with units; without modules a radius is a plain number of modules",
+                    "give radius and modules with units; without modules a radius is a plain number of modules",
                 )
             )
+        # pitch radius r = m z / 2
         return int(2 * radius.base / module)
 
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Meshes between the same two axes, of one measure: each has the centre distance of the first."""
+        """Yield the equality of centre distances for meshes between the same axes with the same measure."""
         if self.requested.coaxial is False:
             return
         first: dict[object, AssemblyMesh] = {}
         for mesh in self.fitting.meshes:
             if mesh.spur and mesh.module is not None:
+                # all meshes of a group are compared with its first one
                 before = first.setdefault((mesh.carrier, frozenset(mesh.axes), mesh.measure), mesh)
                 yield from self._one_distance(before, mesh)
 
@@ -153,9 +156,10 @@ class _Requesting:
         shift = self.requested.shift * min(before.module or 1, mesh.module or 1)
         if not (before.is_free or mesh.is_free) or self._is_broken(total, shift):
             return
+        # the free counts cancel, so the constraint depends on fixed counts only
         if not total.terms:
             if abs(total.constant) > shift:
-                raise QuestionError(_never(before, mesh))
+                raise QuestionError(_unequal_distances(before, mesh))
             return
         found = plainest(total)
         if not shift:
@@ -166,15 +170,20 @@ class _Requesting:
         yield Condition(words, scaled.wheels, NearZero(scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """True if the declared counts do not meet the rule, and it is not asked for: modules differ, or are shifted."""
-        counts = {wheel: self._evident(wheel) for wheel in total.terms}
+        """Return whether the declared counts violate a constraint that was not requested explicitly.
+
+        Modules then differ, or profiles are shifted.
+        """
+        counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
         return (
             self.requested.coaxial is None and None not in counts.values() and abs(sum(known) + total.constant) > shift
         )
 
-    def _evident(self, wheel: str) -> int | None:
-        """The declared count; None where it is to be searched for, and a value beside that only stands in."""
+    def _declared_count(self, wheel: str) -> int | None:
+        """Return the declared count, or None if it is to be searched for, in which case its value is only a
+        placeholder.
+        """
         teeth = self.declared.wheels[wheel][1].teeth
         if isinstance(teeth, int):
             return teeth
@@ -201,8 +210,8 @@ class _Requesting:
         return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Of each free wheel and all fixed counts, then of each two free wheels."""
-        words = "different counts: two wheels have the same"
+        """Yield the conditions between each free wheel and all fixed counts, then between each two free wheels."""
+        words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
         groups = joined_groups(self.fitting.train.wheels, copied)
         alike = {wheel: at for at, wheels in enumerate(groups) for wheel in wheels}
@@ -223,8 +232,8 @@ class _Requesting:
 
     # --------------------------------------------------------------------------------------------------------- planets
 
-    def _numbered(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Sets of planets and how many there are of each: as asked, else by `copies`."""
+    def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
+        """Yield each set of planets with its number of equal planets: the requested number, or that of `copies`."""
         requested = self.requested.planets
         if requested is None:
             for one in self.fitting.sets:
@@ -240,24 +249,24 @@ class _Requesting:
             number = requested.get(one.carrier) if isinstance(requested, Mapping) else requested
             if number is None:
                 continue
-            if number < 1 or self._declared(one) not in (1, number) or one.planets is None:
-                raise QuestionError(_not_so_many(one, number, self._declared(one)))
+            if number < 1 or self._declared_sets(one) not in (1, number) or one.planets is None:
+                raise QuestionError(_wrong_planet_number(one, number, self._declared_sets(one)))
             yield one, number
 
-    def _declared(self, one: PlanetSet) -> int:
-        """Equal sets that are declared, by `copies` or one by one."""
+    def _declared_sets(self, one: PlanetSet) -> int:
+        """Return the number of equal sets that are declared, by `copies` or individually."""
         return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
 
     def _equal(self) -> Iterator[CountConstraint]:
-        """Planets declared one by one have the same counts."""
-        for one, _ in self._numbered():
+        """Yield the equations that give individually declared equal planets the same counts."""
+        for one, _ in self._planet_sets():
             for first, other in self._copied(one):
                 found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
                 if found.terms:
                     yield CountEquation(f"equal planets: {equality(found)}", dict(found.terms), found.constant)
 
     def _planets(self) -> Iterator[CountConstraint]:
-        numbered = list(self._numbered())
+        numbered = list(self._planet_sets())
         for one, number in numbered:
             rule = equal_planets(one, number, reason(one, number))
             if rule is not None:
@@ -267,9 +276,9 @@ class _Requesting:
         if not numbered:
             raise QuestionError(
                 Problem(
-                    "the room between planets is not known",
-                    "it depends on how many there are on a carrier",
-                    "say how many equal planets there are: planets=3",
+                    "the clearance between planets cannot be computed",
+                    "it depends on the number of planets on a carrier",
+                    "give the number of equal planets: planets=3",
                 )
             )
         for one, number in numbered:
@@ -277,11 +286,11 @@ class _Requesting:
             yield from room.conditions(one, self.fitting)
 
 
-def _never(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
+def _unequal_distances(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
     return Problem(
-        f"'{before.name}' and '{mesh.name}' never have one centre distance",
-        "they lie between the same two axes, and what is free in them cancels",
-        "correct a fixed count, allow a `shift`, or do not ask for `coaxial`",
+        f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
+        "they connect the same two axes, and their free counts cancel",
+        "correct a fixed count, allow a `shift`, or do not require `coaxial`",
     )
 
 
@@ -289,31 +298,33 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
     what = f"'{unknown[0]}' carries no planets" if unknown else "no link carries planets"
     return Problem(
         what,
-        "planets turn on axes that a link other than the frame carries along",
-        f"name one of: {', '.join(known)}" if known else "leave the number of planets out",
+        "the axes of planets are carried by a link other than the frame",
+        f"name one of: {', '.join(known)}" if known else "omit the number of planets",
     )
 
 
-def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
+def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
     if one.planets is None:
-        why = "they mesh with each other in a loop, which is not judged"
+        why = "planets that mesh with each other in a loop are not supported"
     elif number < 1:
-        why = "a carrier has one planet or more"
+        why = "a carrier has at least one planet"
     else:
-        why = f"{declared} sets are declared, alike"
+        why = f"{declared} equal sets are declared"
     return Problem(
-        f"{number} equal planets {one.title} on '{one.carrier}' cannot be asked for",
+        f"{number} equal planets {one.title} on '{one.carrier}' cannot be required",
         why,
-        "ask for as many as are declared, or declare one that stands for all; or ask by carrier: planets={'arm': 3}",
+        "give the declared number, declare one set that represents all, or use planets={'arm': 3}",
     )
 
 
-# ------------------------------------------------- declared positions: which counts reach each other, which teeth meet
+# ------------------------------------------------- declared positions: centre distances and the phasing of loops
 
 
 @dataclass(frozen=True, slots=True)
 class CentreDistanceMatch:
-    """A sum of teeth as near as `most` to a multiple of another: centre distances in the proportion of positions."""
+    """Condition that a sum of teeth is within `most` of a multiple of another: centre distances are proportional to the
+    distances between positions.
+    """
 
     teeth: WholeSum
     other: WholeSum
@@ -321,57 +332,58 @@ class CentreDistanceMatch:
     most: float
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it is, (candidates,)."""
+        """Return the candidates for which the distances match, (candidates,)."""
         return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
 
 
 @dataclass(frozen=True)
 class LoopPhasing:
-    """Loops whose teeth meet, judged for every candidate on its own (about a millisecond each)."""
+    """Condition that the teeth of all loops mesh, tested for each candidate (about a millisecond each)."""
 
     train: Train
-    """With some counts; those of `wheels` are put in."""
+    """Train with placeholder counts; those of `wheels` are replaced."""
     tree: Tree
-    """With some counts; those of `wheels` are put in."""
+    """Tree with placeholder counts; those of `wheels` are replaced."""
     circuits: tuple[Circuit, ...]
-    """With some counts; those of `wheels` are put in."""
+    """Circuits with placeholder counts; those of `wheels` are replaced."""
     wheels: tuple[str, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where no loop misses or cannot be told, (candidates,)."""
+        """Return the candidates for which no loop fails or is undecided, (candidates,)."""
         rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
+        # each distinct combination of counts is tested once
         each, back = np.unique(rows, axis=0, return_inverse=True)
         found = [self.holds(dict(zip(self.wheels, row, strict=True))) for row in each.tolist()]
         return np.array(found, dtype=bool)[back.reshape(-1)]
 
     def holds(self, counts: Mapping[str, int]) -> bool:
-        """True if the loops close with these counts."""
+        """Return whether all loops close with these counts."""
         return bool(find_phasing(self.train, self.tree, [circuit.with_counts(counts) for circuit in self.circuits]))
 
 
 @dataclass(frozen=True)
 class DeclaredPositions:
-    """The declared positions of a train, as facts: wheels must reach each other there, and teeth meet."""
+    """Constraints from the declared positions of axes: wheels must reach each other, and their teeth must mesh."""
 
     fitting: TrainAssembly
     shift: int = 0
-    """Half modules that profile shift bridges."""
+    """Deviation of a centre distance that profile shift compensates [half modules]."""
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Phase closure with the stand-in counts."""
+        """Phase closure with the placeholder counts."""
         return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
 
     def conditions(self) -> Iterator[Condition]:
-        """Distances first, loops last. `QuestionError` where no loop has known places."""
+        """Yield the conditions on distances, then on loops; `QuestionError` if the positions of no loop are known."""
         found = self.closure
         if found.kind == "open" and not found.rigid:
-            raise QuestionError(_no_places(self.fitting.train))
-        yield from self._reaching()
-        yield from self._meeting()
+            raise QuestionError(_no_positions(self.fitting.train))
+        yield from self._distance_conditions()
+        yield from self._loop_condition()
 
-    def _reaching(self) -> Iterator[Condition]:
-        """Meshes that share a wheel, or have modules of one measure, share a unit: distances are as their teeth."""
+    def _distance_conditions(self) -> Iterator[Condition]:
+        """Yield the conditions on distances. Meshes with a common wheel or measure of modules share a unit."""
         groups: dict[int, list[AssemblyMesh]] = {}
         for mesh in self.fitting.meshes:
             if mesh.spur and self._length(mesh):
@@ -383,17 +395,19 @@ class DeclaredPositions:
     def _by_module(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
         for mesh in meshes:
             assert mesh.module is not None
-            yield from self._as(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
+            yield from self._match(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
 
     def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
         fixed = [mesh for mesh in meshes if not mesh.is_free]
         for mesh in meshes:
             first = (fixed or meshes)[0]
             if mesh is not first:
-                yield from self._as(mesh, teeth_of(first), self._length(mesh) / self._length(first), f"'{first.name}'")
+                yield from self._match(
+                    mesh, teeth_of(first), self._length(mesh) / self._length(first), f"that of '{first.name}'"
+                )
 
     def _is_sized(self, mesh: AssemblyMesh) -> bool:
-        """True if the module of a mesh and the positions of its axes are in one measure."""
+        """Return whether the module of a mesh and the positions of its axes have the same measure."""
         if not mesh.measure or mesh.module is None:
             return False
         places = [self.fitting.train.axes[label].position for label in mesh.axes]
@@ -401,36 +415,37 @@ class DeclaredPositions:
             mesh.measure == "plain"
         }
 
-    def _as(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
+    def _match(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
         one, two = whole(teeth_of(mesh), other)
         wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
         if wheels:
-            name = f"declared positions: '{mesh.name}' reaches as {what} says"
+            name = f"declared positions: centre distance of '{mesh.name}' agrees with {what}"
             yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, BACKLASH + self.shift))
 
     def _length(self, mesh: AssemblyMesh) -> float:
-        """Distance of the two axes of a mesh (m, or plain); 0 where a position is not declared."""
+        """Return the distance between the two axes of a mesh [m, or plain]; 0 if a position is not declared."""
         axes = self.fitting.train.axes
         ends = [axes[label].position for label in mesh.axes if label in axes]
         if len(ends) < 2 or ends[0] is None or ends[1] is None:
             return 0.0
         way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
         arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
+        # component along the axes, which does not count
         along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
         return sqrt(max(sum(x * x for x in arm) - along, 0.0))
 
-    def _meeting(self) -> Iterator[Condition]:
-        """One condition on all loops: by their rule where it is known, else candidate by candidate."""
+    def _loop_condition(self) -> Iterator[Condition]:
+        """Yield one condition on all loops: their divisibility rule if known, otherwise a test of each candidate."""
         wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
         if not wheels:
             return
         alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
-        # with several carriers, or loops that do not turn, which loops there are depends on the counts
+        # with several carriers, or with rigid loops, the set of loops depends on the counts
         rule = replace(self.closure, alike=dict).rule if alone else None
-        name = "phase closure: teeth of all loops meet at the declared positions"
+        name = "phase closure: teeth of all loops mesh at the declared positions"
         if rule is None:
             train = self.fitting.train.model_copy()
-            train._marks = None  # it leads to a file, which other processes do not need
+            train._marks = None  # refers to a file, which other processes do not need
             yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
             return
         sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
@@ -443,7 +458,7 @@ class DeclaredPositions:
         return total
 
     def _in_loops(self) -> Sequence[str]:
-        """The wheels of all pairs in loops, closing and rigid ones."""
+        """Return the wheels of all pairs in loops, both closing and rigid ones."""
         problem = self.closure.problem
         meshes = {mesh for condition in problem.conditions for mesh in condition.row}
         pairs = {problem.circuits[mesh].id for mesh in meshes}
@@ -452,11 +467,11 @@ class DeclaredPositions:
         return list(dict.fromkeys(wheel for circuit in circuits for wheel in circuit.wheels))
 
 
-def _no_places(train: Train) -> Problem:
+def _no_positions(train: Train) -> Problem:
     return Problem(
-        f"no loop of '{train.name}' has known places",
-        "teeth meet or miss around loops of meshes, where the positions of axes are declared",
-        "declare `axes` with positions, or leave phase closure out",
+        f"the axes of no loop of '{train.name}' have known positions",
+        "phase closure requires the positions of the axes of a loop",
+        "declare `axes` with positions, or omit phase closure",
         train.place("axes"),
     )
 
@@ -465,43 +480,46 @@ def _no_places(train: Train) -> Problem:
 
 
 def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
-    """Least teeth of a spur wheel that a rack does not undercut: z >= 2 h / sin(alpha)^2, rounded up.
+    """Return the minimum tooth count of a spur wheel without undercut by a rack: z >= 2 h / sin(alpha)^2, rounded up.
 
-    pressure   alpha, turns (0 to 1/4); addendum h of the rack, modules. 18 at 20 degrees (17.1), 32 at 14.5
-    The rack's tip reaches h below the pitch line; the involute ends where the line of action leaves the base circle,
-    r sin(alpha)^2 below it.
+    pressure   pressure angle alpha [turns], 0 to 1/4
+    addendum   addendum h of the rack [modules]
+
+    Examples with h = 1: 18 teeth at 20 degrees (17.1), 32 at 14.5. The tip line of the rack lies h below the pitch
+    line; the involute ends at the point where the line of action touches the base circle, r sin(alpha)^2 below it.
     """
     with localcontext(prec=50):
         limit = decimal(2 * addendum) / sine(pressure) ** 2
-        # what agrees with a whole number in 25 digits is that number, and is not rounded up past it
+        # a value that equals an integer to 25 digits is that integer, and must not be rounded up
         return int((limit - decimal(Fraction(1, 10**25))).to_integral_value(ROUND_CEILING))
 
 
 def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h): 0 or more if the tip of 2 stays on the involute of 1.
+    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), >= 0 if tip 2 does not interfere with wheel 1.
 
-    The tip circle of 2 must cut the line of action before the point where that touches the base circle of 1:
+    The tip circle of 2 must intersect the line of action before the point where that touches the base circle of 1:
     r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares of z2
-    cancel. For z2 without end it is z1 sin(alpha)^2 >= 2 h, the rack. Solved for z1 it is the least pinion that
-    textbooks of machine elements print (Shigley, at 20 degrees: 13 teeth go with 16 at most, 14 with 26, 15 with 45).
+    cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1 it gives
+    the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15 with 45).
     """
     return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
 
 
 def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h): 0 or more if the ring's tip stays on the involute of 1.
+    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 without interference of the ring's
+    tip.
 
-    h is the ring's addendum. As for an external pair with z2 and h negative; derived apart: the ring's tip circle must
-    cut the line of action beyond the point where that touches the base circle of 1, counted from the ring's own,
-    r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
+    h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
+    independently: the ring's tip circle must intersect the line of action beyond the point where that touches the base
+    circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
     """
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 
 
 def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """`tip_room` of each candidate (rad); arguments as there, tooth counts as arrays of one shape."""
+    """Return the clearance `tip_room` of each candidate [rad]; tooth counts are arrays that broadcast to one shape."""
     planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
-    # many candidates share a few pairs of counts
+    # many candidates share the same few pairs of counts
     pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
     rooms = np.array([tip_room(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
     return np.asarray(rooms[which.ravel()].reshape(planets.shape))
@@ -509,7 +527,7 @@ def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats
 
 @dataclass(frozen=True, slots=True)
 class OnInvolute:
-    """Tips of an external pair stay on each other's involute, exactly."""
+    """Condition that the tips of an external pair do not interfere: each meets the involute of its mate; exact."""
 
     first: CountRef
     second: CountRef
@@ -517,7 +535,7 @@ class OnInvolute:
     addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they do, (candidates,)."""
+        """Return the candidates without interference, (candidates,)."""
         z1, z2 = counts_of(columns, self.first), counts_of(columns, self.second)
         constants = _square(self.pressure), decimal(self.addendum)
         one = is_positive(external_terms, [z1, z2], constants, False)
@@ -526,7 +544,10 @@ class OnInvolute:
 
 @dataclass(frozen=True, slots=True)
 class InRing:
-    """Tips of a planet and a ring keep clear of each other's flanks. Tips that pass by less than 1e-9 rad meet."""
+    """Condition that the tips of a planet and a ring do not interfere with each other's flanks or tips.
+
+    Tips that pass each other with a clearance of less than 1e-9 rad count as interfering.
+    """
 
     planet: CountRef
     ring: CountRef
@@ -535,7 +556,7 @@ class InRing:
     ring_addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they do, (candidates,)."""
+        """Return the candidates without interference, (candidates,)."""
         z1, z2 = counts_of(columns, self.planet), counts_of(columns, self.ring)
         fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
         fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
@@ -551,7 +572,7 @@ def _square(pressure: Fraction) -> Decimal:
 def interference(
     mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
 ) -> Iterator[Condition]:
-    """The condition on a spur pair with a free count. Angles in turns, addenda in modules."""
+    """Yield the interference condition of a spur pair with a free count; angle in turns, addenda in modules."""
     wheels = free_of(*mesh.parts)
     if not wheels or not mesh.spur:
         return

@@ -1,4 +1,4 @@
-"""What a search asks of tooth counts besides ratios, and how it is read from a command line."""
+"""Options for the constraints on tooth counts in a search, and their parser for the command line."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, slots=True)
 class ConstraintOptions:
-    """Constraints on tooth counts besides ratios. By default only that wheels between the same axes fit.
+    """Constraints on tooth counts in addition to ratios. By default only coaxial centre distances are required.
 
     See Also
     --------
@@ -30,40 +30,44 @@ class ConstraintOptions:
     """
 
     coaxial: bool | None = None
-    """Spur wheels of one module between the same two axes have one centre distance; where no module is declared they
-    are taken to have one. None asks for it but where declared counts, none of them to be searched for, break it
-    already: then modules differ, or teeth are shifted."""
+    """Requirement that spur wheels of the same module between the same two axes have equal centre distances. Wheels
+    without a declared module are assumed to have the same one. None requires it unless declared counts, none of them
+    searched for, already violate it; modules then differ, or profiles are shifted.
+    """
     shift: int = 0
-    """Half modules by which such distances may differ, for profile shift bridges them."""
+    """Maximum difference between such distances [half modules], to be compensated by profile shift."""
     planets: int | Mapping[str, int] | None = None
-    """Equal planets, equally spaced, on every carrier that moves planets; or carrier -> number. Equal are also the
-    ways in which wheels stand on their arbors."""
+    """Number of equal, equally spaced planets on every carrier that moves planets, or a mapping carrier -> number.
+    Equal planets also have the same relative orientation of the wheels on their arbors.
+    """
     clearance: Fraction | None = None
-    """Room between the tips of neighbouring planets [modules]: strictly more than this."""
+    """Minimum clearance between the tips of neighbouring planets [modules], exclusive."""
     undercut: Quantity | None = None
-    """Pressure angle, above 0 and below 90 deg: no external spur wheel is undercut by a rack."""
+    """Pressure angle, above 0 and below 90 deg, at which no external spur wheel may be undercut by a rack."""
     interference: Quantity | None = None
-    """Pressure angle: tips of spur wheels keep to the involute of their mates, in rings to their gaps too."""
+    """Pressure angle at which the tips of spur wheels must not interfere with their mates."""
     addendum: Fraction = Fraction(1)
-    """Of external wheels and of the rack [modules]."""
+    """Addendum of external wheels and of the rack [modules]."""
     ring_addendum: Fraction | None = None
-    """Of rings [modules]; None for that of external wheels. Rings are often cut shorter: at 1 and 20 deg 18 teeth in
-    60 interfere."""
+    """Addendum of rings [modules]; None for that of external wheels. The teeth of rings are often shortened: with
+    addendum 1 at 20 deg, 18 teeth in a ring of 60 interfere.
+    """
     minimum: int | None = None
-    """Least tooth count of every free wheel, inclusive; worms are exempt."""
+    """Minimum tooth count of every free wheel, inclusive; worms are exempt."""
     most_teeth: int | None = None
-    """Greatest tooth count of every free wheel, inclusive; worms are exempt."""
+    """Maximum tooth count of every free wheel, inclusive; worms are exempt."""
     largest_radius: Quantity | None = None
-    """Of the pitch circle of every free wheel: a length, or a plain number of modules; worms are not asked."""
+    """Maximum pitch radius of every free wheel: a length, or a plain number of modules; worms are exempt."""
     different: bool = False
-    """No free wheel has as many teeth as another wheel; equal planets may."""
+    """Requirement that no free wheel has as many teeth as another wheel, except equal planets."""
     hunting: bool = False
-    """Teeth of wheels that mesh have no common divisor."""
+    """Requirement that the tooth counts of meshing wheels are coprime."""
     closure: bool = False
-    """The teeth of every loop meet at the declared positions of axes, where wheels reach each other."""
+    """Requirement that the wheels reach each other at the declared positions of axes and the teeth of every loop mesh.
+    """
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON, quantities as written; rules that are off are left out."""
+        """Return plain data for JSON, quantities as written; constraints that are not required are omitted."""
         found = {}
         for field in fields(self):
             value = getattr(self, field.name)
@@ -84,16 +88,16 @@ def read_constraint_options(
     largest_radius: str | None = None,
     **others: Any,
 ) -> ConstraintOptions:
-    """Options read from texts as a command line has them; what is not given stays off.
+    """Parse the options from the texts of a command line; options that are None are not required.
 
     planets         "3" on every carrier, or "arm=3,inner=4"
     clearance, addendum, ring_addendum   numbers of modules: "0.5", "4/5"
     undercut, interference               pressure angles: "20 deg"
     largest_radius                       "60 mm", or "30" modules
-    others          as in `ConstraintOptions`: coaxial, shift, least, most_teeth, different, hunting, closure
+    others          as in `ConstraintOptions`: coaxial, shift, minimum, most_teeth, different, hunting, closure
 
-    The options of a command are named likewise, with `--no-coaxial` to turn that one off. `QuestionError` for what
-    cannot be read, every one of them.
+    The options of a command have the same names, and `--no-coaxial` turns `coaxial` off. `QuestionError` is raised with
+    all texts that cannot be parsed.
     """
     problems: list[Problem] = []
 
@@ -121,25 +125,25 @@ def read_constraint_options(
 
 
 def _read(problems: list[Problem], option: str, text: str | None, parse: Callable[[str], Read]) -> Read | None:
-    """A text parsed; what is wrong with it is collected."""
+    """Parse a text; append a problem if it is invalid."""
     if text is None:
         return None
     try:
         return parse(text)
     except PydanticCustomError as error:
         fix = (error.context or {}).get("fix", "")
-        problems.append(Problem(f"--{option}: {error.message()}", "it is not read", str(fix)))
+        problems.append(Problem(f"--{option}: {error.message()}", "", str(fix)))
         return None
 
 
 def _planets(text: str) -> int | dict[str, int]:
-    """`3`, or `arm=3,inner=4`."""
+    """Parse a number of planets: `3`, or `arm=3,inner=4`."""
     names, found = [], []
     for piece in text.split(","):
         name, _, number = piece.rpartition("=")
         if not number.strip().isascii() or not number.strip().isdigit() or ("," in text and not name):
             raise PydanticCustomError(
-                "planets", "'{text}' is no number of planets", {"text": text, "fix": "write 3, or arm=3,inner=4"}
+                "planets", "'{text}' is not a number of planets", {"text": text, "fix": "write 3, or arm=3,inner=4"}
             )
         names.append(name.strip())
         found.append(int(number))
@@ -147,10 +151,12 @@ def _planets(text: str) -> int | dict[str, int]:
 
 
 def turns(angle: Quantity) -> Fraction:
-    """A pressure angle in turns, above 0 and below a quarter; radians to 50 digits."""
+    """Return a pressure angle in turns, above 0 and below a quarter; radians are converted with 50 digits."""
     found = angle.base
     if angle.dimension != "angle" or not 0 < found < Fraction(1, 4):
         raise QuestionError(
-            Problem(f"{angle} is no pressure angle", "it is above 0 and below 90 deg", "write for example 20 deg")
+            Problem(
+                f"{angle} is not a pressure angle", "it must be above 0 and below 90 deg", "write for example 20 deg"
+            )
         )
     return found

@@ -1,7 +1,7 @@
-"""Constraints on tooth counts: a linear equation that they meet, or a condition that refuses them.
+"""Constraints on tooth counts: linear equations, and conditions that reject candidates.
 
-Weighted sums of tooth counts are centre distances. Conditions with sines of angles are decided in floats where these
-are sure, and to fifty digits where they are not.
+Centre distances are weighted sums of tooth counts. Conditions with sines of angles are evaluated in floats, and with
+fifty digits if the floats are within their error bound.
 """
 
 from __future__ import annotations
@@ -22,52 +22,52 @@ if TYPE_CHECKING:
     from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Ints
 
-_DIGITS = 70  # fifty are meant: the others take up the rounding of sums and powers
+_DIGITS = 70  # fifty are needed; the others absorb the rounding of sums and powers
 _PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803")
-_NEAR = 1e-7  # of the terms: floats, with a root of a difference among the terms, are nearer than this
-_EQUAL = Decimal("1e-25")  # of the terms: what agrees in so many digits is equal
+_NEAR = 1e-7  # relative to the terms: bound of the float error, which a root of a difference increases
+_EQUAL = Decimal("1e-25")  # relative to the terms: values that agree to 25 digits are equal
 
 CandidateColumns = Mapping[str, "Ints"]
-"""Wheel -> tooth counts of many candidates, int64 arrays of one length."""
+"""Wheel -> tooth counts of many candidates, int64 arrays of equal length."""
 
 
 class CandidateTest(Protocol):
-    """A predicate on candidates: a frozen object that can be pickled."""
+    """Predicate on candidates; an immutable object that can be pickled."""
 
     def __call__(self, columns: CandidateColumns, /) -> Bools:
-        """True for the candidates that pass, (candidates,)."""
+        """Return the candidates that pass, (candidates,)."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountEquation:
-    """A rule that counts meet exactly: sum of coefficient times count, plus a constant, is 0."""
+    """Linear equation of tooth counts: the sum of coefficient times count, plus a constant, is 0."""
 
     name: str
-    """The reason, for a reader."""
+    """Description of the constraint in reports."""
     coefficients: Mapping[str, int]
-    """Free wheel -> whole number, none of them 0; at least one wheel."""
+    """Free wheel -> nonzero integer; at least one wheel."""
     constant: int
-    """What the wheels with fixed counts add."""
+    """Contribution of the wheels with fixed counts."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """The free wheels it is about."""
+        """Free wheels of the equation."""
         return tuple(self.coefficients)
 
     def left(self, columns: CandidateColumns) -> Ints:
-        """The sum of the equation, (candidates,); 0 where it holds. Sums above 2^63 overflow."""
+        """Return the left side of the equation, (candidates,); 0 if it is satisfied. Sums above 2^63 overflow."""
         terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
         return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """True for the candidates that meet it, (candidates,)."""
+        """Return the candidates that satisfy the equation, (candidates,)."""
         return np.asarray(self.left(columns) == 0)
 
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
-        """The count of one wheel from those of the others, and where it is whole; both (candidates,).
+        """Return the count of one wheel from those of the others, and whether it is an integer; both (candidates,).
 
-        Columns need not hold `wheel`. The count may be 0 or less, and is rounded down where it is not whole. Of an
-        equation on one wheel alone both arrays have one entry.
+        `columns` need not include `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer.
+        If the equation has only one wheel, both arrays have one entry.
         """
         others = [factor * columns[name] for name, factor in self.coefficients.items() if name != wheel]
         total = reduce(np.add, others, np.array(self.constant, dtype=np.int64))
@@ -77,31 +77,33 @@ class CountEquation:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """A rule that refuses candidates."""
+    """Constraint that can be tested but not solved for a wheel."""
 
     name: str
-    """The reason, for a reader; several conditions may share one."""
+    """Description of the constraint in reports; several conditions may share it."""
     wheels: tuple[str, ...]
-    """The free wheels it is about, at least one."""
+    """Free wheels of the condition, at least one."""
     test: CandidateTest
-    """What decides."""
+    """Predicate on the candidates."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """True for the candidates that pass, (candidates,), read-only. Columns of other wheels are not looked at."""
+        """Return the candidates that satisfy the condition, (candidates,), read-only. Columns of other wheels are
+        ignored.
+        """
         return np.broadcast_to(self.test(columns), columns[self.wheels[0]].shape)
 
 
 CountConstraint = CountEquation | Condition
-"""A constraint on counts: `.name`, `.wheels`, `.holds(columns)`."""
+"""Constraint on counts with `name`, `wheels` and `holds(columns)`."""
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
-    """The counts of a part: those of a free wheel, or one number, which numpy spreads over all candidates."""
+    """Return the counts of a part: the column of a free wheel, or a single number that broadcasts to all candidates."""
     return columns[part] if isinstance(part, str) else np.asarray(part, dtype=np.int64)
 
 
 def free_of(*parts: CountRef) -> tuple[str, ...]:
-    """The free wheels among parts, each once, in order."""
+    """Return the distinct free wheels among parts, in order."""
     return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
 
 
@@ -110,14 +112,14 @@ def free_of(*parts: CountRef) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class LinearSum:
-    """A sum of weight times count over free wheels, and a constant; weights are never 0."""
+    """Sum of weight times count over free wheels, plus a constant; weights are never 0."""
 
     terms: Mapping[str, Fraction]
     constant: Fraction = Fraction(0)
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Weights times parts: of a free wheel by id, or of a fixed count."""
+        """Build the sum of weights times parts, where a part is the id of a free wheel or a fixed count."""
         total = cls({})
         for weight, part in parts:
             total = total + (
@@ -135,30 +137,30 @@ class LinearSum:
         return self + other.times(-1)
 
     def times(self, factor: Fraction | int) -> LinearSum:
-        """The sum with all weights multiplied."""
+        """Return the sum multiplied by a factor."""
         if not factor:
             return LinearSum({})
         return LinearSum({wheel: weight * factor for wheel, weight in self.terms.items()}, self.constant * factor)
 
     def plus(self, number: Fraction | int) -> LinearSum:
-        """The sum with a larger constant."""
+        """Return the sum with a number added to its constant."""
         return LinearSum(self.terms, self.constant + number)
 
 
 @dataclass(frozen=True, slots=True)
 class WholeSum:
-    """A sum of whole weights times counts, and a whole constant."""
+    """Sum of integer weights times counts, plus an integer constant."""
 
     terms: tuple[tuple[str, int], ...]
     constant: int
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """The free wheels in it."""
+        """Free wheels of the sum."""
         return tuple(wheel for wheel, _ in self.terms)
 
     def of(self, columns: CandidateColumns) -> Ints:
-        """Its values, (candidates,); one number where there is no free wheel in it. Sums above 2^63 overflow."""
+        """Return the values of the sum, (candidates,), or one number without free wheels. Sums above 2^63 overflow."""
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
             total = total + weight * columns[wheel]
@@ -166,7 +168,7 @@ class WholeSum:
 
 
 def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
-    """Sums times the least positive number that makes all their weights whole, the same for all."""
+    """Multiply sums by the smallest positive number, the same for all, that makes all their weights integers."""
     scale = lcm(*(number.denominator for one in sums for number in (*one.terms.values(), one.constant)))
     return tuple(
         WholeSum(tuple((wheel, int(weight * scale)) for wheel, weight in one.terms.items()), int(one.constant * scale))
@@ -175,7 +177,7 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """A sum in the smallest whole numbers, its first weight positive: what is 0 stays 0, and nothing else becomes 0."""
+    """Return the primitive integer multiple of a sum, its first weight positive; it is 0 exactly where the sum is 0."""
     (found,) = whole(one)
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
     if found.terms and found.terms[0][1] < 0:
@@ -184,7 +186,7 @@ def plainest(one: LinearSum) -> WholeSum:
 
 
 def equality(one: WholeSum) -> str:
-    """A sum that is 0, in words, with plus signs only: `s + 2 p = r`."""
+    """Format the equation that a sum is 0, with plus signs only: `s + 2 p = r`."""
     pieces = [(one.constant, str(abs(one.constant)))] if one.constant else []
     pieces += [(weight, f"{abs(weight)} {wheel}" if abs(weight) != 1 else wheel) for wheel, weight in one.terms]
     left, right = ([text for weight, text in pieces if weight * side > 0] for side in (1, -1))
@@ -196,14 +198,14 @@ def equality(one: WholeSum) -> str:
 
 @dataclass(frozen=True, slots=True)
 class CountBounds:
-    """A count of a wheel within bounds, inclusive; None for no bound."""
+    """Bounds of the count of a wheel, inclusive; None for no bound."""
 
     wheel: str
     minimum: int | None = None
     most: int | None = None
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it is, (candidates,)."""
+        """Return the candidates within the bounds, (candidates,)."""
         counts = columns[self.wheel]
         found = np.ones(counts.shape, dtype=bool)
         if self.minimum is not None:
@@ -215,25 +217,25 @@ class CountBounds:
 
 @dataclass(frozen=True, slots=True)
 class Coprime:
-    """Two counts without a common divisor: every tooth meets every tooth of its mate (hunting tooth)."""
+    """Condition that two counts are coprime, so that every tooth meets every tooth of its mate (hunting tooth)."""
 
     first: CountRef
     second: CountRef
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where the greatest common divisor is 1, (candidates,)."""
+        """Return the candidates whose gcd is 1, (candidates,)."""
         return np.asarray(np.gcd(counts_of(columns, self.first), counts_of(columns, self.second)) == 1)
 
 
 @dataclass(frozen=True, slots=True)
 class DifferentCount:
-    """A count that differs from others."""
+    """Condition that the count of a wheel differs from other counts."""
 
     wheel: str
     others: tuple[CountRef, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it does, (candidates,)."""
+        """Return the candidates whose count differs from all others, (candidates,)."""
         found = np.ones(columns[self.wheel].shape, dtype=bool)
         for other in self.others:
             found &= columns[self.wheel] != counts_of(columns, other)
@@ -242,24 +244,24 @@ class DifferentCount:
 
 @dataclass(frozen=True, slots=True)
 class NearZero:
-    """A sum no farther from 0 than a whole number."""
+    """Condition that the absolute value of a sum is at most a given integer."""
 
     total: WholeSum
     most: int
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it is, (candidates,)."""
+        """Return the candidates whose sum is within the bound, (candidates,)."""
         return np.asarray(np.abs(self.total.of(columns)) <= self.most)
 
 
 @dataclass(frozen=True, slots=True)
 class Divisible:
-    """Sums that are multiples of a number each: (modulus, sum)."""
+    """Condition that each sum is a multiple of its modulus: pairs (modulus, sum)."""
 
     sums: tuple[tuple[int, WholeSum], ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where all are, (candidates,)."""
+        """Return the candidates for which all sums are multiples, (candidates,)."""
         found = np.asarray(True)
         for modulus, total in self.sums:
             found = found & (total.of(columns) % modulus == 0)
@@ -267,12 +269,12 @@ class Divisible:
 
 
 def teeth_of(mesh: AssemblyMesh) -> LinearSum:
-    """Twice the centre distance of a spur pair, in modules."""
+    """Return twice the centre distance of a spur pair [modules]."""
     return LinearSum.of(mesh.terms)
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
-    """Twice the centre distance of a spur pair with one module, in units of its measure."""
+    """Return twice the centre distance of a spur pair with one module, in units of its measure."""
     assert mesh.module is not None
     return teeth_of(mesh).times(mesh.module)
 
@@ -281,20 +283,20 @@ def distance_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 Kernel = Callable[..., Sequence[Any]]
-"""Terms of a margin: `kernel(root, *numbers)`, of arrays of floats or of decimals.
+"""Function that returns the terms of a margin, `kernel(root, *numbers)`, for arrays of floats or of decimals.
 
-`root` is their square root, 0 of what is negative.
+`root` is the square root of the number type, with 0 for negative arguments.
 """
 
 
 def decimal(number: Fraction | int) -> Decimal:
-    """A fraction to fifty digits."""
+    """Convert a fraction to a decimal with fifty digits."""
     with localcontext(prec=_DIGITS):
         return Decimal(Fraction(number).numerator) / Decimal(Fraction(number).denominator)
 
 
 def sine(turns: Fraction) -> Decimal:
-    """Sine of an angle from -1 to 1 turns, to fifty digits (its power series)."""
+    """Return the sine of an angle from -1 to 1 turns to fifty digits, by its power series."""
     with localcontext(prec=_DIGITS):
         x = 2 * _PI * decimal(turns)
         term = total = x
@@ -307,17 +309,18 @@ def sine(turns: Fraction) -> Decimal:
 
 
 def cosine(turns: Fraction) -> Decimal:
-    """Cosine of an angle from -1 to 3/4 turns, to fifty digits."""
+    """Return the cosine of an angle from -1 to 3/4 turns to fifty digits."""
     return sine(turns + Fraction(1, 4))
 
 
 def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Decimal], strictly: bool) -> Bools:
-    """Where the sum of the terms is above 0 (or 0, unless `strictly`), for each candidate.
+    """Return whether the sum of the terms is above 0 (or >= 0 unless `strictly`), for each candidate.
 
-    counts     whole numbers, arrays that numpy spreads to one shape, (candidates,)
-    constants  numbers that are the same for all
+    counts     integers, arrays that broadcast to one shape, (candidates,)
+    constants  numbers that are the same for all candidates
 
-    Floats decide what is clear, fifty digits the rest. Terms may hold roots of differences of products.
+    Floats decide unless the sum is near 0; fifty digits decide the rest. Terms may include roots of differences of
+    products.
     """
     spread = np.broadcast_arrays(*counts)
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))

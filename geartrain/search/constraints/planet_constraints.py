@@ -1,4 +1,4 @@
-"""Equal planets on a carrier: which tooth counts let all be put in, and leave room between neighbours."""
+"""Assembly of equal planets on a carrier: phase conditions on tooth counts, and clearance between neighbours."""
 
 from __future__ import annotations
 
@@ -38,23 +38,23 @@ if TYPE_CHECKING:
     from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
 
 
-# Equal planets, equally spaced: which tooth counts let all of them be put in.
+# Assembly of equal, equally spaced planets.
 
 
 @dataclass(frozen=True, slots=True)
 class EqualPlanets:
-    """n equal sets of planets, each a turn over n from the one before, can mesh with the same central wheels.
+    """Condition that n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
-    They can if n divides every number of `phase_numbers`, which has the derivation.
+    The condition is that n divides every number of `phase_numbers`, where it is derived.
     """
 
     number: int
     first: PlanetArm
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they can, (candidates,)."""
+        """Return the candidates for which the planets can be assembled, (candidates,)."""
         n = self.number
-        # b matters modulo n only: reduced, so that products of counts stay within int64
+        # b is only needed modulo n; reduced, so that products of counts fit int64
         kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda number: number % n)
         found = np.asarray(True)
         for number in phase_numbers(self.first, kind):
@@ -63,13 +63,13 @@ class EqualPlanets:
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
-    """Greatest common divisors g of arrays of numbers from 0, and u, v with u a + v b = g (Euclid's algorithm)."""
+    """Return the gcd g of arrays of numbers >= 0, and u, v with u a + v b = g, by the extended Euclidean algorithm."""
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
         done = r2 == 0
-        # numpy divides in all rows: by 1 in those that have ended
+        # numpy divides in all rows; in finished ones by 1
         q = np.where(done, 0, r // np.maximum(r2, 1))
-        # rows that have ended keep their values while others go on
+        # finished rows keep their values
         r, r2 = np.where(done, r, r2), np.where(done, r2, r - q * r2)
         s, s2 = np.where(done, s, s2), np.where(done, s2, s - q * s2)
         t, t2 = np.where(done, t, t2), np.where(done, t2, t - q * t2)
@@ -77,7 +77,7 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
-    """The condition on a set of planets; None where no count in it is free, or it constrains nothing."""
+    """Return the assembly condition of a set of planets; None if it has no free count or constrains nothing."""
     assert found.planets is not None
     first = planet_arm(found.planets)
     if sum(len(planet.central) for planet in found.planets.walk()) < 2:
@@ -87,11 +87,11 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
 
 
 def reason(found: PlanetSet, number: int) -> str:
-    """The rule in words, with the formula where it is a short one."""
+    """Describe the assembly condition, with its formula if that is short."""
     head = f"{number} equal planets on '{found.carrier}'"
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
-        return f"{head}: teeth of {found.title} meet"
+        return f"{head}: teeth of {found.title} mesh"
     one, other = (planet_contact(planet, mesh) for mesh in planet.central)
     sign = "+" if one.sense * other.sense < 0 else "-"
     if len(planet.wheels) == 1:
@@ -99,26 +99,31 @@ def reason(found: PlanetSet, number: int) -> str:
     return f"{head}: {number} gcd({one.own}, {other.own}) divides {one.mate} {other.own} {sign} {other.mate} {one.own}"
 
 
-# Room between planets: neighbours on a carrier, and planets that mesh with each other and their neighbours.
+# Clearance between planets: neighbours on a carrier, and planets that mesh with each other.
 
 
 @dataclass(frozen=True, slots=True)
 class NeighbourClearance:
-    """Tip circles of neighbouring planets with more room than is asked, exactly; arguments as in `neighbour_terms`."""
+    """Condition that the clearance of the tip circles of neighbouring planets exceeds the required one, exactly.
+
+    The arguments are those of `neighbour_terms`.
+    """
 
     number: int
     reach: WholeSum
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they have, (candidates,)."""
+        """Return the candidates with sufficient clearance, (candidates,)."""
         chord = sine(Fraction(1, 2 * self.number))
         return is_positive(neighbour_terms, [self.reach.of(columns), self.tips.of(columns)], [chord], True)
 
 
 @dataclass(frozen=True, slots=True)
 class PassingClearance:
-    """Two planets that mesh can stand on their circles, and each clears those that mesh with its neighbours."""
+    """Condition that two meshing planets can be placed on their circles, and that each clears the mates of its
+    neighbours.
+    """
 
     number: int
     A: WholeSum
@@ -127,10 +132,11 @@ class PassingClearance:
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where they can and do, (candidates,); arguments as in `passing_terms`."""
+        """Return the candidates that satisfy both, (candidates,); the arguments are those of `passing_terms`."""
         A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
         # the triangle of the central axis and the two planets must close
         found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
+        # partners of all other planets, not only of the adjacent ones
         for step in range(1, self.number):
             turn = Fraction(step, self.number)
             found = found & is_positive(passing_terms, [A, B, D, tips], [cosine(turn), sine(turn)], True)
@@ -139,18 +145,20 @@ class PassingClearance:
 
 @dataclass(frozen=True, slots=True)
 class PositiveRoom:
-    """A sum above 0."""
+    """Condition that a sum is positive."""
 
     room: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it is, (candidates,)."""
+        """Return the candidates whose sum is positive, (candidates,)."""
         return np.asarray(self.room.of(columns) > 0)
 
 
 @dataclass(frozen=True, slots=True)
 class PlanetRoom:
-    """The room required between planets: addenda of wheels and rings, and what is to be left (modules)."""
+    """Required clearance between planets: number of planets, addenda of wheels and rings, and minimum clearance
+    [modules].
+    """
 
     number: int
     addendum: Fraction
@@ -158,50 +166,54 @@ class PlanetRoom:
     clearance: Fraction
 
     def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
-        """Of one set of planets: tips of wheels that neighbours have in common, then of those that mesh.
+        """Yield the conditions of one set of planets: tips of neighbouring equal wheels, then of planets that mesh.
 
-        Wheels of planets are as wide apart as their axes; central wheels of a set of two planets, one meeting only
-        external wheels and the other only rings, are taken to stand in one plane with both.
+        Wheels of planets are as far apart as their axes. In a set of two planets, if one meshes only with external
+        central wheels and the other only with rings, these are assumed to lie in one plane with both planets.
         """
         assert found.planets is not None
         _check(found)
         for planet in found.planets.walk():
-            yield from self._alone(planet)
+            yield from self._neighbour_conditions(planet)
             for mesh, other in planet.outward:
-                yield from self._both(mesh, planet, other)
+                yield from self._passing_conditions(mesh, planet, other)
 
-    def _alone(self, planet: Planet) -> Iterator[Condition]:
-        for mesh in _once(planet):
+    def _neighbour_conditions(self, planet: Planet) -> Iterator[Condition]:
+        for mesh in _wheel_meshes(planet):
             wheel, part, reach = planet.own(mesh), mesh.parts[planet.side(mesh)], _reach(planet, planet.own(mesh))
             if reach is None:
                 continue
             assert mesh.module is not None
             tips = LinearSum.of([(1, part)]).plus(2 * self.addendum + self.clearance).times(mesh.module)
-            name = f"neighbours: tips of {self.number} planets '{wheel}' keep {_shown(self.clearance)} apart"
+            name = f"neighbours: tip clearance of {self.number} planets '{wheel}' above {_shown(self.clearance)}"
             yield from _condition(name, NeighbourClearance(self.number, *whole(reach, tips)))
 
-    def _both(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
+    def _passing_conditions(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
         A, B = _reach(planet), _reach(other)
         if A is None or B is None or mesh.ring is not None:
             return
         assert mesh.module is not None
         tips = teeth_of(mesh).plus(4 * self.addendum + 2 * self.clearance).times(mesh.module)
         pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
-        name = f"neighbours: {pair} of {self.number} planets reach each other and keep {_shown(self.clearance)} apart"
+        name = f"neighbours: {pair} of {self.number} planets mesh, with tip clearance above {_shown(self.clearance)}"
         yield from _condition(name, PassingClearance(self.number, *whole(A, B, distance_of(mesh), tips)))
         for inner, outer in ((planet, other), (other, planet)):
             if _is_plain(inner, True) and _is_plain(outer, False):
-                yield from self._between(inner, outer)
+                yield from self._gap_conditions(inner, outer)
 
-    def _between(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """The outer planet clears the inner one's central wheels, and the inner one the outer one's rings."""
+    def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
+        """Yield the clearance of the outer planet to the inner one's central wheels, and of the inner one to the
+        outer's rings.
+        """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
                 name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
                 yield from _condition(name, PositiveRoom(*whole(self._gap(planet, other, mesh))))
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
-        """Twice the room between a planet and the central wheel of another one, less what is to be left."""
+        """Return twice the clearance between a planet and the central wheel of another one, minus the required
+        clearance.
+        """
         reach, own = _reach(planet), planet.central[0]
         assert reach is not None
         assert mesh.module is not None
@@ -212,19 +224,23 @@ class PlanetRoom:
 
 
 def _is_plain(planet: Planet, external: bool) -> bool:
-    """True if a planet is one wheel among external central wheels only, or among rings only; at the end of its set."""
+    """Return whether a planet is a single wheel at the end of its set, with only external (or only ring) central
+    wheels.
+    """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Twice the distance of a planet's axis from the central one: by a mesh of a wheel, else by an external one."""
+    """Return twice the distance of a planet's axis from the central axis: by a mesh of a wheel, else by an external
+    mesh.
+    """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None
 
 
-def _once(planet: Planet) -> list[AssemblyMesh]:
-    """A mesh for each of its wheels."""
+def _wheel_meshes(planet: Planet) -> list[AssemblyMesh]:
+    """Return one mesh for each wheel of a planet."""
     inward = [planet.inward] if planet.inward else []
     meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
@@ -232,7 +248,7 @@ def _once(planet: Planet) -> list[AssemblyMesh]:
 
 def _meshes(found: PlanetSet) -> list[AssemblyMesh]:
     assert found.planets is not None
-    return [mesh for planet in found.planets.walk() for mesh in _once(planet)]
+    return [mesh for planet in found.planets.walk() for mesh in _wheel_meshes(planet)]
 
 
 def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveRoom) -> Iterator[Condition]:
@@ -247,14 +263,14 @@ def _shown(number: Fraction) -> str:
 
 
 def _check(found: PlanetSet) -> None:
-    """Refuse sets whose room is not known."""
+    """Raise `QuestionError` for sets whose clearance cannot be computed."""
     meshes = _meshes(found)
     if not all(mesh.spur for mesh in meshes):
-        why, fix = "the tips of bevel wheels are not on circles about parallel axes", "leave the clearance out"
+        why, fix = "the tips of bevel wheels are not on circles about parallel axes", "omit the clearance"
     elif any(mesh.module is None for mesh in meshes):
-        why, fix = "two of their wheels mesh and have different modules", "correct a module"
+        why, fix = "two meshing wheels have different modules", "correct a module"
     elif len({mesh.measure for mesh in meshes}) > 1:
-        why, fix = "some wheels have a declared module, others none", "declare the module of all of them, or of none"
+        why, fix = "only some of the wheels have a declared module", "declare the module of all of them, or of none"
     else:
         return
-    raise QuestionError(Problem(f"the room between planets {found.title} is not known", why, fix))
+    raise QuestionError(Problem(f"the clearance between planets {found.title} cannot be computed", why, fix))

@@ -1,8 +1,8 @@
-"""Kinds of epicyclic sets, sets that were found, and a set as a declaration, with its counts or with bounds for them.
+"""Types of epicyclic gear sets, results of their search, and their declarations.
 
-Every central wheel of a set turns, seen from the carrier, `f = sign P / z` times as fast as the planets' reference
-wheel, with P the planet wheel that reaches it (Willis 1841, with the carrier held). That table is all a kind is:
-ratios of every mode, places of equal planets and the coaxial equation follow from it.
+Relative to the carrier, every central wheel turns `f = sign P / z` times as fast as the reference wheel of the planets,
+where P is the tooth count of the planet wheel with which it meshes (Willis 1841, with a fixed carrier). This table
+defines a type: ratios of all modes, positions of equal planets and the coaxial equations follow from it.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from fractions import Fraction
 from functools import cache
 from itertools import permutations
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, as_float, decimal
-from geartrain.numerics.results import Key, Result, finite
+from geartrain.numerics.results import Key, Result, Tabular, brief, finite
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 CARRIER = "carrier"
@@ -25,36 +25,37 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """A central wheel."""
+    """Sun or ring of an epicyclic set."""
 
     link: str
-    """Its link."""
+    """Name of its link."""
     wheel: str
-    """Its wheel."""
+    """Name of the wheel."""
     mesh: str
-    """The planet wheel it meets."""
+    """Planet wheel with which it meshes."""
     sign: int
-    """Of its speed against the planets' reference wheel, carrier held."""
+    """Sign of its speed relative to the reference wheel of the planets, with a fixed carrier."""
     step: str = ""
-    """The planet wheel P in f = sign P / z; empty where all of a kind have the same, which then cancels."""
+    """Planet wheel P in f = sign P / z; empty if it is the same for all central wheels of the type, so that it cancels.
+    """
     internal: bool = False
     """True for a ring."""
 
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicMode:
-    """A way to use a set: which member is driven, which drives, which is held."""
+    """Operating mode of a set: its input, output and fixed member."""
 
     input: str
-    """The member that drives."""
+    """Driving member."""
     output: str
-    """The member that is driven."""
+    """Driven member."""
     held: str
-    """The member that is held."""
+    """Fixed member."""
 
     @property
     def key(self) -> str:
-        """As it is asked for: `sun:carrier:ring` for input, output, held."""
+        """Text form of the mode, input:output:held, such as `sun:carrier:ring`."""
         return f"{self.input}:{self.output}:{self.held}"
 
     def __str__(self) -> str:
@@ -62,40 +63,40 @@ class EpicyclicMode:
 
 
 def mode_key(mode: EpicyclicMode) -> str:
-    """A mode as it is asked for."""
+    """Return the text form of a mode."""
     return mode.key
 
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicKind(Result):
-    """A kind of epicyclic set."""
+    """Type of epicyclic set."""
 
     KEYS = ("title", "wheels", Key("modes", to=mode_key))
 
     name: str
     """Name by which it is requested."""
     title: str
-    """Name in words."""
+    """Description of the type."""
     members: tuple[CentralWheel, ...]
-    """Its central wheels."""
+    """Central wheels of the type."""
     planets: tuple[tuple[str, ...], ...]
-    """The wheels of each planet link."""
+    """Wheels of each planet link."""
     free: tuple[str, ...]
-    """Wheels whose counts are chosen freely; coaxiality gives those of the other central wheels."""
+    """Wheels whose counts are independent; the coaxial equations give the counts of the other central wheels."""
     between: tuple[tuple[str, str], ...] = ()
     """Meshes of planets with each other."""
     idle: tuple[str, ...] = ()
-    """Planet wheels that change no ratio and stand under no equation: they take the least count that fits."""
+    """Planet wheels that occur in no ratio and no equation; the smallest count that fits is used."""
     with_carrier: bool = True
-    """True if the carrier may be driven, drive or be held in `modes`."""
+    """True if the carrier may be input, output or fixed member in `modes`."""
     mirrored: tuple[tuple[str, str], ...] = ()
-    """Link -> link: exchanging these gives the same set again, so half of the modes say all."""
+    """Pairs of links whose exchange gives the same set, so that half of the modes are sufficient."""
     bevel: bool = False
-    """True if the planets' axes cross the central one."""
+    """True if the axes of the planets intersect the central axis."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """All wheels: central ones and planets, in the order a reader expects."""
+        """All central and planet wheels, in the usual order."""
         planets = [wheel for link in self.planets for wheel in link]
         return tuple(sorted([*(member.wheel for member in self.members), *planets], key=_ORDER.index))
 
@@ -106,7 +107,7 @@ class EpicyclicKind(Result):
 
     @property
     def modes(self) -> tuple[EpicyclicMode, ...]:
-        """All modes; of two that are mirror images, the first."""
+        """All modes; only the first of two that are mirror images."""
         links = self.links if self.with_carrier else self.links[:-1]
         swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}
         found: dict[EpicyclicMode, None] = {}
@@ -116,11 +117,11 @@ class EpicyclicKind(Result):
         return tuple(found)
 
     def member(self, link: str) -> CentralWheel | None:
-        """The central wheel of a link; None for the carrier."""
+        """Return the central wheel of a link; None for the carrier."""
         return next((member for member in self.members if member.link == link), None)
 
     def chosen(self, modes: str | Iterable[str | EpicyclicMode]) -> tuple[EpicyclicMode, ...]:
-        """Modes by name: "all", or `input:output:held` each. Raises `QuestionError` for members it does not have."""
+        """Return modes by name: "all", or `input:output:held` each; `QuestionError` if a member does not exist."""
         if isinstance(modes, str):
             if modes == "all":
                 return self.modes
@@ -133,9 +134,9 @@ class EpicyclicKind(Result):
             return EpicyclicMode(*parts)
         raise QuestionError(
             Problem(
-                f"'{text}' is no mode of the kind '{self.name}'",
-                f"a mode is input:output:held, of three different ones of {', '.join(self.links)}",
-                f"write one such as {self.modes[0].key}, or all",
+                f"'{text}' is not a mode of the kind '{self.name}'",
+                f"a mode is input:output:held with three different members of {', '.join(self.links)}",
+                f"write for example {self.modes[0].key}, or all",
             )
         )
 
@@ -238,16 +239,18 @@ _KINDS = (
 
 @cache
 def kinds() -> Mapping[str, EpicyclicKind]:
-    """All kinds by name."""
+    """Return all types of epicyclic sets by name."""
     return MappingProxyType({kind.name: kind for kind in _KINDS})
 
 
 def epicyclic_kind(name: str) -> EpicyclicKind:
-    """A kind by name. Raises `QuestionError`."""
+    """Return a type of epicyclic set by name; `QuestionError` if it does not exist."""
     if name in kinds():
         return kinds()[name]
     raise QuestionError(
-        Problem(f"there is no kind of epicyclic set '{name}'", "it is not in the list", f"one of {', '.join(kinds())}")
+        Problem(
+            f"unknown kind of epicyclic set '{name}'", "the kinds are predefined", f"use one of {', '.join(kinds())}"
+        )
     )
 
 
@@ -285,39 +288,45 @@ class EpicyclicSet(CountSizes, Result):
     )
 
     kind: str
-    """Name of the kind of set, such as "planetary"."""
+    """Name of the type of set, such as "planetary"."""
     mode: EpicyclicMode
-    """Which link drives, which is driven, which is held."""
+    """Driving, driven and fixed member."""
     teeth: Mapping[str, int]
-    """Wheel -> count."""
+    """Wheel -> tooth count."""
     ratio: Fraction
-    """Speed of the input over that of the output, exact; negative where they turn against each other."""
+    """Speed of the input over speed of the output, exact; negative if they turn in opposite senses."""
     error: Fraction
-    """Magnitude of the ratio, as it was asked for, over the wanted one, less 1; exact."""
+    """Relative error: magnitude of the ratio (as defined by `ratio_is`) over the requested one, minus 1; exact."""
     planets: int
-    """The number asked for."""
+    """Requested number of planets."""
     places: int
-    """At how many equally spaced places identical planets can stand; 0 for anywhere."""
+    """Number of equally spaced positions at which identical planets can be assembled; 0 if any position is possible."""
     room: float
-    """Between the tips of neighbouring planets, equally spaced [modules]; negative where they overlap."""
+    """Clearance between the tips of equally spaced neighbouring planets [modules]; negative if they overlap."""
+
+    def _summary(self) -> str:
+        teeth = ", ".join(f"{wheel} {count}" for wheel, count in self.teeth.items())
+        return f"{teeth}, input/output {brief(self.ratio)}, error {float(self.error):.3g}"
 
     @property
     def counts(self) -> Collection[int]:
-        """The counts of all wheels."""
+        """Tooth counts of all wheels."""
         return self.teeth.values()
 
     @property
     def inverse(self) -> Fraction:
-        """Speed of the output over that of the input."""
+        """Speed of the output over speed of the input."""
         return 1 / self.ratio
 
     @property
     def equally_spaced(self) -> bool:
-        """True if the planets can be put in at equal distances."""
+        """True if the planets can be assembled with equal spacing."""
         return self.places % self.planets == 0
 
     def to_train(self) -> dict[str, Any]:
-        """A declaration as plain data: the set with one planet, driven at 1, whose output expects its exact ratio."""
+        """Return a declaration as plain data: the set with one planet, input speed 1, and the exact output speed as
+        expected.
+        """
         kind, mode = epicyclic_kind(self.kind), self.mode
         return {
             "name": f"{kind.name}-{mode.key.replace(':', '-')}",
@@ -338,13 +347,25 @@ class EpicyclicSet(CountSizes, Result):
 
 
 @dataclass(frozen=True, slots=True)
-class SetFindings(Result):
-    """The best sets of a kind, best first.
+class SetFindings(Tabular, Result):
+    """Best epicyclic sets of a type, best first.
 
     See Also
     --------
-    find_sets : gives it.
+    find_sets : returns it.
     """
+
+    ROWS = "search.tooth_numbers_report:set_rows"
+    MEANINGS: ClassVar = {
+        "mode": "Mode as input:output:held.",
+        "input/output": "Exact ratio of input to output speed [1].",
+        "error": "Ratio over the requested ratio, minus 1 [1].",
+        "places": "Number of equally spaced positions of equal planets; 0 for any.",
+        "room": "Clearance between the tips of neighbouring planets [module].",
+        "*": "Tooth count of the wheel.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_sets"
 
     KEYS = (
         "kind",
@@ -359,30 +380,34 @@ class SetFindings(Result):
     )
 
     kind: str
-    """Name of the kind."""
+    """Name of the type of set."""
     wanted: Fraction
-    """Magnitude of the ratio."""
+    """Magnitude of the requested ratio."""
     ratio_is: RatioIs
-    """What `wanted` is."""
+    """Definition of the ratio `wanted`: input/output or output/input."""
     modes: tuple[EpicyclicMode, ...]
-    """The modes that were looked at."""
+    """Modes that were searched."""
     tolerance: Fraction | None
-    """Greatest relative error."""
+    """Maximum absolute relative error; None for no limit."""
     complete: bool
-    """True: all sets within the bounds were looked at."""
+    """True, because all sets within the bounds are examined."""
     count: int
-    """Sets within the tolerance, over all modes; all that run where no tolerance was asked."""
+    """Number of sets within the tolerance, over all modes; number of all sets that run if `tolerance` is None."""
     solutions: tuple[EpicyclicSet, ...]
-    """The best of them."""
+    """Best sets, best first."""
     shortfall: Shortfall
-    """What became of the others; a set in each mode counts as one candidate."""
+    """Numbers of rejected sets by reason. A set in each mode counts as one candidate."""
+
+    def _summary(self) -> str:
+        best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
+        return f"{self.kind}, {self.ratio_is} = {brief(self.wanted)}: {len(self.solutions)} sets{best}"
 
     def __bool__(self) -> bool:
         return bool(self.solutions)
 
 
 def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
-    """The exact key of an order: its own measure first, then error, total, largest wheel, mode, counts."""
+    """Return the exact sort key of an order: primary criterion, error, total, largest wheel, mode, counts."""
     counts = tuple(found.teeth.values())
     measures: dict[SetOrder, Any] = {"error": abs(found.error), "total": sum(counts), "largest": max(counts)}
     return (measures[by], *measures.values(), mode, counts)

@@ -1,14 +1,14 @@
-"""Epicyclic sets for a wanted ratio: every tooth set of a kind within bounds, in every mode.
+"""Search for epicyclic sets of a requested ratio: every tooth set of a type within bounds, in every mode.
 
-After the coaxial equations at most three counts are free, so all sets are looked at and the answer is complete:
-integers decide the ratio, floats only choose which few are compared as Fractions.
+The coaxial equations leave at most three independent counts, so all sets are enumerated and the result is complete.
+Integers determine the ratio; floats only select the few candidates that are compared as Fractions.
 
-This could be asked of the exact join of `search.join`, and is not: for one mode and 12 to 120 teeth the join takes 2
-to 30 times as long (Wolfrom sets 22 to 110 times), and only from about 200 teeth on is it as fast for kinds with two
-central wheels. One enumeration serves all modes, and charges every set that is refused to one reason in a fixed order.
+The exact join of `search.join` could answer the same question, but for one mode and 12 to 120 teeth it takes 2 to 30
+times as long (Wolfrom sets 22 to 110 times). Only from about 200 teeth on is it as fast for types with two central
+wheels. One enumeration serves all modes, and counts every rejected set under one reason in a fixed order.
 
-The ratio of a set is input over output, as gear makers write it (a reduction is above 1, and negative where the
-output turns against the input); `ratio_is` turns the question round.
+The ratio of a set is input over output, the convention of gear manufacturers: a reduction is above 1, and it is
+negative if the output turns in the opposite sense. `ratio_is` selects the reciprocal.
 """
 
 from __future__ import annotations
@@ -49,28 +49,28 @@ if TYPE_CHECKING:
 
 MOST_SETS = 4 * 10**8
 MOST_TEETH = 100_000
-"""Numerators of third degree in the counts stay below 2^53 up to here."""
+"""Maximum tooth count; the numerators, of third degree in the counts, then stay below 2^53."""
 
 SetBounds = Mapping[str, tuple[int, ...]]
-"""Admissible counts of every wheel, ascending."""
+"""Wheel -> admissible counts, ascending."""
 
 TIPS = 2.0
-"""Twice the addendum, in modules: what a wheel's tips stand out over its pitch diameter."""
-_BEVEL = 1e-9  # modules; what floats may be off where room and clearance are equal
-_NEAR = 1e-6  # modules; what floats say of the room is nearer than this
+"""Twice the addendum [modules]: tip diameter minus pitch diameter."""
+_BEVEL = 1e-9  # [modules] float error of a clearance that equals the required one
+_NEAR = 1e-6  # [modules] bound of the float error of a clearance
 _MARGIN = 1e-12
-"""Relative margin of float comparisons; what falls inside is compared exactly. Rounding stays below 1e-15."""
+"""Relative margin of float comparisons; values within it are compared exactly. Rounding errors are below 1e-15."""
 
 _FARTHEST = Fraction(10**18)
 _FINEST = 10**6
-"""Greatest denominator of a clearance: lengths in such parts of a module stay whole numbers of a machine word."""
+"""Maximum denominator of a clearance, so that lengths in these fractions of a module are int64."""
 
-NO_PLACE = "a wheel out of its bounds, a planet without a place, or steps that are equal"
-NO_SPACING = "planets that cannot be put in equally spaced"
+NO_PLACE = "count out of bounds, planet that does not fit, or equal steps"
+NO_SPACING = "planets that cannot be equally spaced"
 NO_ROOM = "neighbouring planets that touch"
-NO_MOTION = "a mode that does not run"
-NO_SENSE = "the output turns the other way"
-NO_MATCH = "a ratio outside the tolerance"
+NO_MOTION = "mode that does not transmit motion"
+NO_SENSE = "opposite sense of rotation"
+NO_MATCH = "ratio outside the tolerance"
 
 
 def find_sets(
@@ -89,56 +89,57 @@ def find_sets(
     clearance: Fraction | float = 0.0,
     slack: int = 0,
 ) -> SetFindings:
-    """The best tooth sets of an epicyclic kind for a ratio, over modes: every set within bounds is looked at.
+    """Find the best tooth counts of an epicyclic type for a ratio over all modes, by enumeration of all sets within
+    bounds.
 
-    After the coaxial equations at most three counts are free (Willis 1841; Mueller, Epicyclic Drive Trains, 1982). All
-    modules are equal.
+    The coaxial equations leave at most three independent counts (Willis 1841; Mueller, Epicyclic Drive Trains, 1982).
+    All modules are equal.
 
     Parameters
     ----------
     wanted : Fraction or TargetRatio
-        Magnitude of the ratio, above 0; or a ratio that was read, which may ask for a sense.
+        Magnitude of the ratio, above 0; or a parsed ratio, which may specify the sense of rotation.
     kind : str or EpicyclicKind
         "planetary", "stepped-suns", "stepped-sun-ring", "stepped-rings", "meshed-planets", "ravigneaux", "bevel",
         "wolfrom" or "3k-two-suns".
     modes : str or iterable of str or EpicyclicMode
         "all", or any of `input:output:held`, such as "sun:carrier:ring".
     counts : sequence of int, or mapping of str to sequence of int
-        Admissible tooth counts from 1 to 10^5, rings included: of every wheel alike, or by wheel.
+        Admissible tooth counts from 1 to 10^5, including rings: the same for every wheel, or by wheel.
     planets : int
-        How many equal planets there are, 1 or more.
+        Number of equal planets, 1 or more.
     tolerance : Fraction, optional
-        Greatest relative error; default the best ones whatever their error.
+        Maximum absolute relative error; by default unlimited.
     best : int
-        How many to list, 1 or more.
+        Maximum length of the list, 1 or more.
     sense : {-1, 0, 1}
-        1 or -1 asks for an output that turns with or against the input; 0 leaves it open.
+        Sense of rotation of the output: 1 for that of the input, -1 for the opposite, 0 for either.
     ratio_is : {"input/output", "output/input"}
-        What `wanted` is.
+        Definition of the ratio `wanted`.
     by : {"error", "total", "largest"}
-        What is best: least error, fewest teeth together, or smallest largest wheel.
+        Primary criterion: minimum error, minimum sum of counts, or minimum largest count.
     spaced : bool
-        Only sets whose planets can be equally spaced and clear each other; else this is only reported.
+        True to require that the planets can be equally spaced and clear each other; otherwise this is only reported.
     clearance : Fraction or float
-        Least room between the tips of neighbouring planets [modules], where `spaced`.
+        Minimum clearance between the tips of neighbouring planets [modules] if `spaced`.
     slack : int
-        Half modules by which centre distances may differ, for profile shift to bridge.
+        Maximum difference of centre distances [half modules], to be compensated by profile shift.
 
     Returns
     -------
     SetFindings
-        The best sets, and where all others went.
+        The best sets, and the numbers of rejected sets by reason.
 
     Raises
     ------
     QuestionError
-        For what cannot be asked: no such kind, mode or order, a ratio beyond all sets.
+        If the type, a mode or the order does not exist, or if the ratio is beyond all sets.
     RangeError
-        For more than 4 10^8 sets.
+        If there are more than 4 10^8 sets.
 
     Examples
     --------
-    A reduction of 7/2 with four planets; ratio 1 + r/s, and 4 divides s + r:
+    A reduction of 7/2 with four planets; the ratio is 1 + r/s, and 4 must divide s + r:
 
     >>> found = find_sets(Fraction(7, 2), "planetary", "sun:carrier:ring", range(12, 61), planets=4, best=1)
     >>> dict(found.solutions[0].teeth), found.solutions[0].ratio
@@ -166,16 +167,21 @@ def find_sets(
 
 def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int, slack: int) -> None:
     for bad, what, why, fix in (
-        (not _FARTHEST > wanted > 1 / _FARTHEST, "a ratio beyond all sets", "none reaches 10^18", "give a nearer one"),
-        (planets < 1, f"{planets} planets", "a set has one planet at least", "give 1 or more"),
+        (
+            not _FARTHEST > wanted > 1 / _FARTHEST,
+            "the ratio is out of range",
+            "it must be from 1e-18 to 1e18",
+            "give a ratio in this range",
+        ),
+        (planets < 1, f"planets is {planets}", "a set has at least one planet", "give 1 or more"),
         (
             tolerance is not None and tolerance < 0,
-            f"a tolerance of {tolerance}",
-            "no error is below 0",
+            f"the tolerance is {tolerance}",
+            "a tolerance must not be negative",
             "give 0 or more",
         ),
-        (best < 1, f"the best {best}", "a list has one place at least", "give 1 or more"),
-        (slack < 0, f"a slack of {slack}", "it is a number of half modules", "give 0 or more"),
+        (best < 1, f"best is {best}", "a list has at least one solution", "give 1 or more"),
+        (slack < 0, f"slack is {slack}", "it must not be negative", "give 0 or more"),
     ):
         if bad:
             raise QuestionError(Problem(what, why, fix))
@@ -187,9 +193,11 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
         (ratio_is, "kind of ratio", get_args(RatioIs)),
     ):
         if word not in words:
-            raise QuestionError(Problem(f"'{word}' is no {what}", "there are others", f"write {' or '.join(words)}"))
+            raise QuestionError(
+                Problem(f"'{word}' is not a valid {what}", "the value must match exactly", f"use {' or '.join(words)}")
+            )
     if not isfinite(clearance):
-        raise QuestionError(Problem(f"a clearance of {clearance}", "it is a length", "give a number of modules"))
+        raise QuestionError(Problem(f"the clearance is {clearance}", "it must be finite", "give a number of modules"))
 
 
 def _length(columns: Columns) -> int:
@@ -197,7 +205,7 @@ def _length(columns: Columns) -> int:
 
 
 class _Search:
-    """What is found while sets go by in blocks; rejected ones are charged to the first reason that refuses them."""
+    """Accumulated result of the enumeration; rejected sets are counted under the first reason that applies."""
 
     def __init__(
         self, kind: EpicyclicKind, wanted: Fraction, tolerance: Fraction | None, best: int, ratio_is: RatioIs,
@@ -212,21 +220,21 @@ class _Search:
         self.nearest: EpicyclicSet | None = None
 
     def charge(self, reason: str, number: int) -> None:
-        """Add to what a reason has removed."""
+        """Add a number of rejected sets to a reason."""
         if number:
             self.removed[reason] = self.removed.get(reason, 0) + number
 
     def assembled(self, columns: Columns, clearance: Fraction, modes: int) -> Columns:
-        """The sets whose planets can be put in and clear each other."""
+        """Return the sets whose planets can be assembled with equal spacing and sufficient clearance."""
         even = places(self.kind, columns) % self.planets == 0
         self.charge(NO_SPACING, int((~even).sum()) * modes)
-        columns = _kept(columns, even)
+        columns = _select(columns, even)
         clear = clears(self.kind, columns, self.planets, clearance)
         self.charge(NO_ROOM, int((~clear).sum()) * modes)
-        return _kept(columns, clear)
+        return _select(columns, clear)
 
     def judge(self, columns: Columns, at: int, mode: EpicyclicMode) -> None:
-        """Look at all sets of a block in one mode."""
+        """Evaluate all sets of a block in one mode."""
         top, beneath = ratio_terms(self.kind, mode, columns)
         runs = (top != 0) & (beneath != 0)
         right = runs if self.sense == 0 else runs & (np.sign(top) * np.sign(beneath) == self.sense)
@@ -234,7 +242,7 @@ class _Search:
         self.charge(NO_SENSE, int((runs & ~right).sum()))
         if not right.any():
             return
-        columns, top, beneath = _kept(columns, right), np.abs(top[right]), np.abs(beneath[right])
+        columns, top, beneath = _select(columns, right), np.abs(top[right]), np.abs(beneath[right])
         ratios = top / beneath if self.ratio_is == "input/output" else beneath / top
         errors = np.abs(ratios / float(self.wanted) - 1)
         self._look(columns, at, mode, errors)
@@ -245,12 +253,12 @@ class _Search:
         self.charge(NO_MATCH, int((~inside).sum()))
         if not self.count:
             nearest = self._set(columns, int(errors.argmin()), mode)
-            # only while nothing is within the tolerance: an explanation is wanted then
+            # only while nothing is within the tolerance, for the explanation
             if self.nearest is None or abs(nearest.error) < abs(self.nearest.error):
                 self.nearest = nearest
         if not inside.any():
             return
-        columns, errors = _kept(columns, inside), errors[inside]
+        columns, errors = _select(columns, inside), errors[inside]
         first = self._first(columns, errors)
         for row in np.flatnonzero(first <= self._worst(first)):
             found = self._set(columns, int(row), mode)
@@ -258,7 +266,7 @@ class _Search:
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
 
     def _inside(self, columns: Columns, mode: EpicyclicMode, errors: Floats) -> NDArray[np.bool_]:
-        """Within the tolerance: floats where they are sure, Fractions at the edge."""
+        """Return the sets within the tolerance; floats decide, and Fractions near its bound."""
         if self.tolerance is None:
             return np.ones(len(errors), dtype=bool)
         limit, margin = float(self.tolerance), _MARGIN * (1 + float(self.tolerance))
@@ -268,22 +276,22 @@ class _Search:
         return inside
 
     def _first(self, columns: Columns, errors: Floats) -> Floats:
-        """What sets are ordered by before anything else."""
+        """Return the primary criterion of the order."""
         if self.by == "error":
             return errors
         stack = np.stack(list(columns.values()))
         return np.asarray(stack.sum(axis=0) if self.by == "total" else stack.max(axis=0), dtype=np.float64)
 
     def _worst(self, first: Floats) -> float:
-        """What a set must not exceed to be among the best."""
+        """Return an upper bound of the primary criterion of the best sets."""
         worst = np.inf if len(self.found) < self.best else float(self.found[-1][0][0])
         if len(first) > self.best:
-            # the n-th best of this block bounds the n-th best of all
+            # the n-th best of this block is a bound for the n-th best of all
             worst = min(worst, float(np.partition(first, self.best - 1)[self.best - 1]))
         return worst + _MARGIN * (1 + worst) if np.isfinite(worst) else np.inf
 
     def _set(self, columns: Columns, row: int, mode: EpicyclicMode) -> EpicyclicSet:
-        """One set with all that is reported of it, exactly."""
+        """Build the exact result of one set."""
         one = {wheel: columns[wheel][row : row + 1] for wheel in self.kind.wheels}
         top, beneath = (int(term[0]) for term in ratio_terms(self.kind, mode, one))
         ratio = Fraction(top, beneath)
@@ -300,7 +308,7 @@ class _Search:
         )
 
     def findings(self, bounds: SetBounds, modes: tuple[EpicyclicMode, ...]) -> SetFindings:
-        """All that was found, with an explanation."""
+        """Build the findings with the explanation of rejected sets."""
         shortfall = Shortfall(self.considered, dict(self.removed), *self._miss())
         found = tuple(item for _, item in self.found)
         return SetFindings(
@@ -308,48 +316,50 @@ class _Search:
         )
 
     def _miss(self) -> tuple[str, str]:
-        """The nearest miss and what to relax, in words; empty where something was found."""
+        """Describe the nearest miss and the constraints to relax; both empty if there is a solution."""
         if self.count:
             return "", ""
         if self.nearest is None and NO_SENSE in self.removed:
-            return "", "every set that runs turns the other way: ask for the other sense, for none, or for other modes"
+            return "", "all sets turn in the opposite sense: request the other sense, either sense, or other modes"
         if self.nearest is None:
             reason = max(self.removed, key=lambda name: self.removed[name])
             return (
                 "",
-                f"no set came as far as its ratio, most fell to: {reason}; widen the counts or change the planets",
+                f"all sets were rejected before their ratio, most by: {reason}; widen the counts or change the planets",
             )
         error = decimal(abs(self.nearest.error), 3)
         nearest = f"{self.nearest}, error {decimal(self.nearest.error, 3)}"
-        return nearest, f"a tolerance of {error} keeps it; wider counts may bring a nearer one"
+        return nearest, f"a tolerance of {error} includes it; a wider range of counts may give a nearer one"
 
 
 # ------------------------------------------ all tooth sets of a kind within bounds, as columns, and their exact ratios
 
 
 def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> SetBounds:
-    """Admissible counts of every wheel: the same for all, or by wheel. Raises `QuestionError`."""
+    """Return the admissible counts of every wheel, from counts for all or by wheel; `QuestionError` if they are
+    invalid.
+    """
     if isinstance(counts, Mapping):
         unknown = [wheel for wheel in counts if wheel not in kind.wheels]
         missing = [wheel for wheel in kind.wheels if wheel not in counts]
         if unknown or missing:
-            what = f"'{unknown[0]}' is no wheel of" if unknown else f"wheel '{missing[0]}' has no counts in"
-            why = f"its wheels are {', '.join(kind.wheels)}"
-            raise QuestionError(Problem(f"{what} the kind '{kind.name}'", why, "give counts for each of them"))
-        return {wheel: _usable(f"of wheel '{wheel}' ", counts[wheel]) for wheel in kind.wheels}
-    return dict.fromkeys(kind.wheels, _usable("", counts))
+            what = f"unknown wheel '{unknown[0]}'" if unknown else f"wheel '{missing[0]}' has no counts"
+            why = f"the wheels of the kind '{kind.name}' are {', '.join(kind.wheels)}"
+            raise QuestionError(Problem(what, why, "give counts for each of them"))
+        return {wheel: _check_counts(f"of wheel '{wheel}' ", counts[wheel]) for wheel in kind.wheels}
+    return dict.fromkeys(kind.wheels, _check_counts("", counts))
 
 
-def _usable(whose: str, counts: Counts) -> tuple[int, ...]:
+def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
     found = tuple(sorted(set(counts))) if len(counts) <= MOST_TEETH else ()
     if found and found[0] >= 1 and found[-1] <= MOST_TEETH:
         return found
-    why = f"the search takes counts from 1 to {MOST_TEETH}, and at least one"
+    why = f"at least one count is needed, from 1 to {MOST_TEETH}"
     raise QuestionError(Problem(f"the counts {whose}cannot be used", why, "give counts such as 15:120"))
 
 
 def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
-    """How many sets there are before any constraint."""
+    """Return the number of sets before any constraint is applied."""
     chosen = prod(len(bounds[wheel]) for wheel in kind.free)
     return int(chosen * (2 * slack + 1) ** len(_followers(kind)))
 
@@ -357,32 +367,33 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
-    """All sets, block by block: how many a block had, and those of them whose wheels are whole, allowed and fit.
+    """Yield all sets in blocks: the number of sets of a block, and those with admissible integer counts that fit.
 
-    planets    equal planets among which an idle wheel must find room
-    clearance  that room (modules), or None where it does not matter
-    slack      half modules by which the other centre distances may differ from the first; profile shift bridges them
+    planets    number of equal planets between which an idle wheel must have clearance
+    clearance  that clearance [modules], or None if it is not required
+    slack      maximum difference of centre distances [half modules], to be compensated by profile shift
 
-    Raises `RangeError` for more than `MOST_SETS` sets.
+    `RangeError` is raised for more than `MOST_SETS` sets.
     """
     total = size(kind, bounds, slack)
     if total > MOST_SETS:
-        why = f"the search looks at each, and takes {MOST_SETS:.0e} at most"
-        raise RangeError(Problem(f"{total:.2g} tooth sets to look at", why, "narrow the counts, or ask for less slack"))
+        why = f"at most {MOST_SETS:.0e} sets are enumerated"
+        raise RangeError(Problem(f"{total:.2g} tooth sets are too many", why, "narrow the counts, or reduce the slack"))
     first, *rest = (np.array(bounds[wheel], dtype=np.int64) for wheel in kind.free)
     inner = [column.ravel() for column in np.meshgrid(*rest, indexing="ij")]
-    # about 20,000 sets at a time fit the processor's cache
+    # about 20,000 sets fit the cache of a processor
     step = max(1, 20_000 // max(1, len(inner[0])))
     for at in range(0, len(first), step):
         head = first[at : at + step]
+        # Cartesian product of the independent counts
         columns = [np.repeat(head, len(inner[0])), *(np.tile(column, len(head)) for column in inner)]
         chosen = dict(zip(kind.free, columns, strict=True))
         for extra in product(range(-slack, slack + 1), repeat=len(_followers(kind))):
-            yield len(columns[0]), _completed(kind, bounds, chosen, extra, planets, clearance)
+            yield len(columns[0]), _add_dependent_counts(kind, bounds, chosen, extra, planets, clearance)
 
 
 def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
-    """Central wheels whose count follows from another one's: both meet the same planet link, so share a distance."""
+    """Return pairs of central wheels on the same planet link, where the count of the second follows from the first."""
     if kind.bevel:
         return []
     found = []
@@ -392,7 +403,7 @@ def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
     return found
 
 
-def _completed(
+def _add_dependent_counts(
     kind: EpicyclicKind,
     bounds: SetBounds,
     chosen: Columns,
@@ -400,21 +411,23 @@ def _completed(
     planets: int,
     clearance: Fraction | None,
 ) -> Columns:
-    """The sets with their remaining wheels, without those that cannot be."""
+    """Add the counts of the dependent wheels, and remove the sets that are impossible."""
     columns = dict(chosen)
     for (first, other), more in zip(_followers(kind), extra, strict=True):
         distance = columns[first.wheel] + (-1 if first.internal else 1) * columns[first.mesh] + more
         columns[other.wheel] = distance + (1 if other.internal else -1) * columns[other.mesh]
-        columns = _kept(columns, _allowed(columns[other.wheel], bounds[other.wheel]))
+        # early, because the other tests cost more
+        columns = _select(columns, _allowed(columns[other.wheel], bounds[other.wheel]))
     if kind.idle:
         columns = _with_idle(kind, bounds, columns, planets, clearance)
-    return _kept(columns, fits(kind, columns) & _is_stepped(kind, columns))
+    return _select(columns, fits(kind, columns) & _is_stepped(kind, columns))
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """False for equal steps of a planet that do what a plain planet does.
+    """Return False for stepped planets that are equivalent to a planet with one wheel.
 
-    They differ from one only where they meet two suns, or two rings, of different counts, which slack allows.
+    Equal steps differ from one wheel only if they mesh with two suns, or two rings, of different counts, which `slack`
+    permits.
     """
     stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
     for one, other in ((one, other) for link in kind.planets for one, other in combinations(link, 2)):
@@ -429,8 +442,8 @@ def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
-    """The least count of the idle wheels that fits, in every set that has one."""
-    # an idle wheel takes part in no ratio: the least count that fits stands for all
+    """Add the smallest count of the idle wheels that fits, and remove the sets without one."""
+    # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
     found: Ints = np.zeros_like(columns[kind.free[0]])
     for count in sorted(common):
@@ -439,10 +452,10 @@ def _with_idle(
         tried |= {wheel: np.full(len(open_), count, dtype=np.int64) for wheel in kind.idle}
         at = np.flatnonzero(fits(kind, tried))
         if clearance is not None:
-            at = at[clears(kind, _kept(tried, at), planets, clearance)]
+            at = at[clears(kind, _select(tried, at), planets, clearance)]
         found[open_[at]] = count
     full = {**columns, **dict.fromkeys(kind.idle, found)}
-    return _kept(full, found > 0)
+    return _select(full, found > 0)
 
 
 def _allowed(column: Ints, allowed: tuple[int, ...]) -> NDArray[np.bool_]:
@@ -451,15 +464,15 @@ def _allowed(column: Ints, allowed: tuple[int, ...]) -> NDArray[np.bool_]:
     return np.isin(column, allowed)
 
 
-def _kept(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]:
+def _select(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]:
     return {wheel: column[good] for wheel, column in columns.items()}
 
 
 def ratio_terms(kind: EpicyclicKind, mode: EpicyclicMode, columns: Columns) -> tuple[Ints, Ints]:
-    """Speed of the input over that of the output as numerator and denominator, exact and not reduced.
+    """Return numerator and denominator of the ratio of input to output speed, exact and not reduced.
 
-    (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for the carrier.
-    Where one of them is 0 the mode does not run: the output stands, or the input is locked.
+    The ratio is (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for the
+    carrier. If one of them is 0 the mode does not run: the output is at rest, or the input is locked.
     """
     (n1, d1), (n2, d2), (n0, d0) = (
         _relative(kind.member(link), columns) for link in (mode.input, mode.output, mode.held)
@@ -473,19 +486,19 @@ def _relative(member: CentralWheel | None, columns: Columns) -> tuple[Ints | int
     return member.sign * (columns[member.step] if member.step else 1), columns[member.wheel]
 
 
-# -------------------------------------------- assembly: where equal planets can stand, and the room between neighbours
+# -------------------------------------------- assembly of equal planets, and clearance between neighbours
 
 
 def places(kind: EpicyclicKind, columns: Columns) -> Ints:
-    """At how many equally spaced places an identical planet can stand, for sets as columns of counts.
+    """Return the number of equally spaced positions at which identical planets can be assembled, for columns of counts.
 
-    n equal planets, equally spaced, can be put in exactly if n divides the number; 0 means that they can anywhere.
+    n equal planets, equally spaced, can be assembled exactly if n divides this number; 0 permits any position.
 
-    Turn the carrier by 1/n with central wheel x held: wheel y turns (1 - f_y/f_x)/n, which must bring tooth to tooth
-    where the next planet is put in. With both on one step of the planet that asks for (z_y -+ z_x)/n whole. On two
-    steps the planet may also go in turned by whole teeth of the first, which shifts the second by P_y/P_x of a tooth
-    each: (z_y P_x -+ z_x P_y)/(n gcd(P_x, P_y)) whole. The well known cases are (s + r)/n and, for stepped planets,
-    (s1 p2 + r2 p1)/(n gcd(p1, p2)).
+    Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
+    teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n
+    must be an integer. If they mesh with two steps, the planet may also be rotated by whole teeth of the first step,
+    each of which shifts the second by P_y/P_x of a tooth, so (z_y P_x -+ z_x P_y)/(n gcd(P_x, P_y)) must be an integer.
+    Well known cases are (s + r)/n and, for stepped planets, (s1 p2 + r2 p1)/(n gcd(p1, p2)).
     """
     number: Ints = np.zeros_like(columns[kind.members[0].wheel])
     for x, y in combinations(kind.members, 2):
@@ -498,10 +511,11 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
 
 
 def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """True where one planet (or pair of planets) has its place between the central wheels.
+    """Return the sets in which one planet (or pair of planets) fits between the central wheels.
 
-    Planets are smaller than their ring; planets in mesh reach from wheel to wheel and touch nothing they do not mesh
-    with; cones of bevel wheels open outwards. Addendum one module; interference of flanks is not judged here.
+    Planets are smaller than their ring. Planets in mesh extend from wheel to wheel and clear all wheels with which they
+    do not mesh. Cones of bevel wheels open outwards. The addendum is one module; interference of flanks is not tested
+    here.
     """
     good = np.ones(columns[kind.members[0].wheel].shape, dtype=bool)
     for member in kind.members:
@@ -511,7 +525,7 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
         gap = columns["r"] - columns["s"]
         good &= (2 * columns["p1"] + 2 * TIPS < gap) & (gap < 2 * (columns["p1"] + columns["p2"]))
     if kind.name == "ravigneaux":
-        # the long planet passes by the small sun, and the short one reaches it
+        # the long planet clears the small sun, and the short one meshes with it
         good &= (columns["s2"] - columns["s1"] > 2 * TIPS) & (columns["s1"] + 2 * columns["ps"] > columns["s2"])
     if kind.bevel:
         good &= np.abs(columns["s1"] - columns["s2"]) < 2 * columns["p"]
@@ -521,10 +535,10 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 
 
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
-    """Room between the tips of neighbouring planets, equally spaced (modules); negative where they overlap.
+    """Return the clearance between the tips of equally spaced neighbouring planets [modules]; negative if they overlap.
 
-    (s + p) sin(pi/n) - p - 2 for planets on one circle; those in mesh with each other are placed by the law of
-    cosines. Infinite for one planet.
+    It is (s + p) sin(pi/n) - p - 2 for planets on one circle. Planets in mesh with each other are placed by the law of
+    cosines. It is infinite for one planet.
     """
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
@@ -536,9 +550,10 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     if len(own) == 1:
         return own[0]
     (first, second), (a, b) = distances, kind.between[0]
-    # no division by 0 where a planet would stand on the axis: such sets do not fit anyway
+    # avoids a division by 0 for a planet on the central axis, which does not fit anyway
     cosine = (first**2 + second**2 - (columns[a] + columns[b]) ** 2) / np.maximum(2 * first * second, 1)
     angle = np.arccos(np.clip(cosine, -1, 1))
+    # planets of the second kind at all positions other than that of the own partner
     for turn in range(1, planets):
         cosine = np.cos(2 * pi * turn / planets - angle)
         apart = np.sqrt(np.maximum(first**2 + second**2 - 2 * first * second * cosine, 0))
@@ -547,10 +562,11 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
 
 
 def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
-    """True where the room between the tips of neighbouring planets is at least so many modules.
+    """Return the sets in which the clearance between the tips of neighbouring planets is at least `clearance`
+    [modules].
 
-    Near ties are decided as the clearance of a declared train is, exactly; of bevel wheels, whose room is an angle, in
-    floats.
+    Near ties are decided exactly, as for the clearance of a declared train. For bevel wheels, whose clearance is an
+    angle, floats decide.
     """
     found, minimum = room(kind, columns, planets), float(clearance)
     good = np.asarray(found >= minimum - _BEVEL)
@@ -561,7 +577,7 @@ def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fract
 
 
 def _clears_exactly(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
-    # all lengths are multiplied by the denominator, so that they are whole
+    # all lengths are multiplied by the denominator, so that they are integers
     unit, minimum = clearance.denominator, clearance.numerator
     reaches = [unit * _distance(kind, columns, link) for link in kind.planets]
     tips = [unit * (np.maximum.reduce([columns[wheel] for wheel in link]) + int(TIPS)) for link in kind.planets]
@@ -577,17 +593,17 @@ def _clears_exactly(kind: EpicyclicKind, columns: Columns, planets: int, clearan
 
 
 def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> Ints:
-    """From the central axis to a planet's, in half modules."""
+    """Return the distance between the central axis and the axis of a planet [half modules]."""
     member = next(member for member in kind.members if member.mesh in link)
     planet = columns[member.mesh]
     return columns[member.wheel] + (-planet if member.internal else planet)
 
 
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:
-    """Cosine of the cone of a side wheel, where both side wheels fit one planet.
+    """Return the cosine of the pitch cone angle of a side wheel if both side wheels mesh with one planet.
 
-    The cones g of planet p and side wheels a, b obey sin g / z alike and g_a + g_b + 2 g_p = pi: a triangle with the
-    sides a, b and 2 p cos g_p, so that cos^2 g_p = (a + b)^2 / 4(p^2 + ab).
+    The cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi. They are
+    the angles of a triangle with the sides a, b and 2 p cos g_p, so that cos^2 g_p = (a + b)^2 / 4(p^2 + ab).
     """
     a, b, third = columns[own], columns[other], 2 * columns["p"] * _planet_cosine(columns)
     return np.asarray((b**2 + third**2 - a**2) / (2 * b * third), dtype=np.float64)
@@ -599,7 +615,9 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 
 def _bevel_room(columns: Columns, planets: int) -> Floats:
-    """On the sphere of the back cones: the angle between neighbouring axes less their tip cones, times its radius."""
+    """Return the clearance of bevel planets: the angle between neighbouring axes minus their tip cones, times the
+    radius.
+    """
     cone = np.arccos(_planet_cosine(columns))
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = columns["p"] / (2 * np.sin(cone))

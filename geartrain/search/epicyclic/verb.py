@@ -1,4 +1,4 @@
-"""`geartrain teeth set RATIO --kind ...`: epicyclic sets."""
+"""Command `geartrain teeth set RATIO --kind ...`: search for epicyclic sets."""
 
 from __future__ import annotations
 
@@ -27,25 +27,26 @@ context_settings = NEGATIVE_NUMBERS
 
 def run(
     context: typer.Context,
-    kind: Annotated[str, typer.Option("--kind", help="The kind of set; 'list' names the kinds.")],
+    kind: Annotated[str, typer.Option("--kind", help="Kind of set; 'list' prints the kinds.")],
     ratio: Annotated[
-        str | None, typer.Argument(help="A ratio; not needed with --kind list.", metavar="[RATIO]")
+        str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="[RATIO]")
     ] = None,
     counts: Range = ANY_COUNT,
-    mode: Annotated[str, typer.Option("--mode", help="Which links: input:output:held, or all.")] = "all",
-    ratio_is: Annotated[str, typer.Option("--ratio-is", help="input/output or output/input.")] = "input/output",
-    planets: Annotated[int | None, typer.Option("--planets", help="Equal planets, equally spaced.")] = None,
+    mode: Annotated[str, typer.Option("--mode", help="Modes input:output:held, separated by commas, or all.")] = "all",
+    ratio_is: Annotated[
+        str, typer.Option("--ratio-is", help="Definition of the ratio: input/output or output/input.")
+    ] = "input/output",
+    planets: Annotated[int | None, typer.Option("--planets", help="Number of equal, equally spaced planets.")] = None,
     clearance: Annotated[
-        str | None, typer.Option("--clearance", help="Room between the tips of neighbouring planets, in modules.")
+        str | None,
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
     ] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Half modules by which centre distances may differ.")
+        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
     ] = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
-    by: Annotated[
-        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres.")
-    ] = "error",
+    by: Annotated[str, typer.Option("--by", help="Order of the solutions: error, total, largest.")] = "error",
     per: Per = None,
     pick: Pick = 1,
     csv: Csv = False,
@@ -53,7 +54,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Epicyclic sets of one kind with a wanted ratio, that can be put together with equal planets."""
+    """Find epicyclic sets of one type for a ratio that can be assembled with equal planets."""
     from geartrain.search.epicyclic.set_search import find_sets
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
@@ -64,9 +65,9 @@ def run(
         _list(answer)
         return
     if ratio is None:
-        raise typer.BadParameter("a set is made for a ratio", param_hint="RATIO")
+        raise typer.BadParameter("the ratio is missing", param_hint="RATIO")
     if clearance is not None and planets is None:
-        raise typer.BadParameter("room is asked of equal planets; give --planets too", param_hint="--clearance")
+        raise typer.BadParameter("the clearance between planets requires --planets", param_hint="--clearance")
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
     chosen: Any = "all" if mode == "all" else tuple(mode.split(","))
     found = find_sets(
@@ -87,7 +88,7 @@ def run(
 
 
 def _list(answer: SearchAnswer) -> None:
-    """The kinds there are."""
+    """Print the types of epicyclic sets."""
     from geartrain.search.epicyclic.epicyclic_sets import kinds
     from geartrain.search.tooth_numbers_report import describe_set_kinds
 

@@ -1,11 +1,12 @@
-"""The exact join: which counts of some wheels meet polynomial constraints, and in how many ways.
+"""Exact join: tooth counts of some wheels that satisfy polynomial constraints, and the number of these assignments.
 
-Lists of products are joined along what they share, smallest expected result first; integers and Fractions throughout.
+Lists of products are joined on their common wheels, the smallest expected result first. All numbers are integers and
+Fractions.
 
-product_lists           the lists: distinct products with the number of ways to each, and rows of values
-wheel_monomials         demands on functions of counts, and the monomials through which functions see the wheels
-polynomial_constraints  demands as signs of polynomials, and windows of the last open item
-join_plan               in which order items are set, by forecast cost
+product_lists           distinct products with the number of assignments of each, and partial assignments as columns
+wheel_monomials         constraints on functions of tooth counts, and the monomials by which functions depend on wheels
+polynomial_constraints  constraints as signs of polynomials, and windows of the last free item
+join_plan               order in which items are assigned, by expected cost
 exact_join              the join: bucket elimination (Dechter 1999)
-inside_outside          sums over all assignments of a recorded join, and the best of them (A*)
+inside_outside          sums over all assignments of a recorded join, and its best assignments (A* search)
 """

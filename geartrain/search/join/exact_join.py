@@ -1,4 +1,4 @@
-"""The join itself: all assignments of a question counted exactly, or brought out one block at a time."""
+"""Exact join by bucket elimination: all assignments of a problem are counted, or enumerated block by block."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from geartrain.search.join.polynomial_constraints import (
 )
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
 
-# Through which monomials of items some constraints see them: settings that agree in all of these are one. Once x
-# and y are set, an output that sees x y alone cannot tell 2 x 6 from 3 x 4; nor can all that is set below. The rows
-# of a join are merged so as soon as they may be (bucket elimination, Dechter 1999).
+# Monomials through which some constraints depend on items: assignments with equal values of all these monomials are
+# equivalent. Once x and y are assigned, an output that depends only on x y cannot distinguish 2 x 6 from 3 x 4. Rows
+# are merged accordingly as soon as possible (bucket elimination, Dechter 1999).
 
 
 _LARGEST = 1 << 62  # products below this are exact in int64
@@ -32,14 +32,14 @@ _LARGEST = 1 << 62  # products below this are exact in int64
 def find_item_monomials(
     items: Sequence[int], constraints: Sequence[CountConstraint | PolynomialConstraint], lists: Sequence[Item]
 ) -> Iterator[ItemMonomial]:
-    """The fewest monomials of some items that decide the constraints, each exact in int64; one that none sees is in
-    none of them.
+    """Yield the minimum number of monomials of some items that determine the constraints, each exact in int64.
 
-    Items belong together if their powers, counted from the first term of each polynomial and listed over all terms of
-    all polynomials, are multiples of one list. Wheels of rules on counts stand by themselves.
+    Items that no constraint depends on are in no monomial. Items are combined if their powers, relative to the first
+    term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of rules on counts
+    are not combined.
 
-    items   all that are set of the constraints' items
-    lists   of every item
+    items   assigned items of the constraints
+    lists   all items
     """
     alone = {
         item
@@ -56,8 +56,8 @@ def find_item_monomials(
 
 
 def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[ItemMonomial]:
-    """A monomial cut where its values would not fit int64."""
-    # cut greedily: what fits 2^62 above and below stays one monomial
+    """Split a monomial into parts whose values fit into int64."""
+    # greedy: combine factors as long as numerator and denominator stay below 2^62
     held: list[tuple[int, int]] = []
     largest = [1, 1]
     for item, power in group:
@@ -75,40 +75,40 @@ def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[It
 
 
 Slices = Mapping[int, tuple[int, int]]
-"""Item -> the run of its values that this piece of the work looks at; all of them where it is missing."""
+"""Item -> range (first, last) of its values in this part of the work; missing items have all values."""
 AssignmentColumns = dict[str, Ints]
 
 
 class BudgetSpentError(Exception):
-    """The join passed its budget of steps."""
+    """Error of a join that exceeds its budget of steps."""
 
 
 @dataclass
 class RefusalCounts:
-    """How many assignments each constraint refuses: constraint -> one number for each row."""
+    """Numbers of assignments that each constraint rejects, for each row."""
 
     size: int
     dtype: Any
     by: dict[int, Tallies] = field(default_factory=dict)
 
     def charge(self, constraint: int, rows: Ints, numbers: Tallies) -> None:
-        """Add to some rows, which may repeat."""
+        """Add numbers to the given rows of a constraint; rows may be repeated."""
         if constraint not in self.by:
             self.by[constraint] = np.zeros(self.size, dtype=self.dtype)
-        # not `+=`: of rows that repeat that would add one number only
+        # `+=` would add only one number to a repeated row
         np.add.at(self.by[constraint], rows, numbers)
 
 
 class ExactJoin:
-    """The exact join, by bucket elimination (Dechter 1999): a question with its lists made.
+    """Exact join by bucket elimination (Dechter 1999), with the lists of a problem.
 
-    slices   what part of the work to do
-    budget   steps after which `BudgetSpentError` is raised
+    slices   part of the work
+    budget   maximum number of steps; `BudgetSpentError` beyond it
     """
 
     def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
         self.question = question
-        # no tally is larger than the total, so that int64 cannot overflow below 2^62
+        # no tally exceeds the total, so that int64 cannot overflow below 2^62
         self.dtype: Any = np.int64 if question.total < 1 << 62 else object
         self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
         self.extents = extents(question)
@@ -124,16 +124,16 @@ class ExactJoin:
         self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
-        """Take up another piece of the work."""
+        """Select another part of the work, and reset the steps."""
         self.slices, self.budget, self.steps = slices, budget, 0
         self._full: dict[int, int] = {}
 
     def start(self) -> PartialAssignments:
-        """The one row in which nothing is set."""
+        """Return the single row without assigned items."""
         return PartialAssignments(self.items, {}, 1)
 
     def full(self, node: PlanNode) -> int:
-        """Assignments of the wheels of a node and all below."""
+        """Return the number of assignments of the wheels of a node and its subtree, without constraints."""
         if id(node) not in self._full:
             first, last = self._run(node.item)
             total = int(self.items[node.item].sums[last] - self.items[node.item].sums[first])
@@ -143,34 +143,34 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
-        """For each row how many assignments below it meet everything, and how many each constraint refuses."""
+        """Return the numbers of accepted assignments below each row, and of those that each constraint rejects."""
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
         at, alive = self.pruned(node, rows, removed)
-        # a last item with nothing but its guide is counted by the ends of windows, without a row for each value
+        # a last item with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
-            total[at] = self._windowed(node, at, alive, removed)
+            total[at] = self._count_windows(node, at, alive, removed)
             return total, removed.by
         for parents, grown in self.grown(node, alive, at, removed):
-            counts = self._below(node, parents, grown, removed)
+            counts = self._count_below(node, parents, grown, removed)
             np.add.at(total, parents, counts)
         return total, removed.by
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
-        """All assignments of the items of some nodes and those below that go with the rows, block by block."""
+        """Yield all assignments of the items of some nodes and their subtrees that extend the rows, block by block."""
         if not nodes:
             yield rows
             return
         node = nodes[0]
         _, alive = self.pruned(node, rows, None)
         for _, grown in self.grown(node, alive, np.arange(alive.size), None):
-            # of several children the later ones may have nothing, and rows of the first would be listed for nothing
+            # rows without solutions in a later child would be enumerated in vain for the first child
             if len(node.children) > 1:
-                grown = self._promising(node, grown)
+                grown = self._with_solutions(node, grown)
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Every assignment of wheels that some rows stand for, block by block."""
+        """Yield every assignment of wheels that the rows represent, block by block."""
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
             sizes = sizes * self.items[item].times[column]
@@ -180,7 +180,7 @@ class ExactJoin:
             columns: AssignmentColumns = {}
             owner = np.arange(part.size)
             for item, column in part.columns.items():
-                # the ways to one value are found once, however many rows have it
+                # decompose each distinct value once, however many rows have it
                 values, which = np.unique(column, return_inverse=True)
                 ways, more = self.items[item].ways(values)
                 starts = np.searchsorted(ways, np.arange(len(values) + 1))
@@ -192,14 +192,14 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def seen(self, node: PlanNode, rows: PartialAssignments) -> tuple[PartialAssignments, Ints | None]:
-        """The distinct rows as far as a node and those below can tell, and for each row which of them it is."""
+        """Return the rows that a node and its subtree can distinguish, and the index of each row among them."""
         if id(node) not in self._views:
             reached = [self.constraints[number] for number in node.reach]
             self._views[id(node)] = tuple(find_item_monomials(node.interface, reached, self.items))
         return rows.distinct(node.interface, self._views[id(node)])
 
     def spend(self, steps: int) -> None:
-        """Count steps against the budget."""
+        """Add steps, and raise `BudgetSpentError` beyond the budget."""
         self.steps += steps
         if self.steps > self.budget:
             raise BudgetSpentError
@@ -210,7 +210,7 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """The rows that no constraint surely refuses, whatever is set below; and which they are."""
+        """Return the indices and rows that no constraint certainly rejects for all values of the free items."""
         at = np.arange(rows.size)
         for number, reaches in self._prunes(node):
             hopeful = possible(reaches, rows)
@@ -223,7 +223,7 @@ class ExactJoin:
         return at, rows
 
     def _prunes(self, node: PlanNode) -> list[tuple[int, list[list[RelaxedInequality]]]]:
-        """The constraints that may end rows at a node, with its item and those below open."""
+        """Return the constraints that can prune rows at a node, relaxed over the items of its subtree."""
         if id(node) not in self._reaches:
             found = []
             below = set(node.below())
@@ -235,8 +235,8 @@ class ExactJoin:
             self._reaches[id(node)] = found
         return self._reaches[id(node)]
 
-    def _windowed(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """The count of a last item with one constraint: its windows, without a look at what is inside."""
+    def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
+        """Count the values of a last item with one constraint by its windows, without a row for each value."""
         constraint, item = self.constraints[node.guide], self.items[node.item]
         assert isinstance(constraint, PolynomialConstraint)
         self.spend(rows.size)
@@ -252,11 +252,11 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Rows with the node's item set as its guide says, checked; `at` says which row of the caller's each is."""
+        """Yield the rows extended by the item of a node that satisfy its constraints, with their original rows."""
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total
         polynomial = node.guide >= len(self.question.rules)
-        # charged in full here; what the guide leaves is taken back below
+        # all assignments are charged here; those that the guide accepts are subtracted below
         if node.guide >= 0 and removed is not None:
             removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
         for parents, indices in self._candidates(node, rows):
@@ -276,7 +276,7 @@ class ExactJoin:
                 yield at[parents], grown
 
     def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
-        """Row and value of what the node's guide leaves to be looked at, block by block."""
+        """Yield pairs (row, value) that the guide of a node does not exclude, block by block."""
         first, last = self._run(node.item)
         if node.guide < 0:
             whole = np.zeros(rows.size, dtype=np.int64)
@@ -284,16 +284,16 @@ class ExactJoin:
             return
         guide = self.constraints[node.guide]
         if isinstance(guide, PolynomialConstraint):
-            looked_at: list[SolutionWindow] = []
+            previous_windows: list[SolutionWindow] = []
             for window in guide.windows(rows, node.item):
                 window = window.clipped(first, last)
                 for parents, indices in spread_in_blocks(window.start, window.end, BLOCK):
-                    # cases exclude each other, but where bounds are nearer than rounding their windows overlap
-                    for other in looked_at:
+                    # cases are mutually exclusive, but their windows overlap if bounds are closer than rounding
+                    for other in previous_windows:
                         new = (indices < other.start[parents]) | (indices >= other.end[parents])
                         parents, indices = parents[new], indices[new]
                     yield parents, indices
-                looked_at.append(window)
+                previous_windows.append(window)
         else:
             assert isinstance(guide, CountEquation)
             yield self._solved(guide, node.item, rows, first, last)
@@ -301,7 +301,7 @@ class ExactJoin:
     def _solved(
         self, equation: CountEquation, item: int, rows: PartialAssignments, first: int, last: int
     ) -> tuple[Ints, Ints]:
-        """The one value of an item that an equation leaves for each row, where there is one."""
+        """Return the rows, and the single value of an item that an equation determines for each of them."""
         counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
         tops = self.items[item].tops
         indices = np.minimum(np.searchsorted(tops, counts), len(tops) - 1)
@@ -309,7 +309,7 @@ class ExactJoin:
         return found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
-        """The counts of a rule's wheels that are set."""
+        """Return the tooth counts of the assigned wheels of a rule."""
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
         return {wheel: rows.top(item) for wheel, item in items.items() if item in rows.columns}
 
@@ -319,8 +319,8 @@ class ExactJoin:
             return constraint.holds(rows)
         return constraint.holds(self._counts(constraint, rows))
 
-    def _below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """For grown rows the number of assignments below; what children refuse is charged to `parents`."""
+    def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
+        """Count the assignments below each extended row; rejections by the subtree are charged to `parents`."""
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)
         later = self.full(node) // self._total(node.item)
@@ -335,8 +335,8 @@ class ExactJoin:
             alive = alive[counts[alive] > 0]
         return counts
 
-    def _promising(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
-        """The rows that have assignments below in every child: the others need not be listed."""
+    def _with_solutions(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
+        """Select the rows that have assignments in every subtree."""
         for child in node.children:
             distinct, which = self.seen(child, grown)
             found, _ = self.count(child, distinct)

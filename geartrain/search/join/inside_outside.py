@@ -1,10 +1,10 @@
-"""Sums over all assignments of a recorded join: their weight, and that of those with each count of each wheel.
+"""Sums over all assignments of a recorded join: total weight, and weight for each tooth count of each wheel.
 
-They are inside and outside sums over tables of `numerics.weighted_alternatives`; whole numbers stay exact. All sums are
-linear in the weights of each wheel, which may have either sign: with weights w(z) (z - mean) of one wheel in place of
-w(z), the sums of the others are their covariances with it.
+They are inside and outside sums over tables of `search.weighted_alternatives`, and exact for integer weights. All sums
+are linear in the weights of each wheel, which may be negative: with weights w(z) (z - mean) instead of w(z) for one
+wheel, the sums of the others are their covariances with it.
 
-The best assignments, best first, by a search along the tree that knows the least that is to come (A*).
+The best assignments are found in order by an A* search along the tree, with exact minimum remaining misfits.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import Item, PartialAssignments, ProductStep, Tallies
 from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
 
-# A join that is kept: which values of each item go with what is set above, and which counts make up each value.
-# Every transition leads to at least one whole assignment. Sums over all assignments are then sums over the tree,
-# taken again and again with other weights; see `inside_outside`.
+# Recorded join: the values of each item that are compatible with the assignments above, and the counts that produce
+# each value. Every transition leads to at least one complete assignment. Sums over all assignments are then sums over
+# the tree, which can be repeated with other weights.
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Number of a graded demand in `JoinProblem.requested` -> how badly its values agree with it, 0 for perfectly."""
+"""Index of a graded constraint in `JoinProblem.requested` -> function from its values to misfits."""
 CountWeights = Mapping[str, Tallies]
-"""Wheel -> a weight for each of its counts, all of one dtype."""
+"""Wheel -> array of the weights of its counts, all of one dtype."""
 
 
 class RecordedItem:
-    """Some values of an item, and how the counts of its wheels make them up.
+    """Values of an item, and the tooth counts that produce them.
 
-    size    of these values
-    sides   of the products above, and below if there are any: the last step to them, and the product of each value
+    size    number of values
+    sides   numerator, and denominator if there is one: the last product step, and the product of each value
     """
 
     def __init__(self, item: Item, indices: Ints) -> None:
@@ -52,17 +52,17 @@ class RecordedItem:
 
     @property
     def transitions(self) -> int:
-        """How many there are in all steps."""
+        """Number of transitions in all product steps."""
         return sum(len(step.choices) for last, _ in self.sides for step in last.chain())
 
     def ways(self, value: int) -> Iterator[dict[str, int]]:
-        """Each way to one value: wheel -> index of its count."""
+        """Yield each assignment that produces a value, as wheel -> index of its count."""
         for sides in product(*(list(_ways(last, int(rows[value]))) for last, rows in self.sides)):
             yield {wheel: index for own in sides for wheel, index in own.items()}
 
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Each way through the steps to a row."""
+    """Yield each sequence of counts that leads through the steps to a row."""
     if last is None:
         yield {}
         return
@@ -73,26 +73,26 @@ def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
 
 @dataclass(frozen=True, eq=False)
 class RecordedNode:
-    """A node of a join's plan."""
+    """Recorded node of the plan of a join."""
 
     size: int
-    """Rows: settings of what this node and those below look at."""
+    """Number of rows, which are the distinct states of the node."""
     parents: Ints
     """Row of each transition, ascending."""
     places: Ints
-    """Which value it sets, of `values`."""
+    """Index in `values` of the value that each transition assigns."""
     values: RecordedItem
-    """Those of the item that occur."""
+    """Values of the item that occur."""
     misfit: Floats | None
-    """What the graded demands decided here add to each transition; None where none is decided."""
+    """Misfit that each transition adds by the graded constraints complete here; None if there are none."""
     children: tuple[tuple[RecordedNode, Ints], ...]
-    """Nodes below, and for each of them the row that each transition leads to."""
+    """Child nodes, each with the row to which each transition leads."""
 
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
-    """The tree of a question without late rules, and the steps it took.
+    """Record the tree of a problem without late rules, and return it with its number of steps.
 
-    Raises `BudgetSpentError` where that needs more than `limit` partial assignments.
+    Raises `BudgetSpentError` beyond `limit` partial assignments.
     """
     join = ExactJoin(question, budget=limit)
     return _Recorder(join, misfits).record(question.plan, join.start()), join.steps
@@ -104,13 +104,13 @@ class _Recorder:
     misfits: Misfits
 
     def record(self, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
-        """A node and all below, for some distinct rows on its interface."""
+        """Record a node and its subtree for some distinct rows."""
         at, alive = self.join.pruned(node, rows, None)
         blocks = list(self.join.grown(node, alive, at, None))
-        # rows without any block still have columns
+        # rows without any block still need columns
         nothing = [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
         parents = np.concatenate([owners for owners, _ in blocks or nothing])
-        # transitions of one row stand together: `BestFirst` finds them by bisection
+        # transitions of one row are adjacent: `BestFirst` finds them by bisection
         order = np.argsort(parents, kind="stable")
         parents, grown = parents[order], _joined([block for _, block in blocks or nothing]).pick(order)
         misfit = self._misfit(node, grown)
@@ -130,7 +130,7 @@ class _Recorder:
         return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
     def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats | None:
-        """What the graded demands that are complete with this node add."""
+        """Return the misfit of the graded constraints that are complete at a node; None if it has none."""
         found: Floats | None = None
         for number in (node.guide, *node.checks):
             demand = number - len(self.join.question.rules)
@@ -143,7 +143,7 @@ class _Recorder:
 
 
 def _joined(blocks: Sequence[PartialAssignments]) -> PartialAssignments:
-    """Rows of several blocks over the same items as one."""
+    """Join the rows of several blocks over the same items."""
     first = blocks[0]
     columns = {item: np.concatenate([block.columns[item] for block in blocks]) for item in first.columns}
     return PartialAssignments(first.items, columns, sum(block.size for block in blocks))
@@ -155,7 +155,7 @@ _Table = RecordedNode | RecordedItem | ProductStep
 class AssignmentSums:
     """Sums over the assignments of a recorded join.
 
-    graded   True: the weight of an assignment, the product of the weights of its counts, is multiplied by
+    graded   True if the weight of an assignment, the product of the weights of its counts, is multiplied by
              exp(-misfit / 2)
     """
 
@@ -163,39 +163,43 @@ class AssignmentSums:
         self.root, self.graded = root, graded
 
     def total(self, weights: CountWeights) -> Any:
-        """The weight of all assignments."""
+        """Return the total weight of all assignments."""
         return self._sums(weights).total.sum()
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
-        """Wheel -> the weight of all assignments with each of its counts."""
+        """Return wheel -> array of the total weights of the assignments with each of its counts."""
         return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
 
     def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
         return WeightedAlternatives(self.root, lambda table: iter([self._alternatives(table, weights)]))
 
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
-        """A row goes on with a value of its item and a row of each child; a value, and a product, by how it is made."""
+        """Return the rows of a table as alternatives.
+
+        A row of a node continues with a value of its item and a row of each child, a value or a product with its
+        factors.
+        """
         if isinstance(table, RecordedNode):
             grade = 1 if not self.graded or table.misfit is None else np.exp(-table.misfit / 2)
             return AlternativeRows(grade, table.size, table.parents, ((table.values, table.places), *table.children))
         if isinstance(table, RecordedItem):
             return AlternativeRows(1, table.size, None, tuple(table.sides))
         own = weights[table.wheel]
-        told = ((table.wheel, len(own), table.choices),)
+        facts = ((table.wheel, len(own), table.choices),)
         before = () if table.before is None else ((table.before, table.parents),)
-        return AlternativeRows(own[table.choices], table.size, table.children, before, told)
+        return AlternativeRows(own[table.choices], table.size, table.children, before, facts)
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
-        """The covariance of the counts of every two wheels, in the order of `counts`, to rounding.
+        """Return the covariance of the counts of each pair of wheels, in the order of `counts`, up to rounding.
 
-        weights   float64, none negative
+        weights   arrays of float64, not negative
         """
         total, marginals = float(self.total(weights)), self.marginals(weights)
         wheels = [wheel for wheel in counts if wheel in marginals]
         steps, found = {}, {}
         for wheel in wheels:
             sizes = np.array(counts[wheel], dtype=np.float64)
-            # about the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
+            # relative to the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
             steps[wheel] = sizes - float((marginals[wheel] * sizes).sum()) / total
         for at, first in enumerate(wheels):
             tilted = self.marginals({**weights, first: weights[first] * steps[first]})
@@ -206,14 +210,14 @@ class AssignmentSums:
 
 @dataclass(frozen=True, slots=True)
 class GradedAssignment:
-    """An assignment and its misfit to rounding."""
+    """Assignment of tooth counts with its misfit, up to rounding."""
 
     misfit: float
     teeth: Mapping[str, int]
 
 
 class BestFirst:
-    """The assignments of a recorded join that agree best, best first.
+    """Iterator over the assignments of a recorded join in ascending order of misfit (A* search).
 
     counts   wheel -> its counts
     """
@@ -226,7 +230,7 @@ class BestFirst:
         self._add(root)
 
     def _add(self, node: RecordedNode) -> int:
-        """Number a node and all below, with the least misfit to come from each row on."""
+        """Number a node and its subtree, and compute the minimum remaining misfit of each row."""
         at = len(self._nodes)
         self._nodes.append(node)
         self._ahead.append(np.full(node.size, np.inf))
@@ -239,7 +243,7 @@ class BestFirst:
         return at
 
     def __iter__(self) -> Iterator[GradedAssignment]:
-        """Rows to be gone on from are kept as (node, row), values set as (node, place)."""
+        """Yield the assignments; the heap stores open rows as (node, row) and assigned values as (node, place)."""
         heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
         if np.isfinite(self._ahead[0][0]):
             heappush(heap, (float(self._ahead[0][0]), 0, 0.0, ((0, 0),), ()))
@@ -256,12 +260,12 @@ class BestFirst:
                 below = zip(self._below[number], node.children, strict=True)
                 then = (*((child, int(to[at])) for child, (_, to) in below), *later)
                 ahead = so_far + sum(float(self._ahead[one][its]) for one, its in then)
-                # depth falls: of equal bounds the one farthest on comes first, and assignments are whole soon
-                # rounding must not let a child come before its parent
+                # the depth decreases, so that for equal bounds the deepest entry comes first and completes soon; `max`
+                # prevents rounding from sorting a child before its parent
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
-        """All assignments of wheels that make up some values."""
+        """Yield all assignments of tooth counts that produce some values."""
         if not taken:
             yield {}
             return

@@ -1,7 +1,7 @@
-"""In which order a join sets its items: a tree, because what is set may part the rest into pieces that do not meet.
+"""Order in which a join assigns its items: a tree, because assigned items separate the others into independent parts.
 
-Two outputs that share wheels no longer know each other once the shared wheels are set: their own wheels are then
-counted each by themselves, for each distinct setting of what they share, and the counts multiplied.
+Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are then counted
+separately for each distinct assignment of the common wheels, and the counts are multiplied.
 """
 
 from __future__ import annotations
@@ -38,25 +38,25 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """One item of the plan, set when all above it are."""
+    """Item of the plan, assigned after all items above it."""
 
     item: int
-    """Which."""
+    """Index of the item."""
     interface: tuple[int, ...]
-    """Items above that this node or one below it looks at."""
+    """Items above that a constraint of this node or of its subtree depends on."""
     guide: int
-    """The constraint that says which values to look at; -1: all."""
+    """Constraint that selects the values to try; -1 for all values."""
     checks: tuple[int, ...]
-    """Further constraints that are complete with this item, in the order they are asked."""
+    """Other constraints that are complete with this item, in the order of evaluation."""
     prunes: tuple[int, ...]
-    """Polynomial constraints of which two or more items are open yet: rows that they surely refuse end here."""
+    """Polynomial constraints with at least two free items. Rows that they certainly reject are dropped here."""
     children: tuple[PlanNode, ...]
-    """What is set next; no two of them share a constraint."""
+    """Nodes that follow. No two of them have a common constraint."""
     reach: tuple[int, ...]
-    """All constraints of this node and those below."""
+    """All constraints of this node and its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """The constraints that are complete with this node, then with those below."""
+        """Yield the constraints that are complete with this node, then those of its subtree."""
         if self.guide >= 0:
             yield self.guide
         yield from self.checks
@@ -64,7 +64,7 @@ class PlanNode:
             yield from child.decided()
 
     def below(self) -> Iterator[int]:
-        """The items of this node and of those below."""
+        """Yield the items of this node and its subtree."""
         yield self.item
         for child in self.children:
             yield from child.below()
@@ -72,48 +72,48 @@ class PlanNode:
 
 @dataclass(frozen=True)
 class JoinProblem:
-    """Everything a worker needs to know of a join. Plain data and rules: it can be pickled."""
+    """Complete description of a join as picklable data, for worker processes."""
 
     domains: Domains
     """Wheel -> its counts, ascending."""
     requested: tuple[IntervalConstraint, ...]
     rules: tuple[CountConstraint, ...]
-    """Constraints on counts; these, then `requested`, are numbered in this order."""
+    """Constraints on counts. Constraints are numbered in the order `rules`, `requested`."""
     late: tuple[CountConstraint, ...]
-    """Rules that are asked last, of assignments of all wheels."""
+    """Rules that are evaluated last, on assignments of all wheels."""
     recipes: tuple[ItemRecipe, ...]
-    """The items."""
+    """Definitions of the items."""
     plan: PlanNode
-    """The tree; its root is the first item."""
+    """Root of the plan, which is the first item."""
     steps: float
-    """About how many partial assignments the join will look at."""
+    """Expected number of partial assignments."""
     weights: Weights = field(default_factory=dict)
-    """Wheel -> a whole weight for each count, where assignments are weighed and not counted."""
+    """Wheel -> an integer weight for each count, if assignments are weighed instead of counted."""
 
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
-        """The demands in items."""
+        """Requested constraints as polynomial constraints in items."""
         return tuple(find_polynomial_constraints(self.requested, self.recipes, self.domains))
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """The wheels in the order declared."""
+        """Wheels in the order of declaration."""
         return tuple(self.domains)
 
     @property
     def total(self) -> int:
-        """The weight of all assignments there are: their number, where each counts once."""
+        """Total weight of all assignments, which is their number if no weights are given."""
         return prod(sum(self.weights.get(wheel, (1,) * len(counts))) for wheel, counts in self.domains.items())
 
     @property
     def order(self) -> tuple[int, ...]:
-        """The constraints in the order in which they are decided, the late rules last."""
+        """Indices of the constraints in the order of evaluation, late rules last."""
         found = list(self.plan.decided())
         return (*found, *(at for at in range(len(self.reasons)) if at not in found))
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Names of the constraints, the late rules at the end."""
+        """Names of the constraints, late rules last."""
         return tuple(one.name for one in (*self.rules, *self.polynomial_constraints, *self.late))
 
 
@@ -124,14 +124,14 @@ def find_join_problem(
     chances: Mapping[str, float],
     weights: Weights | None = None,
 ) -> JoinProblem:
-    """The cheapest question found: which wheels to bundle, which rules to ask late, in which order to set items.
+    """Return the join with the minimum expected cost, over combinations of wheels, late rules and orders of items.
 
-    chances   name of a rule or demand -> about which part of all assignments meets it
-    weights   of `JoinProblem`
+    chances   name of a rule or constraint -> approximate share of the assignments that satisfy it
+    weights   weights of `JoinProblem`
     """
     found = [
         _planned(domains, requested, early, late, recipes, chances)
-        for early, late in _lateness(rules)
+        for early, late in _rule_partitions(rules)
         for recipes in find_recipes(
             find_wheel_monomials(tuple(domains), requested, frozenset(w for rule in early for w in rule.wheels)),
             domains,
@@ -140,13 +140,13 @@ def find_join_problem(
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
 
-def _lateness(
+def _rule_partitions(
     rules: Sequence[CountConstraint],
 ) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Ways to part rules into those asked while wheels are set and those asked at the end."""
+    """Yield partitions of the rules into those evaluated as soon as possible and those evaluated last."""
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
-    # a rule asked while wheels are set makes them items of their own, which may cost more than it saves
+    # a rule evaluated early makes its wheels separate items, which may cost more than it saves
     yield tuple(rules), ()
     if conditions:
         yield equations, conditions
@@ -175,7 +175,7 @@ def _planned(
 
 @dataclass
 class _Planner:
-    """Grows plans, and forecasts what they cost in partial assignments looked at."""
+    """Generator of plans, with their expected cost in partial assignments."""
 
     domains: Domains
     recipes: Sequence[ItemRecipe]
@@ -194,15 +194,15 @@ class _Planner:
         self.likely = [self.chances.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
 
     def ways(self) -> Iterator[tuple[int, bool]]:
-        """Which constraint to complete first, and whether items in many constraints come before small ones."""
+        """Yield pairs (constraint to complete first, True if items in many constraints come before small items)."""
         order = sorted(range(len(self.scopes)), key=lambda one: (len(self.scopes[one]), one))
-        # six first constraints and two orders of items are tried: planning stays at milliseconds
+        # six first constraints and two orders of items are tried, so that planning takes milliseconds
         yield from product(order[:6] or [-1], (True, False))
 
     def plan(self, first: int, shared: bool) -> tuple[PlanNode, float]:
-        """The tree over all items, and its cost."""
+        """Return the plan over all items, and its expected cost."""
         node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0, first, shared)
-        # demands that came down to numbers are asked at the root
+        # constraints without items are evaluated at the root
         converged = tuple(at for at, scope in enumerate(self.scopes) if not scope)
         return replace(node, checks=converged + node.checks, reach=converged + node.reach), cost
 
@@ -214,12 +214,12 @@ class _Planner:
         checks = [at for at in complete if at != guide]
         interface = sorted({other for at in active for other in self.scopes[at] & known})
         rows = min(rows, prod(self.sizes[other] for other in interface))
-        looked = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
-        kept = looked * prod((self.likely[at] for at in checks), start=1.0)
+        examined = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
+        kept = examined * prod((self.likely[at] for at in checks), start=1.0)
         rest = open_ - {item}
-        children, cost = [], rows + (looked if rest or checks or guide < 0 else 0)
+        children, cost = [], rows + (examined if rest or checks or guide < 0 else 0)
         for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
-            # less than one row is expected where guesses are rough: never so few that what follows looks free
+            # a lower limit of the expected rows, because rough estimates would make later nodes appear free
             child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
             children.append(child)
             cost += more
@@ -231,11 +231,11 @@ class _Planner:
         return node, cost
 
     def _share(self, item: int, guide: int) -> float:
-        """Which part of an item's values its guide leaves."""
+        """Return the expected share of the values of an item that its guide selects."""
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int], first: int, shared: bool) -> int:
-        """The item to set next: one that an equation gives, else one of the constraint that is cheapest to complete."""
+        """Select the next item: one that an equation determines, else one of the cheapest constraint."""
         for at in active:
             left = self.scopes[at] & open_
             if at < len(self.rules) and len(left) == 1 and isinstance(self.rules[at], CountEquation):
@@ -254,7 +254,7 @@ class _Planner:
         return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """The equation that gives the item, else the most selective polynomial constraint with windows in it."""
+        """Select the equation that determines the item, else the most selective constraint with windows in it."""
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
                 return at
@@ -267,21 +267,21 @@ class _Planner:
 
 
 def extents(question: JoinProblem) -> list[tuple[float, float]]:
-    """Least and greatest value of each item."""
+    """Return the minimum and maximum value of each item."""
     return [extent(recipe, question.domains) for recipe in question.recipes]
 
 
-# Which part of all assignments meets a demand or a rule, about: it steers a search, and decides nothing.
+# Approximate share of the assignments that satisfy a constraint or rule. It affects the speed of a search only.
 
 
-_DRAWN = 4096  # assignments
-_NEIGHBOURS = 40  # values; a share of fewer hits than these is too rough to steer by
-_EXACT = 1e-7  # the width, in logarithms, that one exact value stands for
+_DRAWN = 4096  # number of sampled assignments
+_NEIGHBOURS = 40  # number of nearest values for a density; fewer hits give too rough an estimate
+_EXACT = 1e-7  # width of an exact value in logarithms
 
 
 @dataclass(frozen=True, slots=True)
 class SelectivitySample:
-    """Assignments drawn at random, always the same ones."""
+    """Random sample of assignments with a fixed seed."""
 
     domains: Domains
     columns: Mapping[str, Ints]
@@ -289,50 +289,53 @@ class SelectivitySample:
 
     @classmethod
     def of(cls, domains: Domains) -> SelectivitySample:
-        """Draw them."""
+        """Draw the sample from the domains."""
         draw = np.random.default_rng(0)
         return cls(domains, {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()})
 
     def of_rule(self, rule: CountConstraint) -> float:
-        """About which part meets a rule."""
+        """Estimate the share of assignments that satisfy a rule."""
         if isinstance(rule, CountEquation):
             return 1 / max(len(self.domains[wheel]) for wheel in rule.wheels)
         return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
 
     def of_demand(self, requested: IntervalConstraint) -> float:
-        """About which part meets a demand; from the density of values nearby where few are drawn within."""
+        """Estimate the share of assignments that satisfy a constraint.
+
+        If few hits are drawn, the estimate is based on the density of nearby values.
+        """
         speeds = self.speeds(requested.function)
         minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)
-        return min(1.0, max(minimum, sum(_part(speeds, interval) for interval in requested.intervals)))
+        return min(1.0, max(minimum, sum(_interval_share(speeds, interval) for interval in requested.intervals)))
 
     def speeds(self, function: Function) -> Floats:
-        """Values of a function, those it has not left out."""
+        """Return the finite values of a function over the sample."""
         quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
         values, _ = quotient(products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels]))
         values = np.broadcast_to(values, _DRAWN)
         return np.asarray(values[np.isfinite(values)])
 
 
-def _rough(value: Fraction) -> float:
-    """The number in float64; infinite where it is too large."""
+def _as_float64(value: Fraction) -> float:
+    """Convert a number to float64; infinite if it is out of range."""
     number = as_float(value)
     if number is None:
         number = 0.0 if abs(value) < 1 else inf if value > 0 else -inf
     return number
 
 
-def _part(speeds: Floats, interval: Interval) -> float:
-    low = -inf if interval[0] is None else _rough(interval[0])
-    high = inf if interval[1] is None else _rough(interval[1])
+def _interval_share(speeds: Floats, interval: Interval) -> float:
+    low = -inf if interval[0] is None else _as_float64(interval[0])
+    high = inf if interval[1] is None else _as_float64(interval[1])
     within = float(((speeds >= low) & (speeds <= high)).mean()) if len(speeds) else 1.0
     if within * len(speeds) >= _NEIGHBOURS or low <= 0 <= high or not len(speeds):
         return within
-    # by the distance to the nearest few, in logarithms: ratios are spread evenly there, more or less
+    # from the distance to the nearest values in logarithms, where ratios are roughly uniform
     side = np.log(speeds[speeds > 0] if low > 0 else -speeds[speeds < 0])
     if len(side) < _NEIGHBOURS or isinf(low) or isinf(high):
         return within
     ends = sorted((log(abs(low)), log(abs(high))))
     near = np.sort(np.abs(side - sum(ends) / 2))[_NEIGHBOURS - 1]
-    # of many equal values the nearest few may be no distance away
+    # for many equal values the distance of the nearest ones may be 0
     density = _NEIGHBOURS / _DRAWN / (2 * max(near, 1e-12))
     return float(min(density * max(ends[1] - ends[0], _EXACT), 1.0))

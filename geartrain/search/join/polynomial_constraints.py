@@ -1,13 +1,13 @@
-"""What is required of one output, as signs of polynomials in items; and whether that can be met while items are open.
+"""Constraints on outputs as signs of polynomials in items, and whether they can be satisfied with free items.
 
-|N/D - w| <= t w is one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is a set of
-inequalities (sense * polynomial >= 0). Where one item is still open each case leaves one window of its values; entries
-that floats cannot place are settled by exact signs.
+|N/D - w| <= t w is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is
+a set of inequalities sense * polynomial >= 0. With one free item each case leaves one window of its values. Entries
+that floats cannot decide are decided by exact signs.
 
-Where more items are open they lie between bounds, and rows are given up that no values between these can save. Where a
-polynomial has at most two powers of each open item it is, divided by the lower ones, monotone in each: its extremes lie
-at the corners of the box. Where no open item is in two of its terms, each term has its own extreme. Otherwise, or with
-too many corners, the terms' own extremes are bounds all the same.
+With more free items, these lie between bounds, and rows are dropped that no values within the bounds can satisfy. If a
+polynomial has at most two powers of each free item, it is monotone in each after division by the lower powers, and its
+extremes are at the corners of the box. If no free item is in two of its terms, each term has its own extremes.
+Otherwise, or with too many corners, the extremes of the terms are still valid bounds.
 """
 
 from __future__ import annotations
@@ -28,27 +28,27 @@ from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.integer_columns import spread
 from geartrain.search.join.product_lists import Item, PartialAssignments
 
-# Signs of polynomials at very many points, exact: floats decide where they can, integers where they cannot. Every
-# bound on an output is the sign of a polynomial in the items: N/D <= v is N - v D <= 0 where D > 0. A float64 value
-# with a bound on its rounding settles nearly all points. Where it does not, the value is small against its terms,
-# and arithmetic modulo 2^64 gives it exactly as long as it is surely less than 2^63; beyond, Python's integers.
+# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the items: N/D
+# <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all points. At the
+# others the value is small compared with its terms. Arithmetic modulo 2^64 is then exact if the magnitude is certainly
+# below 2^63; Python integers decide the rest.
 
 
 Signs = NDArray[np.int8]
 
-ROUNDING = 2 * UNIT_ROUNDOFF  # twice, so that squares of it need no bound of their own
+ROUNDING = 2 * UNIT_ROUNDOFF  # doubled, so that second-order terms are covered
 _WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """A sum of whole coefficients times monomials in the items; all powers 1 or more."""
+    """Sum of integer coefficients times monomials in the items, with all powers at least 1."""
 
     terms: tuple[tuple[int, Monomial], ...]
 
     @classmethod
     def of(cls, terms: Iterable[tuple[int, Monomial]]) -> SignPolynomial:
-        """The sum of some terms."""
+        """Sum terms, combining equal monomials."""
         total: dict[Monomial, int] = {}
         for coefficient, monomial in terms:
             total[monomial] = total.get(monomial, 0) + coefficient
@@ -56,37 +56,38 @@ class SignPolynomial:
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """The items it depends on, ascending."""
+        """Items that the polynomial depends on, ascending."""
         return tuple(sorted({item for _, monomial in self.terms for item, _ in monomial}))
 
     @cached_property
     def scale(self) -> int:
-        """The largest coefficient in size; 1 for zero."""
+        """Maximum magnitude of the coefficients; 1 for the zero polynomial."""
         return max((abs(coefficient) for coefficient, _ in self.terms), default=1)
 
     @cached_property
     def rounding(self) -> float:
-        """`values` are off by less than this times their `sizes`."""
+        """Bound of the rounding error of `values`, relative to their `sizes`."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
-        # an item has three roundings at most and each product one; twice the unit covers squares and the bound itself
+        # an item has at most three roundings and each product one; the factor of two covers squares and the bound
+        # itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
 
     def degree(self, item: int) -> int:
-        """Its highest power of an item."""
+        """Return the highest power of an item."""
         return max((dict(monomial).get(item, 0) for _, monomial in self.terms), default=0)
 
     def powers(self, item: int) -> tuple[int, ...]:
-        """The powers of an item that occur, ascending."""
+        """Return the powers of an item that occur, ascending."""
         return tuple(sorted({dict(monomial).get(item, 0) for _, monomial in self.terms}))
 
     @property
     def definite(self) -> int:
-        """1 or -1 if it has that sign everywhere, because its terms have; 0 if that is not plain."""
+        """Common sign of all terms, 1 or -1; 0 if the terms have different signs."""
         signs = {coefficient > 0 for coefficient, _ in self.terms}
         return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
     def split(self, item: int) -> Mapping[int, SignPolynomial]:
-        """Power of an item -> its factor, a polynomial in the others."""
+        """Return power of an item -> its factor, a polynomial in the other items."""
         parts: dict[int, list[tuple[int, Monomial]]] = {}
         for coefficient, monomial in self.terms:
             power = dict(monomial).get(item, 0)
@@ -95,13 +96,13 @@ class SignPolynomial:
         return {power: SignPolynomial(tuple(terms)) for power, terms in sorted(parts.items())}
 
     def plus(self, other: SignPolynomial, factor: Fraction) -> SignPolynomial:
-        """A positive multiple of self + factor * other."""
+        """Return a positive multiple of self + factor * other."""
         mine = ((factor.denominator * coefficient, monomial) for coefficient, monomial in self.terms)
         theirs = ((factor.numerator * coefficient, monomial) for coefficient, monomial in other.terms)
         return SignPolynomial.of((*mine, *theirs))
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
-        """Values over `scale` at some rows, and sizes (the same sum with all signs plus)."""
+        """Return the values divided by `scale`, and the sums of the magnitudes of their terms, at some rows."""
         over = scale or self.scale
         return sum_and_size(
             (_term(float(Fraction(coefficient, over)), monomial, rows) for coefficient, monomial in self.terms),
@@ -109,7 +110,7 @@ class SignPolynomial:
         )
 
     def signs(self, rows: PartialAssignments) -> Signs:
-        """Exact signs at some rows, (rows,)."""
+        """Return the exact signs at some rows, (rows,)."""
         value, size = self.values(rows)
         bound = self.rounding * size
         found: Signs = np.sign(value).astype(np.int8)
@@ -119,8 +120,8 @@ class SignPolynomial:
         return found
 
     def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
-        """Exact signs where the value is at most twice `bounds` (over the scale) in size."""
-        # times all denominators: a bound on the whole number that is worked out below
+        """Return the exact signs of values whose magnitude is at most twice `bounds`, relative to the scale."""
+        # times all denominators: a bound of the integer computed below
         minimum: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
         for item in self.items:
             bottom = rows.bottom(item)
@@ -128,7 +129,7 @@ class SignPolynomial:
                 for _ in range(self.degree(item)):
                     minimum = minimum * bottom
         found: Signs = np.zeros(rows.size, dtype=np.int8)
-        # a factor of two below what int64 holds, for the bound itself is rounded
+        # a factor of two below the range of int64, because the bound itself is rounded
         short = minimum < 2.0**62
         found[short] = np.sign(self._wrapped(rows.pick(short))).astype(np.int8)
         for at in np.flatnonzero(~short):
@@ -136,8 +137,8 @@ class SignPolynomial:
         return found
 
     def _wrapped(self, rows: PartialAssignments) -> Ints:
-        """The value times denominators, modulo 2^64 as a signed number."""
-        # numpy's unsigned integers wrap without a warning; the true value is below 2^63 in size, so the sign is right
+        """Return the values times all denominators, modulo 2^64, as signed integers."""
+        # numpy's unsigned integers wrap without a warning; the true magnitude is below 2^63, so the sign is correct
         total = np.zeros(rows.size, dtype=np.uint64)
         for coefficient, monomial in self.terms:
             term = np.full(rows.size, coefficient & _WRAP, dtype=np.uint64)
@@ -154,7 +155,7 @@ class SignPolynomial:
         return total.view(np.int64)
 
     def _sign(self, row: PartialAssignments) -> int:
-        """The sign at one row, in Python's integers."""
+        """Return the sign at one row in Python integers."""
         total = 0
         for coefficient, monomial in self.terms:
             powers = dict(monomial)
@@ -175,41 +176,41 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
     return term
 
 
-# Where a polynomial in one open item keeps its sign: a ray of the item's sorted values, found by binary search.
-# Divided by the item's lowest power it is A y + B, with y a power of the item, and changes its sign at -B/A.
-# Rounding leaves a doubt about values next to that: a window says which values surely meet its inequalities, and
-# which may.
+# The values of the free item for which a polynomial keeps its sign are a ray of the sorted values, found by binary
+# search. After division by the lowest power of the item the polynomial is A y + B, where y is a power of the item, and
+# changes its sign at -B/A. Rounding makes values close to -B/A uncertain: a window separates the values that certainly
+# satisfy the inequalities from those that may.
 
 
 @dataclass(frozen=True)
 class PolynomialInequality:
-    """sense * polynomial >= 0, or > 0 where it is strict."""
+    """Inequality sense * polynomial >= 0, or > 0 if it is strict."""
 
     polynomial: SignPolynomial
     sense: int
     strict: bool = False
 
     def met(self, signs: Signs) -> Bools:
-        """Where it holds, given the polynomial's exact signs."""
+        """Test for which exact signs of the polynomial the inequality is satisfied."""
         found: Bools = (signs * self.sense > 0) if self.strict else (signs * self.sense >= 0)
         return found
 
 
 @dataclass(frozen=True)
 class SolutionWindow:
-    """For each row the run of an item's values that may meet a case, and the run within it that surely does."""
+    """Range of the values of an item that may satisfy a case, and the inner range that certainly does, for each row."""
 
     start: Ints
-    """Outer: values before `start` and from `end` on surely fail."""
+    """Start of the outer range. Values before it certainly fail."""
     end: Ints
-    """Outer: values before `start` and from `end` on surely fail."""
+    """End of the outer range, exclusive. Values from it on certainly fail."""
     sure_start: Ints
-    """Inner; empty where sure_end <= sure_start."""
+    """Start of the inner range."""
     sure_end: Ints
-    """Inner; empty where sure_end <= sure_start."""
+    """End of the inner range, exclusive. The range is empty if sure_end <= sure_start."""
 
     def clipped(self, first: int, last: int) -> SolutionWindow:
-        """Cut to the values from `first` up to `last`, exclusive; ends are never before starts."""
+        """Restrict the ranges to the values from `first` to `last`, exclusive; ends are never before starts."""
         start, end = np.maximum(self.start, first), np.minimum(self.end, last)
         end = np.maximum(start, end)
         sure_start, sure_end = np.clip(self.sure_start, start, end), np.clip(self.sure_end, start, end)
@@ -217,7 +218,7 @@ class SolutionWindow:
 
 
 def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> SolutionWindow:
-    """The window of a case in the one open item: the common part of its rays."""
+    """Return the window of a case in its free item, which is the intersection of the rays of its inequalities."""
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
     sure_start, sure_end = start.copy(), end.copy()
     for inequality in case:
@@ -228,7 +229,10 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Where sense * (A y + B) >= 0, y the item's value to some power (after dividing by its lowest power)."""
+    """Return the window of sense * (A y + B) >= 0, where y is a power of the item.
+
+    The polynomial is divided by the lowest power of the item.
+    """
     parts = inequality.polynomial.split(item)
     most = len(rows.items[item])
     if len(parts) < 2:
@@ -237,14 +241,14 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
     (low, B), (high, A) = parts.items()
     scale = inequality.polynomial.scale
     a, size = A.values(rows, scale)
-    # four times the rounding: then |a| less its error is at least three quarters of |a|, and its sign is sure
+    # four times the rounding error: then |a| minus its error is at least three quarters of |a|, and its sign is certain
     known = np.abs(a) > 4 * A.rounding * size
     if known.all():
-        return _bounded(inequality, rows, rows.items[item], high - low, (a, A.rounding * size), B)
-    return _in_doubt(inequality, rows, item, known, (A, B))
+        return _certain_ray(inequality, rows, rows.items[item], high - low, (a, A.rounding * size), B)
+    return _uncertain_ray(inequality, rows, item, known, (A, B))
 
 
-def _bounded(
+def _certain_ray(
     inequality: PolynomialInequality,
     rows: PartialAssignments,
     item: Item,
@@ -252,11 +256,11 @@ def _bounded(
     slope: tuple[Floats, Floats],
     rest: SignPolynomial,
 ) -> SolutionWindow:
-    """The ray where the sign of A is sure: its end is -B/A, give or take what rounding may do."""
+    """Return the ray for a certain sign of A, which ends at -B/A up to rounding."""
     a, off_a = slope
     b, size = rest.values(rows, inequality.polynomial.scale)
     end = -b / a
-    # first-order bound on the error of -b/a, and what rounding does to the item's power itself
+    # first-order bound of the error of -b/a, and the rounding error of the power of the item
     off = (rest.rounding * size + np.abs(end) * off_a) / (np.abs(a) - off_a)
     off += np.abs(end) * (8 * power + 8) * ROUNDING
     minimum, maximum, y = end - off, end + off, item.powers(power)
@@ -275,7 +279,7 @@ def _bounded(
 
 
 def _rising(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
-    """All y from somewhere between `minimum` and `maximum` on."""
+    """Return the window of all y from a value between `minimum` and `maximum` on."""
     start = np.searchsorted(y, minimum, side="left")
     end = np.full(len(start), len(y))
     sure = start.copy()
@@ -285,7 +289,7 @@ def _rising(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
 
 
 def _falling(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
-    """All y up to somewhere between `minimum` and `maximum`."""
+    """Return the window of all y up to a value between `minimum` and `maximum`."""
     end = np.searchsorted(y, maximum, side="right")
     start = np.zeros(len(end), dtype=np.int64)
     sure = end.copy()
@@ -300,14 +304,17 @@ def _all_or_nothing(met: Bools, most: int) -> SolutionWindow:
     return SolutionWindow(start, end, start, end)
 
 
-def _in_doubt(
+def _uncertain_ray(
     inequality: PolynomialInequality,
     rows: PartialAssignments,
     item: int,
     known: Bools,
     parts: tuple[SignPolynomial, SignPolynomial],
 ) -> SolutionWindow:
-    """The ray where rounding hides the sign of A in some rows: where A is 0, B decides; else all stays in doubt."""
+    """Return the ray if rounding hides the sign of A in some rows.
+
+    B decides the rows with A = 0; the others remain uncertain for all values.
+    """
     A, B = parts
     found = np.zeros((4, rows.size), dtype=np.int64)
     found[1] = len(rows.items[item])
@@ -324,34 +331,34 @@ def _in_doubt(
 
 
 Corners = Mapping[int, tuple[float, float]]
-"""Open item -> its least and greatest value."""
+"""Free item -> its minimum and maximum value."""
 
-_MOST_CORNERS = 64  # of a box; beyond, each term is bounded by itself
+_MOST_CORNERS = 64  # maximum number of corners of a box; beyond it, terms are bounded separately
 _SHORT = 4096
-"""Rows up to which a product of matrices is faster than one term after the other."""
+"""Maximum number of rows for which a matrix product is faster than a loop over terms."""
 
 
 @dataclass(frozen=True, slots=True)
 class RelaxedInequality:
-    """An inequality with some items open."""
+    """Inequality with some free items, relaxed over the box of their bounds."""
 
     sense: int
-    """Of the inequality."""
+    """Sense of the inequality, 1 or -1."""
     rest: tuple[SignPolynomial, ...]
-    """What the items that are set make of each term."""
+    """Factor of each term in the assigned items."""
     lows: Floats
-    """What the open items make of each term at the least and at the greatest, (terms,)."""
+    """Minimum factor of each term in the free items, (terms,)."""
     highs: Floats
-    """What the open items make of each term at the least and at the greatest, (terms,)."""
+    """Maximum factor of each term in the free items, (terms,)."""
     points: Floats | None
-    """What they make of each term at each corner, (terms, corners); None where each term is taken by itself."""
+    """Factor of each term at each corner of the box, (terms, corners); None if terms are bounded separately."""
     slack: float
-    """Rounding of the sum, over the sum with all signs plus."""
+    """Rounding error relative to the sum of the magnitudes of the terms."""
     scale: int
-    """The polynomial's."""
+    """Scale of the polynomial."""
 
     def possible(self, rows: PartialAssignments) -> Bools:
-        """False where the inequality surely fails for all values of the open items."""
+        """Test which rows can satisfy the inequality; False only if it fails for all values of the free items."""
         factors = [self.sense * one.values(rows, self.scale)[0] for one in self.rest]
         minimum = np.zeros(rows.size)
         for factor, high in zip(factors, self.highs, strict=True):
@@ -373,13 +380,13 @@ class RelaxedInequality:
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """An inequality with the items in `corners` open; others that it depends on are set."""
+    """Return an inequality relaxed over the items in `corners`; its other items are assigned."""
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
     few = all(len(polynomial.powers(item)) <= 2 for item in inside) and 2 ** len(inside) <= _MOST_CORNERS
     points = None
-    if few and not all(_alone(polynomial, item) for item in inside):
+    if few and not all(_is_in_one_term(polynomial, item) for item in inside):
         ends = product(*(corners[item] for item in inside))
         points = np.stack([_factors(polynomial, inside, point) for point in ends], axis=1)
     rest = tuple(
@@ -389,14 +396,14 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
     return RelaxedInequality(inequality.sense, rest, lows, highs, points, 2 * polynomial.rounding, polynomial.scale)
 
 
-def _alone(polynomial: SignPolynomial, item: int) -> bool:
-    """True if one term at most has more than the lowest power of an item."""
+def _is_in_one_term(polynomial: SignPolynomial, item: int) -> bool:
+    """Return whether at most one term has more than the lowest power of an item."""
     powers = [dict(monomial).get(item, 0) for _, monomial in polynomial.terms]
     return sum(power > min(powers) for power in powers) <= 1
 
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
-    """What the open items make of each term at some values of theirs; their lowest powers are divided out."""
+    """Return the factor of each term at given values of the free items, divided by their lowest powers."""
     minimum = {item: polynomial.powers(item)[0] for item in inside}
     factors = []
     for _, monomial in polynomial.terms:
@@ -407,17 +414,17 @@ def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[
 
 @dataclass(frozen=True)
 class PolynomialConstraint:
-    """A demand: at least one case holds, that is, all of its inequalities. No two cases hold at once."""
+    """Disjunction of mutually exclusive cases, each a conjunction of inequalities."""
 
     name: str
-    """What is demanded, in words."""
+    """Description of the constraint."""
     cases: tuple[tuple[PolynomialInequality, ...], ...]
     function: tuple[SignPolynomial, SignPolynomial] | None = None
-    """Numerator and denominator of what the demand is on, where its value is asked for too."""
+    """Numerator and denominator of the constrained function, if its value is also required."""
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """The items it depends on, ascending."""
+        """Items that the constraint depends on, ascending."""
         polynomials = [*(inequality.polynomial for inequality in self._inequalities), *(self.function or ())]
         return tuple(sorted({item for polynomial in polynomials for item in polynomial.items}))
 
@@ -426,7 +433,7 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def steps(self, item: int) -> Iterator[int]:
-        """Powers of an item in the terms of its polynomials, each less that in the polynomial's first term."""
+        """Yield the powers of an item in all terms, relative to the first term of each polynomial."""
         sums = [inequality.polynomial.terms for inequality in self._inequalities]
         if self.function is not None:
             sums.append(self.function[0].terms + self.function[1].terms)
@@ -435,11 +442,11 @@ class PolynomialConstraint:
             yield from (power - powers[0] for power in powers)
 
     def opens(self, item: int) -> bool:
-        """True if `windows` can be found in an item: each polynomial has at most two powers of it."""
+        """Return whether windows exist for an item: each polynomial has at most two powers of it."""
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 
     def holds(self, rows: PartialAssignments) -> Bools:
-        """Where it is met, exactly; all its items must be set."""
+        """Test exactly which rows satisfy the constraint; all its items must be assigned."""
         known: dict[SignPolynomial, Signs] = {}
         found: Bools = np.zeros(rows.size, dtype=np.bool_)
         for case in self.cases:
@@ -447,22 +454,22 @@ class PolynomialConstraint:
         return found
 
     def value(self, rows: PartialAssignments) -> Floats:
-        """The value of its function, to rounding."""
+        """Return the values of the function, up to rounding."""
         assert self.function is not None, "the demand is graded"
         scale = max(side.scale for side in self.function)
         (above, _), (below, _) = (side.values(rows, scale) for side in self.function)
         return np.asarray(above / below)
 
     def reaches(self, corners: Corners) -> list[list[RelaxedInequality]]:
-        """Its inequalities, case by case, with some items open; for `possible`."""
+        """Return the inequalities of each case, relaxed over the free items, for `possible`."""
         return [[relax_inequality(inequality, corners) for inequality in case] for case in self.cases]
 
     def windows(self, rows: PartialAssignments, item: int) -> list[SolutionWindow]:
-        """For each case its window of the values of the one open item."""
+        """Return the window of each case in the values of the free item."""
         return [find_window(case, rows, item) for case in self.cases]
 
     def fringe(self, at: int, rows: PartialAssignments, item: int, window: SolutionWindow) -> tuple[Ints, Ints]:
-        """Row and value of all that a window of case `at` leaves in doubt and that do meet it."""
+        """Return the rows and values in the uncertain part of a window of case `at` that satisfy the case."""
         none = window.sure_end <= window.sure_start
         starts = np.concatenate([window.start, np.where(none, window.end, window.sure_end)])
         ends = np.concatenate([np.where(none, window.end, window.sure_start), window.end])
@@ -485,7 +492,7 @@ def _case_holds(
 
 
 def possible(reaches: Sequence[Sequence[RelaxedInequality]], rows: PartialAssignments) -> Bools:
-    """False where no values of the open items meet a constraint; `reaches` are its."""
+    """Test which rows can satisfy a constraint, from its relaxed inequalities `reaches`."""
     found: Bools = np.zeros(rows.size, dtype=np.bool_)
     for case in reaches:
         met: Bools = np.ones(rows.size, dtype=np.bool_)

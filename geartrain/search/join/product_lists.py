@@ -1,7 +1,8 @@
-"""What a join runs over: distinct products of some wheels' counts, sorted, and rows of values chosen from them.
+"""Items of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
 
-An output sees most wheels through one monomial only, such as a c / (b d). So not wheels are joined but items: a list of
-products of counts, or of quotients of two such products. A wheel that a count constraint looks at is an item by itself.
+An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns items
+instead of wheels: a list of products of counts, or of quotients of two such products. A wheel in a constraint on counts
+is an item of its own.
 """
 
 from __future__ import annotations
@@ -19,35 +20,35 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Floats, Ints
 
 Tallies = NDArray[Any]
-"""Numbers or weights of assignments: int64 where all of them fit, Python integers otherwise."""
+"""Numbers or weights of assignments: int64 if all of them fit, else Python integers."""
 Domains = Mapping[str, tuple[int, ...]]
 Weights = Mapping[str, tuple[int, ...]]
-"""Wheel -> a whole weight for each of its counts; 1 for all of a wheel that is missing: counting is weight 1."""
+"""Wheel -> an integer weight for each of its counts. Missing wheels have weights 1, which counts assignments."""
 
 BLOCK = 1 << 18
-"""Rows worked on at a time: bounds the memory of a join to some tens of megabytes, beside its lists."""
-_LONGEST = 1 << 23  # products in a table made at once: 64 MB of int64
-_TRIED = 4_000_000  # products made for a forecast; beyond, it is a guess
-_REMEMBERED = 20_000_000  # values in all lists that are kept
+"""Number of rows in a block, which limits the memory of a join to about 50 MB besides its lists."""
+_LONGEST = 1 << 23  # maximum number of products in one table: 64 MB of int64
+_TRIED = 4_000_000  # maximum number of products formed for a forecast, which is extrapolated beyond it
+_REMEMBERED = 20_000_000  # maximum number of values in all cached lists
 
 
 @dataclass(frozen=True, slots=True)
 class ItemRecipe:
-    """What an item is made of, in plain data."""
+    """Definition of an item as plain data: the wheels of its numerator and denominator."""
 
     top: tuple[tuple[str, int], ...]
-    """Wheels whose counts are multiplied above and below, each with its power (1 or more)."""
+    """Wheels of the numerator, each with its positive power."""
     bottom: tuple[tuple[str, int], ...] = ()
-    """Wheels whose counts are multiplied above and below, each with its power (1 or more)."""
+    """Wheels of the denominator, each with its positive power."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """All its wheels."""
+        """All wheels of the item."""
         return tuple(wheel for wheel, _ in self.top + self.bottom)
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """How many distinct products there are, and how many are looked at to list them; guessed where that is long."""
+    """Return the number of distinct products, and of products formed to list them; estimated if large."""
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
 
@@ -55,29 +56,29 @@ def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[i
 def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
     values, sizes, cost = np.ones(1, dtype=np.int64), [1], 0
     for at, some in enumerate(factors):
-        looked = sizes[-1] * len(some)
-        cost += looked
+        examined = sizes[-1] * len(some)
+        cost += examined
         if cost <= _TRIED and len(values) == sizes[-1] and maximum(factors[: at + 1]) < 1 << 62:
             values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
             sizes.append(len(values))
         else:
-            # a guess from here on
-            # every further wheel finds more of its products known: the growth falls, by a fifth at least
+            # extrapolation: each further wheel repeats more products, so the growth factor decreases, at least by a
+            # fifth
             growth = 0.8 * sizes[-1] / sizes[-2] * len(some) / len(factors[at - 1]) if at else len(some)
             sizes.append(max(sizes[-1], int(sizes[-1] * min(growth, len(some)))))
     return sizes[-1], cost
 
 
 def maximum(factors: Sequence[Sequence[int]]) -> int:
-    """The largest product of one number of each list."""
+    """Return the largest product of one number from each list."""
     return prod(max(some) for some in factors)
 
 
 class ProductLists:
-    """Distinct products of one number of each of some lists, ascending, with the weight of all ways to each.
+    """Distinct products of one number from each list, ascending, with the total weight of each product.
 
-    levels   products of the first so many lists, int64
-    times    weight of the ways to the products of all, of the given dtype
+    levels   products of the first 0, 1, 2, ... lists, int64
+    times    weights of the products of all lists, of the given dtype
     """
 
     def __init__(self, factors: Sequence[tuple[int, ...]], weights: Sequence[tuple[int, ...]], dtype: Any) -> None:
@@ -85,7 +86,7 @@ class ProductLists:
         self.levels = [np.ones(1, dtype=np.int64)]
         self.times: Tallies = np.ones(1, dtype=dtype)
         for some, own in zip(self.factors, weights, strict=True):
-            values, self.times = _times(self.levels[-1], self.times, some, np.array(own, dtype=dtype))
+            values, self.times = _multiplied(self.levels[-1], self.times, some, np.array(own, dtype=dtype))
             self.levels.append(values)
 
 
@@ -93,13 +94,13 @@ Made = TypeVar("Made", "ProductLists", "Item")
 
 
 class ListCache(Generic[Made]):
-    """What was made lately: one search asks for the same lists again and again. Bounded by their lengths."""
+    """Least-recently-used cache of lists, limited by their total length."""
 
     def __init__(self) -> None:
         self._kept: OrderedDict[Hashable, Made] = OrderedDict()
 
     def get(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """What was made under a key, or made now."""
+        """Return the cached entry of a key, and make it if it is missing."""
         if key not in self._kept:
             self._kept[key] = make()
         self._kept.move_to_end(key)
@@ -110,32 +111,32 @@ class ListCache(Generic[Made]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
-    """What the counts of one wheel make of the products of the wheels before it."""
+    """Transitions from the products of some wheels to the products with one more wheel."""
 
     wheel: str
     choices: Ints
-    """Index of the count, in parallel to the next two."""
+    """Index of the count of the wheel, for each transition."""
     children: Ints
-    """Product after."""
+    """Index of the product after each transition."""
     parents: Ints
-    """Product before."""
+    """Index of the product before each transition."""
     size: int
-    """How many products there are after."""
+    """Number of products after the step."""
     before: ProductStep | None
-    """The wheels before it; None for the empty product."""
+    """Step of the previous wheel; None for the empty product."""
 
     def chain(self) -> Iterator[ProductStep]:
-        """This step, then those before it."""
+        """Yield this step, then the previous ones."""
         yield self
         if self.before is not None:
             yield from self.before.chain()
 
 
 class CountProducts:
-    """Distinct products of one count of each wheel (to its power).
+    """Distinct products of one count of each wheel to its power.
 
-    values   (m,) int64, ascending
-    times    (m,) weight of the ways to each, of the given dtype
+    values   products, ascending, (m,) int64
+    times    total weight of each product, (m,) of the given dtype
     """
 
     def __init__(self, wheels: Sequence[tuple[str, int]], domains: Domains, weights: Weights, dtype: Any) -> None:
@@ -148,7 +149,10 @@ class CountProducts:
         self.values = self.levels[-1]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Every way to some products: (owner, wheel -> count), owner an index into `indices`, ascending."""
+        """Return every assignment that produces some products.
+
+        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
+        """
         owner, rest = np.arange(len(indices)), self.values[indices]
         found: dict[str, Ints] = {}
         for level in range(len(self.wheels) - 1, -1, -1):
@@ -159,21 +163,21 @@ class CountProducts:
         return owner, found
 
     def last_step(self, indices: Ints) -> ProductStep | None:
-        """How some products, each once, are made up from the one empty product on; None where that is all."""
+        """Return the last step from the empty product to some distinct products; None without wheels."""
         return self._step(len(self.wheels) - 1, self.values[indices])
 
     def _step(self, level: int, values: Ints) -> ProductStep | None:
         if level < 0:
             return None
-        children, choices, rest = _made(values, self.powers[level], self.levels[level])
+        children, choices, rest = _factored(values, self.powers[level], self.levels[level])
         before, parents = np.unique(rest, return_inverse=True)
         return ProductStep(
             self.wheels[level][0], choices, children, parents, len(values), self._step(level - 1, before)
         )
 
 
-def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Distinct products of two lists; in blocks, so that the whole table is never held."""
+def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
+    """Multiply two lists, and return the distinct products with their weights, block by block to save memory."""
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
     for at in range(0, len(factors), step):
@@ -181,7 +185,7 @@ def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tup
         products = np.multiply.outer(block, values).ravel()
         found.append(_distinct(products, np.multiply.outer(weights[at : at + step], times).ravel()))
         last = at + step >= len(factors)
-        # lists of about one length are merged, as digits are carried: each value is moved a few times only
+        # merge lists of similar length (binary counter), so that each value is moved only a few times
         while len(found) > 1 and (last or len(found[-2][0]) <= 2 * len(found[-1][0])):
             (left, p), (right, q) = found.pop(), found.pop()
             found.append(_distinct(np.concatenate([left, right]), np.concatenate([p, q])))
@@ -189,7 +193,7 @@ def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tup
 
 
 def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
-    # sorted and added up by `reduceat`: np.unique would not add weights, which may be Python integers
+    # sorting and `reduceat` instead of np.unique, which cannot sum weights that are Python integers
     order = np.argsort(values, kind="stable")
     values = values[order]
     first = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1]]))
@@ -197,7 +201,7 @@ def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
 
 
 def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """All ways to take one factor out of products: (index into rest, index of the factor, quotient)."""
+    """Return all divisions of products by one factor, as (index into rest, index of the factor, quotient)."""
     found = []
     step = max(1, _LONGEST // len(factors))
     for at in range(0, max(len(rest), 1), step):
@@ -209,8 +213,8 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
     return rows, columns, quotients
 
 
-def _made(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """As `_divided`, of distinct ascending products, the cheaper way round."""
+def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
+    """Return the result of `_divided` for distinct ascending products, by the cheaper method."""
     if len(values) <= len(shorter):
         return _divided(values, factors, shorter)
     found = []
@@ -225,12 +229,13 @@ def _made(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]
 
 
 class Item:
-    """The values of a recipe: top over bottom, ascending, with the weight of the ways to each.
+    """Values of a recipe, numerator over denominator, ascending, with the total weight of each.
 
-    x               (m,) float64, ascending; a few roundings off
-    tops, bottoms   (m,) int64, x exactly; `bottoms` is None where all are 1. Equal quotients may stand several times
-    times           (m,) weight of the ways
-    sums            (m + 1,) that to the first so many
+    x               values, (m,) float64, ascending, accurate to a few roundings
+    tops, bottoms   exact numerators and denominators, (m,) int64; `bottoms` is None if all are 1. Equal quotients may
+                    be repeated
+    times           weights, (m,)
+    sums            cumulative weights, (m + 1,), from 0
     """
 
     def __init__(self, recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> None:
@@ -244,7 +249,7 @@ class Item:
             self._divide(self._bottom)
         self.x = self.tops / (1.0 if self.bottoms is None else self.bottoms)
         self.sums = np.concatenate([np.zeros(1, dtype=dtype), np.cumsum(self.times, dtype=dtype)])
-        self._rooms: dict[int, Floats] = {}
+        self._powers: dict[int, Floats] = {}
 
     def __len__(self) -> int:
         return len(self.x)
@@ -253,26 +258,29 @@ class Item:
         above = np.repeat(np.arange(len(self._top.values)), len(bottom.values))
         below = np.tile(np.arange(len(bottom.values)), len(self._top.values))
         tops, bottoms = self._top.values[above], bottom.values[below]
-        # rounding may exchange quotients that are nearly equal: windows allow for that
+        # rounding may exchange almost equal quotients, which windows allow for
         order = np.argsort(tops / bottoms, kind="stable")
         self._at = above[order], below[order]
         self.tops, self.bottoms = tops[order], bottoms[order]
         self.times = self._top.times[self._at[0]] * bottom.times[self._at[1]]
 
     def powers(self, power: int) -> Floats:
-        """x to a power, ascending."""
-        if power not in self._rooms:
-            self._rooms[power] = reduce(np.multiply, [self.x] * power)
-        return self._rooms[power]
+        """Return x to a power, ascending."""
+        if power not in self._powers:
+            self._powers[power] = reduce(np.multiply, [self.x] * power)
+        return self._powers[power]
 
     def sides(self, indices: Ints) -> list[tuple[CountProducts, Ints]]:
-        """The products above, and below if there are any, with their places in some of the values."""
+        """Return the products of numerator and denominator, each with their indices at some values."""
         if self._bottom is None or self._at is None:
             return [(self._top, indices)]
         return [(self._top, self._at[0][indices]), (self._bottom, self._at[1][indices])]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Every way to some of the values: (owner, wheel -> count), owner an index into `indices`, ascending."""
+        """Return every assignment that produces some values.
+
+        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
+        """
         if self._bottom is None or self._at is None:
             return self._top.ways(indices)
         owner, found = self._top.ways(self._at[0][indices])
@@ -285,20 +293,20 @@ _ITEMS: ListCache[Item] = ListCache()
 
 
 def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """An item, made or remembered."""
+    """Return the item of a recipe from the cache."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel in recipe.wheels), dtype is object
     return _ITEMS.get(key, lambda: Item(recipe, domains, weights, dtype))
 
 
-# -------------------------------------------------------------- rows over some items, each with the index of its value
+# --------------------------------------------------------------- rows over some items, each with the index of its value
 
 
 ItemMonomial = tuple[tuple[int, int], ...]
-"""(item, power) pairs; powers of either sign, never 0."""
+"""Pairs (item, power) with powers of either sign, never 0."""
 
 
 class PartialAssignments:
-    """Rows over some items.
+    """Rows of assigned items.
 
     columns   item -> index of its value, (size,)
     """
@@ -310,42 +318,41 @@ class PartialAssignments:
         self._x: dict[int, Floats] = {}
 
     def x(self, item: int) -> Floats:
-        """Values of an item, float64."""
+        """Return the values of an item, float64."""
         if item not in self._x:
             self._x[item] = self.items[item].x[self.columns[item]]
         return self._x[item]
 
     def top(self, item: int) -> Ints:
-        """Numerators of an item's values."""
+        """Return the numerators of the values of an item."""
         return self.items[item].tops[self.columns[item]]
 
     def bottom(self, item: int) -> Ints | None:
-        """Denominators of an item's values; None for 1."""
+        """Return the denominators of the values of an item; None if all are 1."""
         bottoms = self.items[item].bottoms
         return None if bottoms is None else bottoms[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Some rows, by mask or by index."""
+        """Select rows by mask or by index."""
         columns = {item: column[where] for item, column in self.columns.items()}
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return PartialAssignments(self.items, columns, size)
 
     def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
-        """Rows grown out of these: `parents` says which, `indices` the value of one more item."""
+        """Return rows extended by one item: `parents` are the original rows, `indices` the values of the item."""
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int], seen: Sequence[ItemMonomial]) -> tuple[PartialAssignments, Ints | None]:
-        """The distinct rows on some items, and for each row which of them it is; None for itself.
+        """Return the distinct rows on some items, and the index of each row among them; None if the rows are unchanged.
 
-        seen   monomials of these items through which alone they are looked at: rows with the same values of all of
-               them are one
+        seen   monomials of these items that matter; rows with equal values of all of them are merged
         """
         if len(seen) == len(items) == len(self.columns):
             return self, None
         key, most = np.zeros(self.size, dtype=np.int64), 1
         for code, codes in (pair for monomial in seen for pair in self._codes(monomial)):
-            if most * codes >= 1 << 62:  # renumbered, so that it never overflows
+            if most * codes >= 1 << 62:  # renumber the codes before they overflow
                 _, key = np.unique(key, return_inverse=True)
                 most = self.size
             key = key * codes + code
@@ -354,7 +361,7 @@ class PartialAssignments:
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
 
     def _codes(self, monomial: ItemMonomial) -> Iterator[tuple[Ints, int]]:
-        """Whole numbers that tell the values of a monomial apart, and a bound on each of them."""
+        """Yield integer codes that distinguish the values of a monomial, each with an upper bound."""
         if len(monomial) == 1:
             ((item, _),) = monomial
             yield self.columns[item], len(self.items[item])
@@ -367,14 +374,14 @@ class PartialAssignments:
                 top *= self.top(item)
                 if bottom is not None:
                     under *= bottom
-        # in lowest terms, so that 2/4 and 3/6 are one; with both sides in int64 that is exact
+        # in lowest terms, so that 2/4 and 3/6 are equal; exact if both sides are in int64
         common = np.gcd(above, below)
         for side in (above, below):
             values, code = np.unique(side // common, return_inverse=True)
             yield code, max(len(values), 1)
 
     def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
-        """Runs of rows whose `sizes` add up to about `BLOCK`; a row of more stands alone."""
+        """Yield ranges of rows whose `sizes` sum to about `BLOCK`; a larger row has a range of its own."""
         ends = np.cumsum(sizes)
         at = 0
         while at < self.size:

@@ -1,4 +1,4 @@
-"""From wheels to items: which wheels the outputs see through one monomial only, and the demands written in items."""
+"""Conversion of wheels to items: wheels in common monomials of all outputs, and constraints in terms of items."""
 
 from __future__ import annotations
 
@@ -22,72 +22,72 @@ from geartrain.search.join.product_lists import Domains, ItemRecipe, PartialAssi
 
 Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
-"""Closed, least to greatest; None for an infinite end."""
+"""Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
-"""Values of one item: half a gigabyte with all that belongs to them."""
-_MOST_QUOTIENTS = 1 << 22  # of an item with counts above and below
-_MOST_WORK = 2 * 10**8  # products made to list one item
+"""Maximum number of values of one item, which need half a gigabyte with all their arrays."""
+_MOST_QUOTIENTS = 1 << 22  # maximum number of values of an item with numerator and denominator
+_MOST_WORK = 2 * 10**8  # maximum number of products formed to list one item
 _LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
 
 
 class Function(Protocol):
-    """A rational function of counts, such as a `Formula`; powers (0 or more) are parallel to the wheels."""
+    """Rational function of tooth counts, such as a `Formula`, with non-negative powers in the order of `wheels`."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """The wheels it depends on."""
+        """Wheels that the function depends on."""
 
     @property
     def numerator(self) -> Sequence[WholeTerm]:
-        """Its terms above."""
+        """Terms of the numerator."""
 
     @property
     def denominator(self) -> Sequence[WholeTerm]:
-        """Its terms below."""
+        """Terms of the denominator."""
 
     def value(self, counts: Mapping[str, int], /) -> Fraction | None:
-        """Its exact value; None where the train is locked or free."""
+        """Return the exact value; None if the train is locked or free."""
 
 
 @dataclass(frozen=True, slots=True)
 class IntervalConstraint:
-    """A demand on a function: its value lies in one of the intervals, which do not touch."""
+    """Constraint that the value of a function is in one of several separate intervals."""
 
     name: str
-    """The demand in words."""
+    """Description of the constraint."""
     function: Function
     intervals: tuple[Interval, ...]
     strict: bool = False
-    """True: not on their ends either."""
+    """True if the ends of the intervals are excluded."""
     graded: bool = False
-    """True: it matters where within the intervals the value lies, so that all wheels of the function must be known."""
+    """True if the value within the intervals matters, so that all wheels of the function must be known."""
 
 
 @dataclass(frozen=True, slots=True)
 class WheelMonomial:
-    """Wheels that all functions see through one monomial, each with its power (never 0)."""
+    """Wheels that all functions depend on through one monomial, each with its power, which is not 0."""
 
     powers: Mapping[str, int]
 
     @property
     def top(self) -> tuple[tuple[str, int], ...]:
-        """The wheels with positive powers."""
+        """Wheels with positive powers."""
         return tuple((wheel, power) for wheel, power in self.powers.items() if power > 0)
 
     @property
     def bottom(self) -> tuple[tuple[str, int], ...]:
-        """The wheels with negative powers, the sign dropped."""
+        """Wheels with negative powers, with the sign removed."""
         return tuple((wheel, -power) for wheel, power in self.powers.items() if power < 0)
 
 
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """The coarsest bundles; wheels in `alone` stand by themselves, to the power 1.
+    """Return the largest possible monomials; wheels in `alone` are monomials of their own with power 1.
 
-    Wheels belong together if their powers, counted from the first term of each function and listed over all terms of
-    all functions, are multiples of one list.
+    Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
+    functions, are proportional.
     """
     lists: dict[str, list[int]] = {wheel: [] for wheel in wheels}
     for one in requested:
@@ -99,16 +99,16 @@ def find_wheel_monomials(
     classes = proportional_classes((wheel, steps) for wheel, steps in lists.items() if wheel not in alone)
     single = ({wheel: 1} for wheel, steps in lists.items() if wheel in alone or not any(steps))
     found = sorted((*classes.values(), *single), key=lambda powers: wheels.index(next(iter(powers))))
-    return [WheelMonomial(powers if next(iter(powers.values())) > 0 else _turned(powers)) for powers in found]
+    return [WheelMonomial(powers if next(iter(powers.values())) > 0 else _inverted(powers)) for powers in found]
 
 
-def _turned(powers: Mapping[str, int]) -> dict[str, int]:
+def _inverted(powers: Mapping[str, int]) -> dict[str, int]:
     return {wheel: -power for wheel, power in powers.items()}
 
 
 def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    """Ways to cut bundles into items that can be listed: quotients whole, or what is above and below apart."""
-    choices = [list(_cuts(bundle, domains)) for bundle in bundles]
+    """Yield definitions of items for the monomials: whole quotients, or numerator and denominator as separate items."""
+    choices = [list(_item_cuts(bundle, domains)) for bundle in bundles]
     if math.prod(map(len, choices)) > 8:
         yield from dict.fromkeys(tuple(recipe for choice in choices for recipe in choice[kind]) for kind in (0, -1))
     else:
@@ -116,20 +116,20 @@ def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator
             yield tuple(recipe for cut in chosen for recipe in cut)
 
 
-def _cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    top, bottom = list(_listed(bundle.top, domains)), list(_listed(bundle.bottom, domains))
+def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
+    top, bottom = list(_listable_groups(bundle.top, domains)), list(_listable_groups(bundle.bottom, domains))
     yield tuple(ItemRecipe(wheels) for wheels in top) + tuple(ItemRecipe((), wheels) for wheels in bottom)
     if len(top) == len(bottom) == 1 and quotients(top[0], bottom[0], domains) <= _MOST_QUOTIENTS:
         yield (ItemRecipe(top[0], bottom[0]),)
 
 
 def quotients(top: Factors, bottom: Factors, domains: Domains) -> int:
-    """How many values an item has, about."""
+    """Estimate the number of values of an item."""
     return forecast(top, domains)[0] * forecast(bottom, domains)[0]
 
 
-def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Some wheels in as few lots as can be listed, of about one size."""
+def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
+    """Split wheels into the minimum number of groups of similar size whose products can be listed."""
     if not wheels:
         return
     short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
@@ -139,18 +139,18 @@ def _listed(wheels: Factors, domains: Domains) -> Iterator[Factors]:
     elif len(wheels) == 1:
         wheel, power = wheels[0]
         what = f"the counts of '{wheel}' cannot be listed"
-        why = f"{len(domains[wheel])} of them up to {domains[wheel][-1]}, to the power {power}"
+        why = f"{len(domains[wheel])} counts up to {domains[wheel][-1]}, to the power {power}, exceed the limit"
         raise RangeError(Problem(what, why, f"narrow its range to {_MOST_VALUES} counts below 10^9"))
     else:
         middle = len(wheels) // 2
-        yield from _listed(wheels[:middle], domains)
-        yield from _listed(wheels[middle:], domains)
+        yield from _listable_groups(wheels[:middle], domains)
+        yield from _listable_groups(wheels[middle:], domains)
 
 
 def find_polynomial_constraints(
     requested: Sequence[IntervalConstraint], recipes: Sequence[ItemRecipe], domains: Domains
 ) -> list[PolynomialConstraint]:
-    """The demands in items."""
+    """Convert interval constraints to polynomial constraints in items."""
     extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
     constraints = []
     for one in requested:
@@ -166,12 +166,12 @@ def find_polynomial_constraints(
 
 
 def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
-    """True if a value lies in one of some closed intervals."""
+    """Return whether a value is in one of some closed intervals."""
     return any((low is None or value >= low) and (high is None or value <= high) for low, high in intervals)
 
 
 def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
-    """Least and greatest value of an item, in floats a few roundings off."""
+    """Return the minimum and maximum value of an item as floats, accurate to a few roundings."""
     above, below = ([domains[wheel] for wheel, _ in side] for side in (recipe.top, recipe.bottom))
     ends = []
     for up, down in ((0, -1), (-1, 0)):
@@ -182,7 +182,7 @@ def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
 
 
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
-    """The monomials in items of some terms, up to one common monomial."""
+    """Return the monomials in items of some terms, up to one common monomial."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe.top[0] if recipe.top else recipe.bottom[0]
@@ -214,7 +214,7 @@ def _cases(
 def _feasible(
     cases: Sequence[tuple[PolynomialInequality, ...]], extremes: Mapping[int, tuple[float, float]]
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Without the cases that no counts meet; the first is kept if none is left: the constraint keeps its items."""
+    """Drop the cases that no counts satisfy; keep the first if none is left, so that the constraint keeps its items."""
     nothing = PartialAssignments((), {}, 1)
     kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]
     return tuple(kept or cases[:1])

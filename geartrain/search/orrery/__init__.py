@@ -1,1 +1,1 @@
-"""Several periods from one arbor with few wheels."""
+"""Search for a gear train that shows several periods from one arbor with few wheels."""

@@ -1,7 +1,7 @@
-"""Trees of arbors that show some periods: what a pair can do, the fewest wheels of a tree, all trees up to a size.
+"""Trees of arbors that show given periods: reach of one gear pair, minimum number of wheels, enumeration up to a size.
 
-A table holds the distinct ratios of two wheels. The wheels of a tree are shared by branch and bound over the multiples
-of its ratios. Trees are enumerated up to a number of extra arbors, which show nothing.
+A table contains the distinct ratios of two wheels. The wheels of a tree are shared by branch and bound over the
+multiples of its ratios. Trees are enumerated up to a number of additional arbors, which do not show a period.
 """
 
 from __future__ import annotations
@@ -24,66 +24,70 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 ROUNDING = 1e-12
-"""Logarithms of periods and ratios, below 100 in magnitude, are right to better than this."""
-_MOST_PAIRS = 2 * 10**7  # of counts
-_MOST_STEPS = 4000  # of one tree; a first complete choice is always found
+"""Error bound of logarithms of periods and ratios whose magnitude is below 100."""
+_MOST_PAIRS = 2 * 10**7  # maximum number of pairs of counts in the table
+_MOST_STEPS = 4000  # maximum for one tree; a first complete assignment is always found
 
 
 @dataclass(frozen=True)
 class PeriodTargets:
-    """The periods wanted, in turns of the first arbor, and how far each may be missed."""
+    """Requested periods [revolutions of the first arbor] and their tolerances."""
 
     names: tuple[str, ...]
-    """As asked."""
+    """Names of the periods."""
     periods: tuple[Fraction, ...]
-    """Exact, positive."""
+    """Periods, exact and positive."""
     tolerances: tuple[Fraction, ...]
-    """Greatest relative error of each speed, exact, below 1."""
+    """Maximum absolute relative error of each speed, exact, below 1."""
 
     @cached_property
     def bounds(self) -> tuple[tuple[Fraction, Fraction], ...]:
-        """Least and greatest period admitted, of each."""
+        """Minimum and maximum of each period."""
         both = zip(self.periods, self.tolerances, strict=True)
         return tuple((period / (1 + slack), period / (1 - slack)) for period, slack in both)
 
     @cached_property
     def logs(self) -> tuple[tuple[float, float], ...]:
-        """`bounds` as logarithms, wide enough for rounding."""
+        """Logarithms of `bounds`, extended by the rounding error."""
         return tuple((math.log(low) - ROUNDING, math.log(high) + ROUNDING) for low, high in self.bounds)
 
     @property
     def everything(self) -> int:
-        """The set of all aims, as bits."""
+        """Bit mask of all targets."""
         return (1 << len(self.periods)) - 1
 
-    def meets(self, aim: int, ratio: Fraction) -> bool:
-        """True if an arbor of this period shows aim number `aim`; exact."""
-        low, high = self.bounds[aim]
+    def meets(self, target: int, ratio: Fraction) -> bool:
+        """Return whether an arbor of this period shows target number `target`; exact."""
+        low, high = self.bounds[target]
         return low <= ratio <= high
 
-    def error(self, aim: int, ratio: Fraction) -> Fraction:
-        """Speed over wanted speed, less 1; positive is fast."""
-        return self.periods[aim] / ratio - 1
+    def error(self, target: int, ratio: Fraction) -> Fraction:
+        """Return the speed over the requested speed, minus 1; positive if fast."""
+        return self.periods[target] / ratio - 1
 
 
 def read_period_targets(
     periods: Mapping[str, Fraction], tolerance: Fraction | float | Mapping[str, Fraction | float]
 ) -> PeriodTargets:
-    """Aims from periods by name and one tolerance for all or one for each."""
+    """Build the targets from periods by name and one tolerance for all or one for each."""
     if not periods:
-        raise QuestionError(Problem("no periods are asked for", "an orrery shows at least one", "name one period"))
+        raise QuestionError(
+            Problem("no periods are given", "an orrery shows at least one period", "give one, such as moon=29.53")
+        )
     if len(periods) > 30:
-        raise RangeError(Problem(f"{len(periods)} periods", "the search keeps sets of up to 30", "split the orrery"))
+        raise RangeError(
+            Problem(f"{len(periods)} periods are too many", "at most 30 periods are possible", "split the orrery")
+        )
     slack = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(periods, tolerance)
     problems = [
-        Problem(f"period {name!r} is {value}", "a period is a positive number of turns", "give its magnitude")
+        Problem(f"period {name!r} is {value}", "a period must be positive", "give its magnitude")
         for name, value in periods.items()
         if value <= 0
     ]
     problems += [
         Problem(
-            f"no usable tolerance for {name!r}: {slack.get(name)}",
-            "a relative tolerance lies from 0 to below 1",
+            f"the tolerance of {name!r} is {slack.get(name)}",
+            "a relative tolerance must be at least 0 and below 1",
             "give for instance 1e-6",
         )
         for name in periods
@@ -94,12 +98,13 @@ def read_period_targets(
     return PeriodTargets(
         tuple(periods),
         tuple(Fraction(value) for value in periods.values()),
+        # the shortest decimal of a float, so that 1e-6 is exactly 1/1000000
         tuple(Fraction(str(slack[name])) for name in periods),
     )
 
 
 def members(bits: int) -> Iterator[int]:
-    """The numbers in a set held as bits."""
+    """Yield the indices of the bits that are set in a bit mask."""
     at = 0
     while bits >> at:
         if bits >> at & 1:
@@ -107,32 +112,32 @@ def members(bits: int) -> Iterator[int]:
         at += 1
 
 
-# ------------------------------------------------------------------------------------------- what one gear pair can do
+# ------------------------------------------------------------------------------------------- ratios of one gear pair
 
 
 @dataclass(frozen=True)
 class PairRatios:
-    """The distinct ratios driven over driver of two wheels, in ascending order."""
+    """Distinct ratios driven over driver of two wheels, ascending."""
 
     counts: tuple[int, ...]
     """Admissible tooth counts, ascending."""
     driven: Ints
-    """(n,) the ratio in lowest terms."""
+    """Numerators of the ratios in lowest terms, (n,)."""
     driver: Ints
-    """(n,) the ratio in lowest terms."""
+    """Denominators of the ratios in lowest terms, (n,)."""
     logs: Floats
-    """(n,) its natural logarithm."""
+    """Natural logarithms of the ratios, (n,)."""
     _choices: dict[tuple[int, int], tuple[tuple[int, int], ...]] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
         return len(self.logs)
 
     def terms(self, at: int) -> tuple[int, int]:
-        """Driven and driver of one ratio, in lowest terms."""
+        """Return driven and driver of one ratio, in lowest terms."""
         return int(self.driven[at]), int(self.driver[at])
 
     def choices(self, driven: int, driver: int) -> tuple[tuple[int, int], ...]:
-        """All admissible (driven, driver) wheels of a ratio given in lowest terms, fewest teeth first."""
+        """Return all admissible (driven, driver) wheels of a ratio given in lowest terms, fewest teeth first."""
         found = self._choices.get((driven, driver))
         if found is None:
             most = self.counts[-1] // max(driven, driver)
@@ -143,83 +148,82 @@ class PairRatios:
         return found
 
     def between(self, low: Fraction, high: Fraction) -> list[int]:
-        """Indices of the ratios from `low` to `high`, decided exactly."""
+        """Return the indices of the ratios from `low` to `high`, compared exactly."""
         first = int(np.searchsorted(self.logs, math.log(low) - ROUNDING))
         last = int(np.searchsorted(self.logs, math.log(high) + ROUNDING))
         return [at for at in range(first, last) if low <= Fraction(*self.terms(at)) <= high]
 
 
 def pair_ratios(counts: Sequence[int]) -> PairRatios:
-    """The table for admissible tooth counts. Source: plain enumeration; time and memory grow with their square."""
+    """Build the table of ratios by enumeration; time and memory grow with the square of the number of counts."""
     admissible = tuple(sorted(set(counts)))
     if not admissible or admissible[0] < 1:
         raise QuestionError(
-            Problem(
-                "no admissible tooth counts", "a wheel has a positive number of teeth", "give counts such as 12:400"
-            )
+            Problem("no admissible tooth counts", "tooth counts must be positive", "give counts such as 12:400")
         )
-    # terms below 2^31, for both of a ratio are put into one integer below
+    # terms below 2^31, because both terms of a ratio are packed into one integer below
     if len(admissible) ** 2 > _MOST_PAIRS or admissible[-1] >= 2**31:
         raise RangeError(
             Problem(
-                f"{len(admissible)} tooth counts up to {admissible[-1]}",
-                f"the search holds all ratios of two of them; it has room for {_MOST_PAIRS:.0e}",
+                f"too many tooth counts: {len(admissible)}, up to {admissible[-1]}",
+                f"the table of ratios of two counts is limited to {_MOST_PAIRS:.0e} entries",
                 "narrow the range of teeth",
             )
         )
     teeth = np.array(admissible, dtype=np.int64)
     over, under = (part.ravel() for part in np.meshgrid(teeth, teeth))
     common = np.gcd(over, under)
-    # a ratio in lowest terms as one integer, below 2^62, so that np.unique takes pairs
+    # a ratio in lowest terms packed into one integer below 2^62, for np.unique
     shift = admissible[-1] + 1
     keys = np.unique(over // common * shift + under // common)
     over, under = keys // shift, keys % shift
     logs = np.log(over / under)
-    # ratios whose logarithms round alike are told apart by their terms: the order is always the same
+    # ratios with equal rounded logarithms are ordered by their terms, so that the order is deterministic
     order = np.lexsort((under, logs))
     return PairRatios(admissible, over[order], under[order], logs[order])
 
 
 @dataclass(frozen=True)
 class ReachablePeriods:
-    """From one arbor, the second arbors that have aims one pair further."""
+    """Targets that can be reached from one arbor by two gear pairs, for each intermediate arbor."""
 
     requested: int
-    """The aims looked for, as bits."""
+    """Bit mask of the targets that were searched for."""
     first: Ints
-    """(m,) index of the ratio to the second arbor."""
+    """Index of the ratio to the intermediate arbor, (m,)."""
     next: Ints
-    """(m, aims) index of the ratio from there to each aim, -1 where there is none."""
+    """Index of the ratio from there to each target, (m, targets); -1 if there is none."""
     sets: Ints
-    """(m,) the aims reached, as bits."""
+    """Bit masks of the targets reached, (m,)."""
 
 
-def reach(table: PairRatios, aims: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
-    """All second arbors with at least one of the aims asked in reach; one ratio is kept where several lead to one aim.
+def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
+    """Find all intermediate arbors from which one pair reaches at least one requested target.
 
-    Floats choose with a margin; indices are checked exactly where they are used. Both lists of a search are sorted, so
-    one aim costs a walk along the table.
+    If several ratios lead to a target, one of them is returned. Floats select with a margin; ratios are compared
+    exactly where they are used. The table and the queries are sorted, so one target costs one pass over the table.
     """
     logs, size = table.logs, len(table)
-    found = np.full((len(aims.periods), size), -1, dtype=np.int32)
+    found = np.full((len(targets.periods), size), -1, dtype=np.int32)
+    # remainders after a first pair, up to a constant, in ascending order
     falling = -logs[::-1]
-    for aim in members(requested):
-        low, high = aims.logs[aim][0] - log_period - ROUNDING, aims.logs[aim][1] - log_period + ROUNDING
-        # ratios so far from the aim that no pair bridges the rest need not be asked
+    for target in members(requested):
+        low, high = targets.logs[target][0] - log_period - ROUNDING, targets.logs[target][1] - log_period + ROUNDING
+        # ratios from which no single pair reaches the target are skipped
         begin, end = np.searchsorted(falling, [logs[0] - high, logs[-1] - low + ROUNDING])
         start = np.searchsorted(logs, falling[begin:end] + low)
         good = np.append(logs, np.inf)[start] <= falling[begin:end] + high
-        found[aim, size - 1 - begin - np.flatnonzero(good)] = start[good]
+        found[target, size - 1 - begin - np.flatnonzero(good)] = start[good]
     first = np.flatnonzero((found >= 0).any(axis=0))
     further = found[:, first].T.astype(np.int64)
-    sets = ((further >= 0) << np.arange(len(aims.periods))).sum(axis=1)
+    sets = ((further >= 0) << np.arange(len(targets.periods))).sum(axis=1)
     return ReachablePeriods(requested, first, further, sets)
 
 
-def reached_sets(table: PairRatios, aims: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """(n,) for every ratio of the table, the aims one pair beyond the arbor it leads to, as bits."""
+def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
+    """Return the bit mask of the targets one pair beyond the arbor that each ratio of the table leads to, (n,)."""
     sets = np.zeros(len(table), dtype=np.int64)
-    found = reach(table, aims, log_period, requested)
+    found = reach(table, targets, log_period, requested)
     sets[found.first] = found.sets
     return sets
 
@@ -228,16 +232,17 @@ def reached_sets(table: PairRatios, aims: PeriodTargets, log_period: float, requ
 
 
 Edge = tuple[int, int, int, int]
-"""One gear pair: driving arbor, driven arbor, and the ratio driven over driver in lowest terms."""
+"""Gear pair: driving arbor, driven arbor, and the ratio driven over driver in lowest terms."""
 Meshes = tuple[tuple[int, int], ...]
-"""Teeth (driver, driven) of each edge."""
+"""Tooth counts (driver, driven) of each edge."""
 
 
 def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes, bool]:
-    """(wheels, teeth of each pair, proved): pairs on one arbor with equal counts share one wheel there.
+    """Return the number of wheels, the tooth counts of each pair, and whether the number is proved to be the minimum.
 
-    A wheel may mesh with any number of others. Branch and bound over the multiples that can coincide; where its
-    bound of work ends the search, the count is only an upper bound and `proved` is False.
+    Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of others. The search is
+    branch and bound over the multiples that can coincide. If it reaches its limit of steps, the number is only an upper
+    bound and is not proved.
     """
     choices = [[(driver, driven) for driven, driver in table.choices(*edge[2:])] for edge in edges]
     users: dict[tuple[int, int], int] = {}
@@ -247,7 +252,7 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
                 users[wheel] = users.get(wheel, 0) + 1
     options, hopes = [], []
     for (parent, child, *_), pairs in zip(edges, choices, strict=True):
-        # a choice that coincides with no other pair's is as good as any other such choice
+        # of the choices that cannot be shared with another pair, one is sufficient
         fresh = [(users[parent, driver] == 1) + (users[child, driven] == 1) for driver, driven in pairs]
         shared = [pair for pair, new in zip(pairs, fresh, strict=True) if new < 2]
         options.append(shared or pairs[:1])
@@ -257,7 +262,7 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
 
 
 class _Search:
-    """Branch and bound: pairs in the order of the tree, wheels in use on each arbor."""
+    """Branch and bound over the pairs in the order of the tree, with the wheels in use on each arbor."""
 
     def __init__(self, edges: Sequence[Edge], options: list[list[tuple[int, int]]], rest: list[int]) -> None:
         self.edges, self.options, self.rest = edges, options, rest
@@ -276,6 +281,7 @@ class _Search:
                 self.best = (wheels, tuple(self.taken))
             return
         parent, child = self.edges[at][:2]
+        # choices that share most wheels first, so that good bounds are found early
         ranked = sorted(
             (int(not self.used[parent, driver]) + int(not self.used[child, driven]), driver + driven, driver, driven)
             for driver, driven in self.options[at]
@@ -284,6 +290,7 @@ class _Search:
             self.steps += 1
             if self.steps > _MOST_STEPS and self.best[1]:
                 return
+            # the remaining pairs need at least `rest` further wheels
             if wheels + fresh + self.rest[at + 1] >= self.best[0]:
                 continue
             for wheel in ((parent, driver), (child, driven)):
@@ -300,24 +307,24 @@ class _Search:
 
 @dataclass(frozen=True, slots=True)
 class TreeArbor:
-    """One arbor of a tree."""
+    """Arbor of a tree."""
 
-    aim: int
-    """The period it shows, by number; -1: none."""
+    target: int
+    """Index of the period that it shows; -1 if none."""
     parent: int
-    """The arbor that drives it, by place in the tree; -1 for the first."""
+    """Index of the arbor that drives it; -1 for the first."""
     driven: int
-    """Ratio of its pair in lowest terms."""
+    """Numerator of the ratio of its pair, in lowest terms."""
     driver: int
-    """Ratio of its pair in lowest terms."""
+    """Denominator of the ratio of its pair, in lowest terms."""
     n: int
-    """Its period in turns of the first arbor, in lowest terms."""
+    """Numerator of its period [revolutions of the first arbor], in lowest terms."""
     d: int
-    """Its period in turns of the first arbor, in lowest terms."""
+    """Denominator of its period [revolutions of the first arbor], in lowest terms."""
 
     @property
     def period(self) -> Fraction:
-        """Turns of the first arbor in one of this."""
+        """Period [revolutions of the first arbor]."""
         return Fraction(self.n, self.d)
 
     @property
@@ -331,86 +338,87 @@ ArborTree = tuple[TreeArbor, ...]
 FIRST = TreeArbor(-1, -1, 1, 1, 1, 1)
 
 
-def grown(tree: ArborTree, aim: int, parent: int, driven: int, driver: int) -> TreeArbor:
-    """The arbor that a pair with this ratio drives from an arbor of the tree."""
+def grown(tree: ArborTree, target: int, parent: int, driven: int, driver: int) -> TreeArbor:
+    """Return the arbor that a pair with this ratio drives from an arbor of the tree."""
     n, d = times(tree[parent].n, tree[parent].d, driven, driver)
-    return TreeArbor(aim, parent, driven, driver, n, d)
+    return TreeArbor(target, parent, driven, driver, n, d)
 
 
 def edges(tree: ArborTree) -> list[Edge]:
-    """The gear pairs of a tree."""
+    """Return the gear pairs of a tree."""
     return [(arbor.parent, at, arbor.driven, arbor.driver) for at, arbor in enumerate(tree) if at]
 
 
 class TreeEnumeration:
-    """Every tree with exactly `extra` arbors that show nothing.
+    """Enumeration of every tree with exactly `extra` arbors that do not show a period.
 
-    A tree grows from the first arbor. Whenever aims come into reach of an arbor, each of them is either driven from
-    there or left for later arbors, and all the ways are walked. When that is settled the tree gets one more extra
-    arbor. Extra arbors that have no aim in reach are tried too, as long as a further one can follow. So each tree is
-    met, once for each order in which its extra arbors can be added.
+    A tree grows from the first arbor. Whenever targets are in reach of an arbor, each of them is either driven from
+    there or left for later arbors, and all combinations are visited. The tree then receives one more additional arbor.
+    Additional arbors without a target in reach are visited as long as another one can follow. Each tree is visited once
+    for each order in which its additional arbors can be added.
     """
 
     def __init__(
-        self, table: PairRatios, aims: PeriodTargets, extra: int, tell: Callable[[int, int], None] | None = None
+        self, table: PairRatios, targets: PeriodTargets, extra: int, tell: Callable[[int, int], None] | None = None
     ) -> None:
-        self.table, self.aims, self.extra, self.tell = table, aims, extra, tell
-        self.closures = _closures(table, aims)
+        self.table, self.targets, self.extra, self.tell = table, targets, extra, tell
+        self.closures = _closures(table, targets)
 
     def trees(self) -> Iterator[ArborTree]:
-        """All trees."""
-        yield from self._converged((FIRST,), self.aims.everything, self.extra, 0)
+        """Yield all trees of the enumeration."""
+        yield from self._with_targets((FIRST,), self.targets.everything, self.extra, 0)
 
-    def _converged(
+    def _with_targets(
         self, tree: ArborTree, left: int, extra: int, requested: int, blank: bool = True
     ) -> Iterator[ArborTree]:
-        """Ways to drive aims from the arbors from place `requested` on; earlier arbors have been asked already.
+        """Yield the ways to drive targets from the arbors with index `requested` and above; earlier arbors are done.
 
-        Unless `blank`, the first arbor asked drives at least one.
+        Unless `blank`, the arbor with this index drives at least one target.
         """
         if requested == len(tree):
             if left:
-                yield from self._extended(tree, left, extra)
+                yield from self._with_extra_arbor(tree, left, extra)
             elif not extra and _useful(tree):
                 yield tree
             return
         from_here = []
-        for aim in members(left):
-            low, high = self.aims.bounds[aim]
+        for target in members(left):
+            low, high = self.targets.bounds[target]
             period = tree[requested].period
             found = self.table.between(low / period, high / period)
             if found:
-                from_here.append([None, *(grown(tree, aim, requested, *self.table.terms(at)) for at in found)])
+                from_here.append([None, *(grown(tree, target, requested, *self.table.terms(at)) for at in found)])
         for taken in product(*from_here):
             arbors = tuple(arbor for arbor in taken if arbor is not None)
             if not arbors and not blank:
                 continue
-            rest = left & ~sum(1 << arbor.aim for arbor in arbors)
-            yield from self._converged(tree + arbors, rest, extra, requested + 1)
+            rest = left & ~sum(1 << arbor.target for arbor in arbors)
+            yield from self._with_targets(tree + arbors, rest, extra, requested + 1)
 
-    def _extended(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
-        """One more extra arbor on any arbor of the tree."""
+    def _with_extra_arbor(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
+        """Yield the trees with one more additional arbor on any arbor of the tree."""
         if not extra:
             return
         for parent, arbor in enumerate(tree):
             ways: Sequence[int] = range(len(self.table))
+            # with one or two arbors left, a new arbor must have targets in reach
             if extra <= 2:
-                sets = reached_sets(self.table, self.aims, arbor.log, left)
+                sets = reached_sets(self.table, self.targets, arbor.log, left)
                 good = self.closures[sets] & left == left if extra == 1 else sets > 0
                 ways = np.flatnonzero(good).tolist()
             for done, at in enumerate(ways):
                 if self.tell and extra == self.extra:
                     self.tell(parent * len(ways) + done, len(tree) * len(ways))
                 new = grown(tree, -1, parent, *self.table.terms(at))
-                yield from self._converged((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
+                yield from self._with_targets((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
             if extra == 2:
-                yield from self._chained(tree, left, parent)
+                yield from self._with_extra_chain(tree, left, parent)
 
-    def _chained(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
-        """The last two extra arbors in a chain, the first of them driving the second and nothing else.
+    def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
+        """Yield the trees whose last two additional arbors form a chain; the first of them drives only the second.
 
-        The second is looked for from the aims: it drives one of them, and whatever it does not drive can be reached
-        from those it does.
+        The second is determined from the targets: it drives one of them, and all others must be reachable from those
+        that it drives.
         """
         low, high = self._ends(left)
         logs, start = self.table.logs, tree[parent].log
@@ -423,16 +431,18 @@ class TreeEnumeration:
         for one, two in sorted(seen):
             inner = (*tree, grown(tree, -1, parent, *self.table.terms(one)))
             outer = (*inner, grown(inner, -1, len(tree), *self.table.terms(two)))
-            yield from self._converged(outer, left, 0, len(inner))
+            yield from self._with_targets(outer, left, 0, len(inner))
 
     def _ends(self, left: int) -> tuple[Floats, Floats]:
-        """Logarithms between which the period of an arbor lies from which all aims left can be reached, with excess."""
+        """Return intervals of the logarithm of the period of an arbor that include all from which the targets can be
+        reached.
+        """
         logs, ranges = self.table.logs, []
-        for aim in members(left):
-            low, high = self.aims.logs[aim][0] - logs, self.aims.logs[aim][1] - logs
-            sets = np.full(len(logs), 1 << aim)
-            for other in members(left & ~(1 << aim)):
-                minimum, most = self.aims.logs[other][0] - high, self.aims.logs[other][1] - low
+        for target in members(left):
+            low, high = self.targets.logs[target][0] - logs, self.targets.logs[target][1] - logs
+            sets = np.full(len(logs), 1 << target)
+            for other in members(left & ~(1 << target)):
+                minimum, most = self.targets.logs[other][0] - high, self.targets.logs[other][1] - low
                 found = np.searchsorted(logs, most + ROUNDING) > np.searchsorted(logs, minimum - ROUNDING)
                 sets |= found.astype(np.int64) << other
             good = self.closures[sets] & left == left
@@ -442,26 +452,27 @@ class TreeEnumeration:
 
 
 def _useful(tree: ArborTree) -> bool:
-    """True if every arbor shows or drives something."""
+    """Return whether every arbor shows a period or drives another arbor."""
     driving = {arbor.parent for arbor in tree}
-    return all(arbor.aim >= 0 or at in driving for at, arbor in enumerate(tree))
+    return all(arbor.target >= 0 or at in driving for at, arbor in enumerate(tree))
 
 
-def _closures(table: PairRatios, aims: PeriodTargets) -> Ints:
-    """For each set of aims, those that single pairs can reach from them, and from these, and so on; the set included.
+def _closures(table: PairRatios, targets: PeriodTargets) -> Ints:
+    """Return a table from each bit mask of targets to the targets that chains of single pairs reach from them.
 
-    An aim's arbor lies anywhere within its tolerance, so this is never too few.
+    The targets themselves are included. The period of an arbor may be anywhere within its tolerance, so the result is a
+    superset.
     """
     beside = []
-    for low, high in aims.bounds:
-        near = (bool(table.between(other_low / high, other_high / low)) for other_low, other_high in aims.bounds)
+    for low, high in targets.bounds:
+        near = (bool(table.between(other_low / high, other_high / low)) for other_low, other_high in targets.bounds)
         beside.append(sum(yes << at for at, yes in enumerate(near)))
-    found = np.zeros(aims.everything + 1, dtype=np.int64)
-    for start in range(1, aims.everything + 1):
+    found = np.zeros(targets.everything + 1, dtype=np.int64)
+    for start in range(1, targets.everything + 1):
         bits, before = start, 0
         while bits != before:
             before = bits
-            for aim in members(before):
-                bits |= beside[aim]
+            for target in members(before):
+                bits |= beside[target]
         found[start] = bits
     return found

@@ -1,4 +1,4 @@
-"""Several periods from one arbor with as few wheels as possible: arbors and wheels are shared, as in orreries."""
+"""Search for a gear train that shows several periods from one arbor with few wheels, sharing arbors and wheels."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float, fraction_text
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.orrery.arbor_trees import (
     FIRST,
     ArborTree,
@@ -36,42 +36,43 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Ints
 
 
-_KEPT_ENTRIES = 3 * 10**7  # of remembered reaches: 240 MB of int64
-_TRIED = 20  # moves of each gain that are worked out exactly
-_ALIKE = 3  # trees that show the same, before others have their turn
+_KEPT_ENTRIES = 3 * 10**7  # maximum size of the cache of reaches: 240 MB of int64
+_TRIED = 20  # number of moves of each gain that are evaluated exactly
+_ALIKE = 3  # trees with the same targets and periods that are selected before others
 _Key = frozenset[tuple[int, int, int]]
-_WALKABLE = 2 * 10**5  # steps of a walk that is made unasked
-_SEEDS_A_PART = 4  # first extra arbors for each tree that a beam keeps
+_WALKABLE = 2 * 10**5  # maximum number of steps of an enumeration by default
+_SEEDS_A_PART = 4  # initial additional arbors for each tree of the beam
 
 Tell = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """One arbor of an orrery."""
+    """Arbor of an orrery."""
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """The period it shows, or `arbor 1`, `arbor 2`...; the caller names the first."""
+    """Name of the period that it shows, or `arbor 1`, `arbor 2`...; the name of the first arbor is given by the caller.
+    """
     period: Fraction
-    """Turns of the first arbor in one of its own, exact and positive."""
+    """Period [revolutions of the first arbor], exact and positive."""
     sense: int
-    """1 with the first arbor, -1 against it: every pair is external and reverses."""
+    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses the sense."""
     wheels: tuple[int, ...]
-    """Tooth counts of its wheels, ascending, all different."""
+    """Distinct tooth counts of its wheels, ascending."""
     shows: bool
-    """True if it shows a period that was asked for."""
+    """True if it shows a requested period."""
 
 
 @dataclass(frozen=True, slots=True)
 class OrreryPair(Result):
-    """One gear pair: teeth of the driver on arbor `parent`, and of the driven wheel on arbor `child`."""
+    """Gear pair between a driving wheel on arbor `parent` and a driven wheel on arbor `child`."""
 
     driver: int
-    """Teeth of the driving wheel."""
+    """Tooth count of the driving wheel."""
     driven: int
-    """Teeth of the driven wheel."""
+    """Tooth count of the driven wheel."""
     parent: str
     """Arbor of the driving wheel."""
     child: str
@@ -79,13 +80,18 @@ class OrreryPair(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class Orrery(Result):
-    """A tree of gear pairs that shows every period asked for.
+class Orrery(Tabular, Result):
+    """Tree of gear pairs that shows every requested period.
 
     See Also
     --------
     find_orrery : finds it.
     """
+
+    ROWS = "search.tooth_numbers_report:orrery_rows"
+    ROW = "OrreryPair"
+
+    PAGE = "search.tooth_numbers_report:describe_orrery"
 
     KEYS = (
         "wheels",
@@ -99,25 +105,29 @@ class Orrery(Result):
     )
 
     periods: Mapping[str, Fraction]
-    """Name -> period asked for [turns of the first arbor]."""
+    """Name -> requested period [revolutions of the first arbor]."""
     tolerances: Mapping[str, Fraction]
-    """Name -> greatest relative error asked for."""
+    """Name -> maximum absolute relative error."""
     arbors: tuple[OrreryArbor, ...]
-    """The first arbor first, every other after the one that drives it."""
+    """Arbors in topological order: the first arbor, then every other one after its driver."""
     pairs: tuple[OrreryPair, ...]
-    """In the order of the driven arbors."""
+    """Gear pairs in the order of the driven arbors."""
     errors: Mapping[str, Fraction]
-    """Name -> speed over wanted speed, less 1, exact; positive is fast."""
+    """Name -> relative error of the speed: speed over requested speed, minus 1, exact; positive if fast."""
     minimum_pairs: int
-    """No tree of fewer pairs shows all the periods: proved by walking all of them."""
+    """Proved lower bound of the number of pairs, by enumeration of all smaller trees."""
     minimum_wheels: int
-    """Fewer wheels than this are impossible: proved."""
+    """Proved lower bound of the number of wheels."""
     ended: str
-    """Why the search ended."""
+    """Reason for the end of the search."""
+
+    def _summary(self) -> str:
+        worst = max((abs(error) for error in self.errors.values()), default=0)
+        return f"{len(self.pairs)} pairs for {', '.join(self.periods)}: error at most {float(worst):.3g}"
 
     @property
     def wheels(self) -> int:
-        """Number of wheels; one that meshes with several counts once."""
+        """Number of wheels; a wheel with several mates is counted once."""
         return sum(len(arbor.wheels) for arbor in self.arbors)
 
     @property
@@ -127,20 +137,21 @@ class Orrery(Result):
 
     @property
     def worst(self) -> Fraction:
-        """Greatest relative error in magnitude."""
+        """Maximum absolute relative error."""
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """A declaration as plain data: the first arbor turns once a `unit`, every output expects its exact speed.
+        """Return a declaration as plain data: the first arbor turns once per `unit`, every output expects its exact
+        speed.
 
-        A shared wheel is one wheel in several gear pairs. All arbors stand in one frame on axes of their own.
+        A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
 
         Parameters
         ----------
         name : str
-            Of the train.
+            Name of the train.
         unit : str
-            The time in which the first arbor turns once, such as "d".
+            Unit of time in which the first arbor turns once, such as "d".
         """
         places = {arbor.name: at for at, arbor in enumerate(self.arbors)}
         links: dict[str, Any] = {"frame": {}}
@@ -176,12 +187,12 @@ class Orrery(Result):
 
 
 def _wheel(arbor: int, count: int) -> str:
-    """Name of a wheel: `a3-120` has 120 teeth and sits on arbor 3."""
+    """Return the name of a wheel: `a3-120` has 120 teeth and is mounted on arbor 3."""
     return f"a{arbor}-{count}"
 
 
 def _plain(value: Fraction) -> str:
-    """Exact text: a decimal where it ends soon, else a fraction."""
+    """Format a fraction exactly: as a decimal with up to 18 digits if it terminates, else as a fraction."""
     for digits in range(19):
         scaled = value * 10**digits
         if scaled.denominator == 1:
@@ -201,89 +212,90 @@ def find_orrery(
     seconds: float | None = None,
     tell: Tell | None = None,
 ) -> Orrery:
-    """The orrery with the fewest wheels that is found: branch and bound over small trees, beam search over larger ones.
+    """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger ones.
 
-    Pairs of wheels in a tree of arbors, driven from the first; every pair is external. Walked trees give proofs, wider
-    beams only findings: see `Orrery.minimum_pairs`, `minimum_wheels` and `complete`. The same question has the same
-    answer,
-    unless time or the user ended the search.
+    The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumerated trees give proofs,
+    and wider beams give better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and `complete`.
+    The result is deterministic unless the search was ended by time or by the user.
 
     Parameters
     ----------
     periods : mapping of str to Fraction
-        Name -> period [turns of the first arbor], positive; 30 of them at most.
+        Name -> period [revolutions of the first arbor], positive; at most 30.
     counts : sequence of int
         Admissible tooth counts, the same for all wheels.
     tolerance : Fraction, float, or mapping of str to these
-        Greatest relative error of a speed, from 0 to below 1, for all or by name.
+        Maximum absolute relative error of a speed, from 0 to below 1, for all periods or by name.
     first : str
         Name of the first arbor.
     effort : int
-        Width of the widest beam; widths grow fourfold up to it, and time about as much.
+        Width of the widest beam. Widths increase fourfold up to it, and the time nearly as much.
     walk : int, optional
-        Walk all trees with up to so many arbors that show nothing; default as far as that is short work, and always
-        to 1. With 90,000 ratios of two wheels and 7 periods, 1 takes a moment and 2 a minute or two.
+        Enumerate all trees with up to this number of arbors that do not show a period. By default 1, or more if that is
+        quick. With 90,000 ratios of two wheels and 7 periods, 1 takes a moment and 2 takes one or two minutes.
     seconds : float, optional
-        Stop after this time [s] with what was found.
+        Time after which the search stops with the best orrery so far [s].
     tell : callable, optional
-        Called with (done, total) of the part of the search that runs.
+        Progress function, called with (done, total) for the current stage of the search.
 
     Returns
     -------
     Orrery
-        An interrupt from the keyboard keeps what was found.
+        The best orrery. A keyboard interrupt returns the best so far.
 
     Raises
     ------
     QuestionError
-        If nothing was found, with what was proved, and for unusable input.
+        If no orrery was found (the message reports the proved bounds), or if the input is invalid.
     RangeError
-        For ranges of teeth too wide to tabulate.
+        If the range of tooth counts is too large for a table.
 
     Examples
     --------
-    Jupiter in 12 years and Saturn in 30 need six wheels, and no fewer will do:
+    Jupiter with 12 years and Saturn with 30 need six wheels, which is the minimum:
 
     >>> periods = {"jupiter": Fraction(12), "saturn": Fraction(30)}
     >>> found = find_orrery(periods, range(12, 61), tolerance=0, first="year")
     >>> found.wheels, found.complete, found.worst
     (6, True, Fraction(0, 1))
     """
-    aims = read_period_targets(periods, tolerance)
-    if first in aims.names or "frame" in (first, *aims.names):
+    targets = read_period_targets(periods, tolerance)
+    if first in targets.names or "frame" in (first, *targets.names):
         raise QuestionError(
-            Problem("two arbors of one name", f"the first is {first!r}, what holds them is 'frame'", "rename one")
+            Problem(
+                "two arbors have the same name", f"the first arbor is {first!r}, and 'frame' is reserved", "rename one"
+            )
         )
-    search = _Sharing(pair_ratios(counts), aims, seconds, tell)
+    search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)
     ended = search.run(effort, walk)
     if search.best is None:
-        raise _nothing(search, ended)
+        raise _not_found(search, ended)
     return _orrery(search, first, ended)
 
 
 class _TimeUpError(Exception):
-    """The time allowed is over."""
+    """Internal signal that the time limit of the search was reached."""
 
 
-class _Sharing:
-    """The state of one search: the best tree so far and what is proved."""
+class _OrrerySearch:
+    """State of one search: the best tree so far, and the proved bounds."""
 
-    def __init__(self, table: PairRatios, aims: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
-        self.table, self.aims, self.tell = table, aims, tell
+    def __init__(self, table: PairRatios, targets: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
+        self.table, self.targets, self.tell = table, targets, tell
         self.end = None if seconds is None else time.monotonic() + seconds
         self.best: tuple[tuple[int, int, Fraction], ArborTree] | None = None
         self.sure = True
         self.walked = -1
-        self.minimum_pairs = len(aims.periods)
+        self.minimum_pairs = len(targets.periods)
 
     def run(self, effort: int, walk: int | None) -> str:
-        """Search; returns why it ended."""
+        """Run the search and return the reason for its end."""
         try:
             for extra in self._walks(walk):
                 self._walk(extra)
                 if self.proved:
                     return "proved"
-            # iterative widening: a beam costs about four times the one before, all narrower ones together a third of it
+            # iterative widening: each beam costs about four times the previous one, all narrower ones together a third
             width = 4
             while width // 4 < max(effort, 1):
                 self._widen(min(width, max(effort, 1)))
@@ -295,7 +307,7 @@ class _Sharing:
         return "proved" if self.proved else "effort"
 
     def _walks(self, walk: int | None) -> Iterator[int]:
-        """Numbers of extra arbors worth walking: each multiplies the work by all pairs at all arbors."""
+        """Yield the numbers of additional arbors to enumerate; each multiplies the work by all pairs at all arbors."""
         extra, steps = 0, 1
         while extra <= (1 if walk is None else walk) or (walk is None and steps <= _WALKABLE):
             yield extra
@@ -304,70 +316,71 @@ class _Sharing:
 
     def _walk(self, extra: int) -> None:
         found = False
-        for tree in TreeEnumeration(self.table, self.aims, extra, self._pulse).trees():
+        for tree in TreeEnumeration(self.table, self.targets, extra, self._report_progress).trees():
             found = True
             self._offer(tree)
         self.walked = extra
-        if not found and self.minimum_pairs == len(self.aims.periods) + extra:
+        if not found and self.minimum_pairs == len(self.targets.periods) + extra:
             self.minimum_pairs += 1
 
     def _widen(self, width: int) -> None:
-        for part in BeamSearch(self.table, self.aims, self._pulse).run(width, _SEEDS_A_PART * width):
+        for part in BeamSearch(self.table, self.targets, self._report_progress).run(width, _SEEDS_A_PART * width):
             self._offer(part.tree)
 
-    def _pulse(self, done: int, total: int) -> None:
+    def _report_progress(self, done: int, total: int) -> None:
         if self.end is not None and time.monotonic() > self.end:
             raise _TimeUpError
         if self.tell:
             self.tell(done, total)
 
     def _offer(self, tree: ArborTree) -> None:
-        """Keep a tree that is better: fewer wheels, then fewer pairs, then the smaller worst error."""
+        """Keep a tree if it is better: fewer wheels, then fewer pairs, then a smaller maximum error."""
         wheels, _, proved = fewest_wheels(self.table, edges(tree))
+        # an unproved number of wheels is only an upper bound, so it proves nothing
         self.sure = self.sure and proved
         cost = wheels, len(tree)
         if self.best is not None and cost > self.best[0][:2]:
             return
-        worst = max(abs(self.aims.error(arbor.aim, arbor.period)) for arbor in tree if arbor.aim >= 0)
+        worst = max(abs(self.targets.error(arbor.target, arbor.period)) for arbor in tree if arbor.target >= 0)
         if self.best is None or (*cost, worst) < self.best[0]:
             self.best = ((*cost, worst), tree)
 
     @property
     def minimum_wheels(self) -> int:
-        """Proved lower bound.
+        """Proved lower bound of the number of wheels.
 
-        Every arbor has a wheel, and in a tree with the fewest wheels every arbor that shows nothing has two: with one
-        it is an idler, and its neighbours can mesh directly. Trees not walked have more extra arbors than those that
-        were.
+        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period has
+        two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated
+        have more additional arbors than those that were.
         """
-        unseen = len(self.aims.periods) + 1 + 2 * (self.walked + 1)
+        unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
 
     @property
     def proved(self) -> bool:
-        """True if no orrery has fewer wheels than the best."""
+        """True if no orrery has fewer wheels than the best one found."""
         return self.best is not None and self.best[0][0] <= self.minimum_wheels
 
 
-def _orrery(search: _Sharing, first: str, ended: str) -> Orrery:
-    """The best tree with names, senses and wheels."""
+def _orrery(search: _OrrerySearch, first: str, ended: str) -> Orrery:
+    """Build the result of the best tree, with names, senses and wheels."""
     assert search.best is not None
-    tree, aims = search.best[1], search.aims
+    tree, targets = search.best[1], search.targets
     _, meshes, _ = fewest_wheels(search.table, edges(tree))
-    names = _names(tree, aims, first)
+    names = _names(tree, targets, first)
     pairs = tuple(
         OrreryPair(*mesh, names[arbor.parent], name)
         for arbor, name, mesh in zip(tree[1:], names[1:], meshes, strict=True)
     )
     return Orrery(
-        dict(zip(aims.names, aims.periods, strict=True)),
-        dict(zip(aims.names, aims.tolerances, strict=True)),
+        dict(zip(targets.names, targets.periods, strict=True)),
+        dict(zip(targets.names, targets.tolerances, strict=True)),
         _arbors(tree, names, pairs),
         pairs,
         {
-            aims.names[arbor.aim]: aims.error(arbor.aim, arbor.period)
-            for arbor in sorted(tree, key=lambda arbor: arbor.aim)
-            if arbor.aim >= 0
+            targets.names[arbor.target]: targets.error(arbor.target, arbor.period)
+            for arbor in sorted(tree, key=lambda arbor: arbor.target)
+            if arbor.target >= 0
         },
         search.minimum_pairs,
         search.minimum_wheels,
@@ -375,14 +388,14 @@ def _orrery(search: _Sharing, first: str, ended: str) -> Orrery:
     )
 
 
-def _names(tree: ArborTree, aims: PeriodTargets, first: str) -> list[str]:
-    """What the arbors show, or a number."""
-    free = (name for name in map("arbor {}".format, count(1)) if name not in (first, *aims.names))
-    return [first, *(aims.names[arbor.aim] if arbor.aim >= 0 else next(free) for arbor in tree[1:])]
+def _names(tree: ArborTree, targets: PeriodTargets, first: str) -> list[str]:
+    """Return the names of the arbors: the period shown, or a number."""
+    free = (name for name in map("arbor {}".format, count(1)) if name not in (first, *targets.names))
+    return [first, *(targets.names[arbor.target] if arbor.target >= 0 else next(free) for arbor in tree[1:])]
 
 
 def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) -> tuple[OrreryArbor, ...]:
-    """The arbors with their senses and wheels."""
+    """Build the arbors with their senses and wheels."""
     wheels: dict[str, set[int]] = {name: set() for name in names}
     senses = {names[0]: 1}
     for pair in pairs:
@@ -390,75 +403,82 @@ def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) 
         wheels[pair.child].add(pair.driven)
         senses[pair.child] = -senses[pair.parent]
     return tuple(
-        OrreryArbor(name, arbor.period, senses[name], tuple(sorted(wheels[name])), arbor.aim >= 0)
+        OrreryArbor(name, arbor.period, senses[name], tuple(sorted(wheels[name])), arbor.target >= 0)
         for name, arbor in zip(names, tree, strict=True)
     )
 
 
-def _nothing(search: _Sharing, ended: str) -> QuestionError:
-    """Why there is no orrery, as far as it is known."""
-    table, size = search.table, len(search.aims.periods)
+def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
+    """Return the error for a search without a result, with the proved bounds."""
+    table, size = search.table, len(search.targets.periods)
     minimum, most = table.counts[0], table.counts[-1]
-    walked = f"all trees with up to {size + search.walked} pairs were walked; " if search.walked >= 0 else ""
-    stopped = {"time": "the time allowed was over; ", "interrupted": "the search was interrupted; "}.get(ended, "")
+    walked = f"all trees with up to {size + search.walked} pairs were enumerated; " if search.walked >= 0 else ""
+    stopped = {"time": "the time limit was reached; ", "interrupted": "the search was interrupted; "}.get(ended, "")
     return QuestionError(
         Problem(
             f"no orrery found for {size} periods with wheels of {minimum} to {most} teeth",
-            f"{walked}{stopped}a pair changes the speed at most {most / minimum:.3g} times and has {len(table)} ratios",
+            f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
             "loosen the tolerance, allow more tooth counts, or raise effort",
         )
     )
 
 
-# ------------------------------------- beam search: trees with few wheels from the best part-built ones, without proof
+# ------------------------------------- beam search: trees with few wheels, without proof
 
 
 @dataclass(frozen=True, slots=True)
 class PartialTree:
-    """A part-built tree: what is left to show, and what the tree costs."""
+    """Partial tree of a beam search, its remaining targets, and its cost."""
 
     tree: ArborTree
     left: int
     wheels: int
-    """The fewest its pairs need."""
+    """Minimum number of wheels of its pairs."""
     bulk: float
-    """Sum of the logarithms of its ratios' terms: small terms have many multiples, thus more chances to share."""
+    """Sum of the logarithms of the terms of its ratios. Small terms have many multiples and can share wheels more
+    often.
+    """
 
     @property
     def rank(self) -> tuple[int, float]:
-        """Few wheels first, then many chances."""
+        """Sort key: number of wheels, then `bulk`."""
         return self.wheels, self.bulk
 
     @property
     def key(self) -> _Key:
-        """What decides how it can grow: equal for trees whose arbors show the same in the same periods."""
-        return frozenset((arbor.aim, arbor.n, arbor.d) for arbor in self.tree)
+        """Key for duplicates, equal for trees whose arbors show the same targets with the same periods."""
+        return frozenset((arbor.target, arbor.n, arbor.d) for arbor in self.tree)
 
 
 class BeamSearch:
-    """Grows trees one aim further at a time and keeps the `width` best of those that show equally many aims.
+    """Beam search that extends trees by at least one target at a time and keeps the `width` best with equally many
+    targets.
 
-    A move drives an aim directly, or adds an extra arbor together with all aims in its reach. A wheel that a new
-    pair can share with pairs on the same arbor is counted while choosing, by least common multiples in numpy for
-    all moves and exactly for those chosen. Everything is decided by order, nothing by chance.
+    A move drives a target directly, or adds an arbor together with all targets in its reach. Wheels that a new pair can
+    share with pairs on the same arbor are counted when moves are ranked: for all moves by least common multiples in
+    numpy, and exactly for the selected ones. The search is deterministic.
     """
 
-    def __init__(self, table: PairRatios, aims: PeriodTargets, tell: Callable[[int, int], None] | None = None) -> None:
-        self.table, self.aims, self.tell = table, aims, tell
+    def __init__(
+        self, table: PairRatios, targets: PeriodTargets, tell: Callable[[int, int], None] | None = None
+    ) -> None:
+        self.table, self.targets, self.tell = table, targets, tell
         self._reaches: dict[tuple[int, int], ReachablePeriods] = {}
         self._entries = 0
         plain = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
         self._bulk = plain
-        self._windows = np.array(aims.logs).T
-        # stable: of ratios as plain as each other the least first, on every machine
+        self._windows = np.array(targets.logs).T
+        # stable sort: ties are ordered by ratio, on every machine
         self._plainest = np.argsort(plain, kind="stable")
 
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:
-        """Complete trees as they are found; `seeds` extra arbors driven by the first start trees of their own."""
-        size = len(self.aims.periods)
-        root = PartialTree((FIRST,), self.aims.everything, 0, 0.0)
-        # first arbors that show nothing themselves lead to aims that two pairs from the first arbor cannot
-        chosen = [root, *self._direct(root, 0), *self._blanks(root, seeds)]
+        """Yield complete trees as they are found; `seeds` additional arbors driven by the first are further initial
+        trees.
+        """
+        size = len(self.targets.periods)
+        root = PartialTree((FIRST,), self.targets.everything, 0, 0.0)
+        # initial arbors without a period lead to targets that two pairs from the first arbor cannot reach
+        chosen = [root, *self._direct(root, 0), *self._seed_trees(root, seeds)]
         levels: list[dict[_Key, PartialTree]] = [{} for _ in range(size)]
         for shown in range(size):
             for at, part in enumerate(chosen):
@@ -472,9 +492,11 @@ class BeamSearch:
             if shown + 1 < size:
                 chosen = _best(levels[shown + 1], width)
 
-    def _blanks(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
-        """Extra arbors much nearer the periods than the last arbor, with the plainest ratios."""
-        side = math.copysign(1.0, sum(low for low, _ in self.aims.logs))
+    def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
+        """Yield trees with an additional arbor much nearer to the periods than the last arbor, smallest ratio terms
+        first.
+        """
+        side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
         nearer = self._plainest[side * self.table.logs[self._plainest] >= self.table.logs[-1] / 3]
         for at in nearer[:most].tolist():
             yield self._part((*part.tree, grown(part.tree, -1, len(part.tree) - 1, *self.table.terms(at))), part.left)
@@ -485,24 +507,24 @@ class BeamSearch:
         return PartialTree(tree, left, wheels, bulk)
 
     def _reach(self, arbor: TreeArbor, left: int) -> ReachablePeriods:
-        """Moves from an arbor to aims left, kept for the trees that have the same arbor."""
+        """Return the moves from an arbor to the remaining targets, cached by arbor."""
         known = self._reaches.pop((arbor.n, arbor.d), None)
         if known is not None and left & ~known.requested:
             self._entries -= known.next.size
             known = None
         if known is None:
-            known = reach(self.table, self.aims, arbor.log, left)
+            known = reach(self.table, self.targets, arbor.log, left)
             self._entries += known.next.size
             while self._reaches and self._entries > _KEPT_ENTRIES:
                 self._entries -= self._reaches.pop(next(iter(self._reaches))).next.size
-        self._reaches[arbor.n, arbor.d] = known  # the one used last goes last
+        self._reaches[arbor.n, arbor.d] = known  # the most recently used entry is last
         return known
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """The most promising trees that one more extra arbor makes of a part-built one, and what they lead to."""
+        """Yield the most promising extensions of a partial tree by one arbor, and their direct extensions."""
         reaches = [self._reach(arbor, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
-        # the best of each gain: one that shows more aims at once needs more wheels, and would lose to the others
+        # separately for each gain: moves with more targets need more wheels, and would always be ranked lower
         for gain in np.unique(rows[:, 0]):
             mine = rows[rows[:, 0] == gain]
             for row in mine[np.lexsort((mine[:, 2], mine[:, 1]))[:_TRIED]]:
@@ -513,34 +535,34 @@ class BeamSearch:
                     yield from self._direct(child, len(part.tree))
 
     def _direct(self, part: PartialTree, fresh: int) -> Iterator[PartialTree]:
-        """Trees with aims driven directly by arbors from place `fresh` on, in all numbers."""
+        """Yield the trees with any number of targets driven directly by arbors with index `fresh` and above."""
         for parent in range(fresh, len(part.tree)):
             arbor = part.tree[parent]
             begin, end = self.table.logs.searchsorted(self._windows - arbor.log)
-            for aim in np.flatnonzero(end > begin).tolist():
-                if not part.left >> aim & 1:
+            for target in np.flatnonzero(end > begin).tolist():
+                if not part.left >> target & 1:
                     continue
-                for at in range(begin[aim], end[aim]):
-                    new = grown(part.tree, aim, parent, *self.table.terms(at))
-                    if self.aims.meets(aim, new.period):
-                        child = self._part((*part.tree, new), part.left & ~(1 << aim))
+                for at in range(begin[target], end[target]):
+                    new = grown(part.tree, target, parent, *self.table.terms(at))
+                    if self.targets.meets(target, new.period):
+                        child = self._part((*part.tree, new), part.left & ~(1 << target))
                         yield child
                         yield from self._direct(child, parent)
 
     def _moves(
         self, part: PartialTree, parent: int, known: ReachablePeriods
     ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-        """(moves, 5): aims gained, wheels needed, bulk, parent, row of the parent's reach."""
+        """Return a table of moves, (moves, 5): targets gained, wheels needed, bulk, parent, row of its reach."""
         sets = known.sets & part.left
         rows = np.flatnonzero(sets)
         gained = np.bitwise_count(sets[rows]).astype(np.int64)
         first = known.first[rows]
         wheels = 2 + 2 * gained - self._sharing(part.tree, parent, first)
         bulk = self._bulk[first].copy()
-        for aim in range(len(self.aims.periods)):
-            if not part.left >> aim & 1:
+        for target in range(len(self.targets.periods)):
+            if not part.left >> target & 1:
                 continue
-            further = known.next[rows, aim]
+            further = known.next[rows, target]
             good = further >= 0
             mine, own = first[good], further[good]
             wheels[good] -= self._joint(
@@ -550,7 +572,7 @@ class BeamSearch:
         return np.column_stack([gained, wheels, bulk, np.full(len(rows), parent), rows]).astype(np.float64)
 
     def _sharing(self, tree: ArborTree, parent: int, ways: Ints) -> Ints:
-        """1 where the pair to a new arbor can use a wheel that its driving arbor has."""
+        """Return 1 for ratios whose pair to a new arbor can use a wheel that the driving arbor has, else 0."""
         able = np.zeros(len(ways), dtype=bool)
         for at, arbor in enumerate(tree):
             if at and parent in (at, arbor.parent):
@@ -560,7 +582,9 @@ class BeamSearch:
         return able.astype(np.int64)
 
     def _joint(self, mine: Ints, mate: Ints, other: Ints, its_mate: Ints) -> Ints:
-        """1 where two ratios have multiples with equal counts, `mine` and `other`, within the range of teeth."""
+        """Return 1 if two ratios have multiples with equal counts, `mine` and `other`, within the range of teeth, else
+        0.
+        """
         common = np.lcm(mine, other)
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))
         smallest = np.minimum(common, np.minimum(common // mine * mate, common // other * its_mate))
@@ -569,27 +593,27 @@ class BeamSearch:
         return good
 
     def _built(self, part: PartialTree, parent: int, known: ReachablePeriods, at: int) -> PartialTree | None:
-        """The tree after a move, or None where exact arithmetic refuses what floats let through."""
+        """Build the tree after a move; None if exact arithmetic rejects all its targets."""
         tree = (*part.tree, grown(part.tree, -1, parent, *self.table.terms(int(known.first[at]))))
         extra, left = len(tree) - 1, part.left
-        for aim, further in enumerate(known.next[at]):
-            if further < 0 or not left >> aim & 1:
+        for target, further in enumerate(known.next[at]):
+            if further < 0 or not left >> target & 1:
                 continue
-            new = grown(tree, aim, extra, *self.table.terms(int(further)))
-            if self.aims.meets(aim, new.period):
-                tree, left = (*tree, new), left & ~(1 << aim)
+            new = grown(tree, target, extra, *self.table.terms(int(further)))
+            if self.targets.meets(target, new.period):
+                tree, left = (*tree, new), left & ~(1 << target)
         return self._part(tree, left) if left != part.left else None
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """The best part-built trees, more than a few of those alike in all that they show only where there is room."""
+    """Select the best partial trees, first at most a few with the same targets and periods."""
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []
     alike: Counter[_Key] = Counter()
     for part in sorted(level.values(), key=lambda part: part.rank):
-        shown = frozenset((arbor.aim, arbor.n, arbor.d) for arbor in part.tree if arbor.aim >= 0)
+        shown = frozenset((arbor.target, arbor.n, arbor.d) for arbor in part.tree if arbor.target >= 0)
         alike[shown] += 1
         (kept if alike[shown] <= _ALIKE else spare).append(part)
     kept = (kept[:width] + spare)[:width]
-    # trees that share arbors next to each other: what these arbors reach is then still at hand
+    # trees that share arbors are neighbours, so that the reaches of these arbors are still cached
     return sorted(kept, key=lambda part: [(arbor.n, arbor.d) for arbor in part.tree])

@@ -1,4 +1,4 @@
-"""`geartrain teeth orrery moon=29.53 venus=224.7 ...`: several periods from one arbor."""
+"""Command `geartrain teeth orrery moon=29.53 venus=224.7 ...`: search for a train that shows several periods."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ _TOLERANCE = Fraction(1, 10**6)
 
 def run(
     periods: Annotated[
-        list[str], typer.Argument(help="Several NAME=PERIOD in turns of one arbor.", metavar="NAME=PERIOD...")
+        list[str], typer.Argument(help="Names and periods [revolutions of the first arbor].", metavar="NAME=PERIOD...")
     ],
     counts: Range = ANY_COUNT,
     tolerance: Tolerance = None,
-    effort: Annotated[int, typer.Option("--effort", min=1, help="How widely to search.")] = 16,
+    effort: Annotated[int, typer.Option("--effort", min=1, help="Maximum beam width of the search.")] = 16,
     walk: Annotated[
-        int | None, typer.Option("--walk", min=0, help="Extra arbors up to which all trees are walked.")
+        int | None, typer.Option("--walk", min=0, help="Enumerate all trees with up to this number of extra arbors.")
     ] = None,
     csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Several periods from one arbor, with few wheels and arbors."""
+    """Find a gear train that shows several periods from one arbor with few wheels and arbors."""
     from geartrain.search.orrery.orrery_search import find_orrery
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_orrery, orrery_rows
@@ -50,7 +50,7 @@ def run(
 
 
 def _periods(texts: list[str]) -> dict[str, Fraction]:
-    """Name -> period in turns of the first arbor."""
+    """Parse a mapping from name to period [revolutions of the first arbor]."""
     from geartrain.search.target_ratio import read_ratio
 
     found: dict[str, Fraction] = {}
@@ -62,7 +62,9 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
             raise typer.BadParameter(f"two periods are named '{name.strip()}'", param_hint="NAME=PERIOD")
         wanted = read_ratio(period)
         if wanted.sense:
-            what = f"'{text}' asks for a sense, which is left open here; the answer tells that of every arbor"
+            what = (
+                f"'{text}' has a sign; give periods without sign, because the search chooses the sense of every arbor"
+            )
             raise typer.BadParameter(what, param_hint="NAME=PERIOD")
         found[name.strip()] = wanted.value
     return found

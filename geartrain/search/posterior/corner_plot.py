@@ -1,4 +1,4 @@
-"""The posterior of tooth counts as a picture: what is likely of each count, and of each two together."""
+"""Corner plot of the posterior of tooth counts: marginals of each wheel, and joint probabilities of each pair."""
 
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ from geartrain.drawing.style import (
     MaxNLocator,
     Patch,
     headed,
+    legend_below,
+    name_axes,
 )
 from geartrain.errors import Problem, QuestionError
 
@@ -36,37 +38,37 @@ if TYPE_CHECKING:
 Chances = Mapping[int, float]
 Pair = tuple[str, str]
 MOST = 9
-_CELL = 1.35  # inches of a panel
-_TICKS = 3  # steps between numbers at an axis, at most
-_FEW = 20  # counts whose bars have outlines of their own
+_CELL = 1.35  # side of a panel [inch]
+_TICKS = 3  # maximum number of tick intervals
+_FEW = 20  # maximum number of counts whose bars have separate outlines
 _DASHES: Any = (0, (3, 2))
 
 
 @dataclass(frozen=True, slots=True)
 class CountProbabilities:
-    """How likely tooth counts are."""
+    """Probabilities of tooth counts, for a corner plot."""
 
     single: Mapping[str, Chances]
     """Wheel -> count -> probability."""
     pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
-    """Two wheels, in the order of `single` -> their two counts -> probability."""
+    """Pair of wheels, in the order of `single` -> pair of counts -> joint probability."""
     before: Mapping[str, Chances] = field(default_factory=dict)
-    """As `single`, before the evidence was heard; empty where unknown."""
+    """Wheel -> count -> prior probability; empty if unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
-    """Wheel -> the count it is declared with."""
+    """Wheel -> declared count."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Each wheel's counts on the diagonal, each two wheels' together below it; darker is likelier.
+    """Draw marginal probabilities on the diagonal and joint probabilities of each pair below it.
 
-    Outlines show what was thought before, dashed lines the declared counts. Raises `QuestionError` for no wheel, or
-    for more than 9.
+    Darker panels are more probable. Outlines show priors, dashed lines declared counts. Raises `QuestionError` for no
+    wheel, or for more than 9.
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:
-        raise _nothing(f"{len(wheels)} wheels do not fit on a page; choose from 1 to {MOST}")
+        raise _cannot_draw(f"{len(wheels)} wheels do not fit on a page; choose from 1 to {MOST}")
     side = max(5.0, 0.9 + _CELL * len(wheels))
-    figure = Figure(figsize=(side, side), dpi=100, layout="constrained")
+    figure = Figure(figsize=(side, side), layout="constrained")
     panels = figure.subplots(len(wheels), len(wheels), squeeze=False)
     spans = {wheel: _span(likely, wheel) for wheel in wheels}
     for row, down in enumerate(wheels):
@@ -78,35 +80,35 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
             axes.tick_params(labelsize=SMALL, labelleft=column == 0 and row > 0, labelbottom=row == len(wheels) - 1)
             _ticks(axes.xaxis, spans[across])
             if row == column:
-                _one(axes, likely, across, spans[across])
+                _marginal_panel(axes, likely, across, spans[across])
             else:
-                _two(axes, likely, (across, down), spans)
+                _joint_panel(axes, likely, (across, down), spans)
             axes.set_xlim(spans[across][0] - 0.5, spans[across][1] + 0.5)
-        panels[-1, row].set_xlabel(down, fontsize=TEXT)
+        name_axes(panels[-1, row], down, parse_math=False)
         if row:
-            panels[row, 0].set_ylabel(down, fontsize=TEXT)
-    _key(figure, likely)
+            name_axes(panels[row, 0], y=down, parse_math=False)
+    _legend(figure, likely)
     if title:
         words = fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20))
         headed(figure, words)
     return figure
 
 
-def _key(figure: Figure, likely: CountProbabilities) -> None:
-    """What outlines and dashed lines are, below."""
-    handles: list[Any] = [Patch(color=BLUE, label="likely")]
+def _legend(figure: Figure, likely: CountProbabilities) -> None:
+    """Draw the legend of bars, outlines and dashed lines below the panels."""
+    handles: list[Any] = [Patch(color=BLUE, label="posterior")]
     if likely.before:
-        handles.append(Patch(fill=False, edgecolor=GREY, label="before"))
+        handles.append(Patch(fill=False, edgecolor=GREY, label="prior"))
     if likely.declared:
         handles.append(Line2D([], [], color=RED, linewidth=1.2, linestyle=_DASHES, label="declared"))
     if len(handles) > 1:
-        figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
+        legend_below(figure, 3, handles)
 
 
-def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
-    """Bars of one wheel's counts, and outlines of what was thought before."""
+def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
+    """Draw bars of the probabilities of one wheel, and outlines of its prior."""
     chances = likely.single[wheel]
-    wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a gap would be a pixel, and often none
+    wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
     axes.bar(list(chances), list(chances.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
     before = likely.before.get(wheel, {})
     if before:
@@ -121,7 +123,7 @@ def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, in
 
 
 def _outline(axes: Axes, chances: Chances) -> None:
-    """Bars without faces; of many counts, whose sides would be a grey block, the line along their tops."""
+    """Draw the outlines of bars; for many counts only the line along their tops, because the sides would merge."""
     if len(chances) <= _FEW:
         axes.bar(list(chances), list(chances.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0)
         return
@@ -130,14 +132,14 @@ def _outline(axes: Axes, chances: Chances) -> None:
     axes.stairs([chances.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
 
 
-def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
-    """A square for each two counts, as dark as they are likely."""
+def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
+    """Draw a square for each pair of counts, darker for higher probability."""
     (a, first), (b, second) = ((wheel, spans[wheel]) for wheel in pair)
     table = np.zeros((second[1] - second[0] + 1, first[1] - first[0] + 1))
     for (one, other), chance in likely.pairs[pair].items():
         table[other - second[0], one - first[0]] = chance
     edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
-    # a scale needs two ends, even where no two counts are likely together
+    # the colour scale needs two different ends, even if all probabilities are 0
     mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300))
     mesh.set_gid(f"{a}, {b}")
     _ticks(axes.yaxis, second)
@@ -152,19 +154,19 @@ def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str,
 def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
     counts = [*likely.single[wheel], *likely.before.get(wheel, {})]
     if not likely.single[wheel]:
-        raise _nothing(f"wheel '{wheel}' has no count")
+        raise _cannot_draw(f"wheel '{wheel}' has no count")
     return min(counts), max(counts)
 
 
 def _ticks(axis: Any, span: tuple[int, int]) -> None:
-    """Some whole numbers within it, round ones where there are many counts."""
+    """Set ticks at a few integers within the range, at round numbers if the range is long."""
     low, high = span
     found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 3, 4, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
     axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 
 def _modes(chances: Chances) -> str:
-    """The mode and its probability; all modes where several counts are equally likely: "49-52: 10 % each"."""
+    """Format the mode and its probability; all modes if several counts are equally probable, "49-52: 10 % each"."""
     largest = max(chances.values())
     modes = sorted(count for count, chance in chances.items() if isclose(chance, largest))
     percent, span = f"{100 * largest:.3g} %", modes[-1] - modes[0] + 1
@@ -174,32 +176,32 @@ def _modes(chances: Chances) -> str:
     return f"{some}{modes[0]}-{modes[-1]}: {percent} each"
 
 
-def _nothing(why: str) -> QuestionError:
-    return QuestionError(Problem("no tooth counts to draw", why, "give the wheels to draw, with their likelihoods"))
+def _cannot_draw(why: str) -> QuestionError:
+    return QuestionError(Problem("no tooth counts to draw", why, "give 1 to 9 wheels with their probabilities"))
 
 
 Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """A corner plot of counts in doubt: the posterior of each wheel beside its prior, and of each two wheels together.
+    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        What is known of the counts.
+        Posterior of the counts.
     pairs : mapping
-        Two wheels, in the order declared -> their counts -> probability; from `joint_posterior`.
+        Pair of wheels in the order of declaration -> pair of counts -> probability, from `joint_posterior`.
 
     Returns
     -------
     matplotlib.figure.Figure
-        A panel for each wheel and each two.
+        Figure with a panel for each wheel and each pair.
 
     Raises
     ------
     QuestionError
-        Where nothing fits, and where no wheel or more than a page holds is to be drawn.
+        If nothing fits, or if the figure would have no wheel or more wheels than fit on a page.
 
     Examples
     --------
@@ -213,7 +215,8 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
     if not all(found[wheel].chances for wheel in wheels):
         what = f"no combination of counts of '{found.name}' fits, so there is nothing to draw"
-        raise QuestionError(Problem(what, "no count is likelier than another", "widen the tolerances or the counts"))
+        why = "a corner plot needs at least one combination that fits"
+        raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
     single = {
         wheel: {count: float(each) for count, each in zip(one.doubt.counts, one.chances, strict=True) if float(each)}
         for wheel, one in ((wheel, found[wheel]) for wheel in wheels)

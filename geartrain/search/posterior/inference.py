@@ -1,4 +1,4 @@
-"""The posterior of counts in doubt: by the exact join of all combinations, or from a sample of them."""
+"""Posterior of uncertain tooth counts, by the exact join of all combinations or by sampling."""
 
 from __future__ import annotations
 
@@ -45,15 +45,15 @@ from geartrain.search.posterior.sampled_posterior import (
 from geartrain.train import Train
 
 LIMIT = 2_000_000
-"""Steps that the exact join may take by default: some seconds."""
+"""Default maximum number of steps of the exact join, which take a few seconds."""
 SAMPLES = 1_000_000
-_ALONE = 200_000  # steps for one output by itself: a fraction of a second
-_DRAWN = 1 << 16  # combinations where that is too much, or where the exact join is interrupted
-_ENOUGH = 100  # effective combinations: below, an interval is as wide as a tenth of what it is about
+_SINGLE_OUTPUT_STEPS = 200_000  # maximum steps for a single output: a fraction of a second
+_DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exact join is interrupted
+_ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
 METHODS: tuple[Method, ...] = ("exact", "sample")
-_NOTHING_YET = (
-    "interrupted: the exact method knows nothing before its end, so the figures are of {} combinations drawn at "
-    "random; the method `sample` draws as many as are wanted"
+_NO_PARTIAL_RESULT = (
+    "interrupted: the exact method has no partial result, so the figures are estimated from {} combinations drawn at "
+    "random; the method `sample` draws any number of them"
 )
 _LONG = 1 << 62  # products of total weights below this: every sum of weights is exact in int64
 
@@ -77,64 +77,66 @@ def infer_counts(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> ToothCountPosterior:
-    """Bayes' theorem for tooth counts in doubt: which fit what is known of the outputs, and how likely each is then.
+    """Compute the posterior of uncertain tooth counts, given what is known of the outputs.
 
-    Interrupted (Ctrl-C), it returns what is known, with `cut` True: of a sample what had been drawn. The exact join
-    knows nothing before its end; of the combinations a short sample is drawn then, and a remark says so.
+    After an interruption (Ctrl-C) the result has `cut` True. It covers the combinations drawn so far. The exact join
+    has no partial result; a short sample is drawn instead, and a remark says so.
 
     Parameters
     ----------
     train : Train
-        A declared train with wheels in doubt: `teeth: {value: 64, range: [63, 66]}`, `choices` or `search`.
+        Declared train with uncertain counts: `teeth: {value: 64, range: [63, 66]}`, `choices` or `search`.
     state : str, optional
-        Of a train with states; None takes all of them at once.
+        State of a train with states; None uses all of them at once.
     free : mapping of str to sequence of int, optional
-        Wheel -> counts it may have, beside or in place of what is declared.
+        Wheel -> possible counts, which replace the declared ones.
     outputs : sequence of str
-        Those that count as evidence; default all.
+        Outputs used as evidence; default all.
     tolerance : Fraction, optional
-        Relative, for targets without one, 0 or more.
+        Relative tolerance of targets without one, at least 0.
     against : {"all", "targets", "figures"}
-        Which claims count; figures are `expect` and `published`.
+        Kinds of claims that are used; figures are `expect` and `published`.
     scale : Fraction
-        Multiplies every tolerance, 0 or more.
+        Factor of every tolerance, at least 0.
     soft : bool
-        False: an output is within its tolerances or it is not. True: Gaussian, the tolerances taken as standard
-        deviations.
+        False if an output is either within its tolerances or not. True for a Gaussian likelihood with the tolerances as
+        standard deviations.
     method : {"exact", "sample"}, optional
-        By default exact where there are at most `limit` combinations or it takes at most `limit` steps.
+        By default exact if there are at most `limit` combinations or it takes at most `limit` steps.
     most : int
-        Combinations to list, 1 or more.
+        Number of combinations to list, at least 1.
     limit : int
-        Bounds the work of the exact join, 1 or more.
+        Maximum number of steps of the exact join, at least 1.
     samples : int
-        Combinations drawn otherwise, 1 or more.
+        Number of combinations in a sample, at least 1.
     seed : int
-        Of the sample, and of variance shares that are not exact; 0 or more.
+        Random seed of the sample, and of estimated Sobol indices; at least 0.
     executor : Executor, optional
-        By default in this process; see `geartrain.numerics.work.open_executor`. The answer does not depend on it.
+        By default work runs in this process; see `geartrain.numerics.work.open_executor`. It does not change the
+        result.
     journal : Journal, optional
-        Where finished work is kept, for a run that may be cut.
+        Journal of completed work, for a run that may be interrupted.
     tell : callable, optional
-        Called with (tasks done, tasks in all).
+        Called with (number of completed tasks, number of all tasks).
 
     Returns
     -------
     ToothCountPosterior
-        Evidence, posteriors by wheel, correlations, the best combinations.
+        Evidence, posteriors of wheels, correlations, and the best combinations.
 
     Raises
     ------
     QuestionError
-        For what cannot be asked: no wheel in doubt, nothing known of an output, weights that are no probabilities.
+        If no count is uncertain, nothing is known of an output, or weights are not probabilities.
     RangeError
-        Where the exact method is asked for and would pass the limit, or a doubt is too wide to list.
+        If the exact method is requested and exceeds the limit, or a count has too many possible values to list.
 
     Notes
     -----
-    p(counts | outputs) = p(counts) L(outputs | counts) / evidence. The prior p is that of independent wheels; the
-    likelihood L is 1 or 0, or exp(-misfit / 2) where agreement is by degree; the evidence is the sum of their products
-    (docs/counts-in-doubt.md). The exact join groups what no later output can tell apart, and sums in whole numbers.
+    p(counts | outputs) = p(counts) L(outputs | counts) / evidence. The prior p treats wheels as independent. The
+    likelihood L is 1 or 0, or exp(-misfit / 2) with `soft`. The evidence is the sum of the products of prior and
+    likelihood (docs/counts-in-doubt.md). The exact join merges partial combinations that no later output distinguishes,
+    and sums in integers.
 
     Examples
     --------
@@ -163,7 +165,7 @@ def infer_counts(
         soft=soft,
     )
     means = Execution(executor, journal, tell)
-    outcome = _find(question, method, most, limit, samples, seed, means)
+    outcome = _summarise(question, method, most, limit, samples, seed, means)
     chosen, found, cut = outcome.method, outcome.found, outcome.cut
     exact = found.evidence if chosen != "sample" else None
     shares = {
@@ -179,37 +181,41 @@ def infer_counts(
         found.turning,
         found.fits,
         question.witnesses,
-        _alone(question, seed),
+        _single_output_evidence(question, seed),
         found.posteriors,
         found.correlations,
         rank_combinations(question, found.candidates, most, exact),
         found.ranked and chosen != "sample" and not cut,
         {name: one for name, one in shares.items() if one is not None},
-        (*question.remarks, *outcome.remarks, *_doubts_of_sample(found, chosen)),
+        (*question.remarks, *outcome.remarks, *_sample_remarks(found, chosen)),
         seed if chosen == "sample" else None,
         cut,
     )
 
 
-def _doubts_of_sample(found: PosteriorSummary, method: Method) -> Iterator[str]:
-    """A remark where so little of a sample fits that its figures say nothing."""
+def _sample_remarks(found: PosteriorSummary, method: Method) -> Iterator[str]:
+    """Yield a remark if so few combinations of a sample fit that its figures are unreliable."""
     if method == "sample" and found.effective < _ENOUGH:
         yield (
-            f"the figures rest on {found.effective:.3g} combinations that fit: draw more, raise the limit so that "
-            "nothing need be drawn, or narrow the doubts"
+            f"the figures are estimated from only {found.effective:.3g} combinations that fit: increase --samples, "
+            "raise --limit to use the exact method, or narrow the ranges of counts"
         )
 
 
 def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -> None:
     if method is not None and method not in METHODS:
-        raise QuestionError(Problem(f"there is no method '{method}'", "others are", suggest(method, METHODS)))
+        raise QuestionError(
+            Problem(f"unknown method '{method}'", "methods are exact and sample", suggest(method, METHODS))
+        )
     for name, value, minimum in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
         if value < minimum:
-            raise QuestionError(Problem(f"{name} is {value}", "nothing is found with it", f"give {minimum} or more"))
+            raise QuestionError(
+                Problem(f"{name} is {value}", f"it must be at least {minimum}", f"give {minimum} or more")
+            )
 
 
 class _Outcome(NamedTuple):
-    """What was found, by which method; `cut` if it was interrupted."""
+    """Result and its method; `cut` is True after an interruption."""
 
     method: Method
     found: PosteriorSummary
@@ -217,7 +223,7 @@ class _Outcome(NamedTuple):
     remarks: tuple[str, ...] = ()
 
 
-def _find(
+def _summarise(
     question: InferenceProblem,
     method: Method | None,
     most: int,
@@ -226,28 +232,29 @@ def _find(
     seed: int,
     means: Execution,
 ) -> _Outcome:
-    """By the method asked for, or the first that stays within the limit."""
+    """Compute the posterior by the requested method, or by the first that stays within the limit."""
     if method != "sample":
         few = prod(len(doubt.counts) for doubt in question.moved.values()) <= limit
         try:
             return _Outcome("exact", find_exact_posterior(question, most, inf if few else limit))
         except KeyboardInterrupt:
-            # the exact join has no partial answer: a moment's sample says more than nothing, and it is not journalled,
-            # since the exact join would begin anew
+            # an interrupted exact join has no partial result: a short sample is returned instead, without a journal,
+            # because the exact join would begin again
             found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
-            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.examined),))
+            return _Outcome("sample", found, True, (_NO_PARTIAL_RESULT.format(found.examined),))
         except BudgetSpentError:
             if method is not None:
-                fix = "raise the limit, narrow the doubts, or let it sample"
-                raise RangeError(Problem("too many steps", f"the limit is {limit}", fix)) from None
+                what = f"the exact method needs more than {limit} steps"
+                fix = "raise the limit, narrow the ranges of counts, or use the method `sample`"
+                raise RangeError(Problem(what, "the limit bounds its work", fix)) from None
     return _Outcome("sample", *_sampled(question, most, samples, seed, means))
 
 
 def _sampled(
     question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
 ) -> tuple[PosteriorSummary, bool]:
-    """A sample; True if it was interrupted."""
-    # at most 1000 tasks; from the samples alone, so that any number of workers draws the same
+    """Return the summary of a sample, and whether it was interrupted."""
+    # at most 1000 tasks, which depend only on the number of samples, so that any number of workers draws the same
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
     tally, cut = PosteriorTally(LikelihoodBatch(question), most), False
@@ -260,26 +267,26 @@ def _sampled(
     return summary_of_sample(question, tally), cut
 
 
-def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
-    """What each output would tell by itself; of a sample where that is more than a little work."""
+def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
+    """Return output -> evidence of that output only, from a sample if the exact join would take too long."""
     found = {}
     for witness in question.witnesses:
         doubts = {wheel: question.doubts[wheel] for wheel in witness.formula.wheels}
         one = replace(question, doubts=doubts, witnesses=(witness,), conditions=())
         try:
-            found[witness.name] = evidence_of(one, _ALONE)
+            found[witness.name] = evidence_of(one, _SINGLE_OUTPUT_STEPS)
         except BudgetSpentError:
             found[witness.name] = _sampled(one, 1, _DRAWN, seed, Execution())[0].evidence
     return found
 
 
-# ---------------------------------------------------------------- the weighted join of `search.join`, in whole numbers
+# ---------------------------------------------------------------------- the weighted join of `search.join`, in integers
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
-    """All that is asked, exactly. Raises `BudgetSpentError` where it takes more than `limit` steps.
+    """Compute the exact posterior. Raises `BudgetSpentError` beyond `limit` steps.
 
-    most   combinations to list
+    most   number of combinations to list
     """
     doubts = question.moved
     root, steps = _recorded(question, limit)
@@ -306,7 +313,7 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
 
 def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """The share of the prior weight that fits. Raises `BudgetSpentError` where that takes more than `limit` steps."""
+    """Return the share of the prior weight that fits. Raises `BudgetSpentError` beyond `limit` steps."""
     doubts = question.moved
     if question.soft:
         root, _ = _recorded(question, limit)
@@ -317,16 +324,16 @@ def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
 
 
 def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """The share of the prior weight with which the train turns, whatever its outputs do."""
+    """Return the share of the prior weight with which the train turns, whatever the speeds of its outputs."""
     if not question.conditions:
         return CountProbability(Fraction(1))
     return evidence_of(replace(question, witnesses=(), soft=False), limit)
 
 
 def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
-    """What is to be joined: the witnesses first, then the conditions.
+    """Return the join of the constraints of the observed outputs, followed by the conditions.
 
-    graded   True: how well the witnesses agree is asked for too
+    graded   True if the misfits of the outputs are also required
     """
     doubts = question.moved
     domains = {wheel: doubt.counts for wheel, doubt in doubts.items()}
@@ -342,7 +349,7 @@ def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, i
 
 
 def _weights(doubts: Mapping[str, ToothCountPrior], soft: bool) -> CountWeights:
-    """Prior weights as whole numbers, of a type that holds all their sums; or prior chances as floats."""
+    """Return the prior weights as integers of a type that holds all their sums, or with `soft` the priors as floats."""
     if soft:
         return {wheel: np.array([float(prior) for prior in doubt.priors]) for wheel, doubt in doubts.items()}
     dtype: Any = np.int64 if prod(doubt.total for doubt in doubts.values()) < _LONG else object
@@ -350,7 +357,7 @@ def _weights(doubts: Mapping[str, ToothCountPrior], soft: bool) -> CountWeights:
 
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
-    """How many combinations fit: the sum with every weight 1, times all counts of the wheels that nothing tells of."""
+    """Count the combinations that fit: the sum with unit weights, times the numbers of counts of independent wheels."""
     alike = {w: replace(doubt, weights=(1,) * len(doubt.counts)) for w, doubt in question.moved.items()}
     idle = [doubt for wheel, doubt in question.doubts.items() if wheel not in alike]
     return int(sums.total(_weights(alike, False))) * prod(len(doubt.counts) for doubt in idle)
@@ -364,7 +371,7 @@ def _probability(
     return CountProbability(Fraction(int(share), prod(doubt.total for doubt in doubts.values())))
 
 
-# ------------------------------------------------------------------------------------------------- two wheels at a time
+# ------------------------------------------------------------------------------------------------------ pairs of wheels
 
 
 Again = Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior]
@@ -372,14 +379,16 @@ Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
 
 
 def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
-    """The wheels of which the outputs tell most, in the order declared; those with one count possible say nothing.
+    """Return the wheels of which the outputs give the most information, in the order of declaration.
+
+    Wheels with one possible count are omitted.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        What is known of the counts.
+        Posterior of the counts.
     most : int
-        The maximum number of wheels.
+        Maximum number of wheels.
 
     Returns
     -------
@@ -391,29 +400,29 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
     >>> most_informative_wheels(infer_counts(geartrain.load("freeth-2008-doubt").declaration), 2)
     ['m3', 'n1']
     """
-    heard = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.doubt.counts) > 1]
-    kept = set(sorted(heard, key=lambda wheel: -found[wheel].bits)[:most])
-    return [wheel for wheel in heard if wheel in kept]
+    informed = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.doubt.counts) > 1]
+    kept = set(sorted(informed, key=lambda wheel: -found[wheel].bits)[:most])
+    return [wheel for wheel in informed if wheel in kept]
 
 
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
-    """The joint posterior of every two of some wheels, by the chain rule p(a, b) = p(a) p(b | a).
+    """Compute the joint posterior of each pair of wheels, by the chain rule p(a, b) = p(a) p(b | a).
 
-    One more posterior is found for each count that is possible, of every wheel but the last.
+    One further posterior is computed for each possible count of every wheel but the last.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        What is known of the counts.
+        Posterior of the counts.
     wheels : sequence of str
-        In the order declared.
+        Wheels in the order of declaration.
     again : callable
-        Wheel -> counts to which it is held, to the posterior of the same train for the same evidence.
+        Function of wheel -> fixed counts that returns the posterior of the same train for the same evidence.
 
     Returns
     -------
     dict
-        Two wheels -> their two counts -> probability, for `counts_figure`.
+        Pair of wheels -> pair of counts -> probability, for `counts_figure`.
 
     Examples
     --------

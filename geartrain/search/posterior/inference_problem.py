@@ -1,4 +1,4 @@
-"""The question of counts in doubt: priors of wheels, observations of outputs, and conditions for the train to turn."""
+"""Inference problem of uncertain tooth counts: priors of wheels, observations of outputs, conditions for turning."""
 
 from __future__ import annotations
 
@@ -27,31 +27,30 @@ from geartrain.train.fields import MOST_TEETH
 LikelihoodKind = Literal["all", "targets", "figures"]
 LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
 FAR = Fraction(5)
-"""Where agreement is by degree: what is off by more tolerances than this is refused. It would weigh exp(-12.5)."""
+"""Maximum error in tolerances with `soft`. Larger errors, which would weigh less than exp(-12.5), are rejected."""
 MOST_COUNTS = 10**5
-"""Counts of one wheel; a doubt wider than this is no evidence."""
+"""Maximum number of possible counts of one wheel."""
 _LINE: Interval = (None, None)
 
 
 @dataclass(frozen=True, slots=True)
 class InferenceProblem:
-    """Wheels in doubt and what is known of the outputs."""
+    """Priors of uncertain tooth counts, and observations of outputs."""
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     doubts: Mapping[str, ToothCountPrior]
-    """Wheel -> its counts and their weights, in the order declared."""
+    """Wheel -> possible counts and their weights, in the order of declaration."""
     witnesses: tuple[ObservedOutput, ...]
-    """Outputs of which something is known and that a wheel in doubt moves."""
+    """Observed outputs that depend on an uncertain count."""
     outputs: Mapping[str, Formula]
-    """Every output that a wheel in doubt moves -> its function."""
+    """Output that depends on an uncertain count -> its speed as a function of the counts."""
     conditions: tuple[IntervalConstraint, ...]
-    """What must hold for the train to turn: loops that close, links driven in one way."""
+    """Conditions for the train to turn: loops close, and links are driven consistently."""
     remarks: tuple[str, ...] = ()
-    """What the reader should know."""
+    """Remarks for the reader."""
     soft: bool = False
-    """False: a combination fits or it does not; True: it agrees less and less, exp(-misfit / 2), up to `FAR`
-    tolerances."""
+    """False if a combination either fits or not. True for the likelihood exp(-misfit / 2), up to `FAR` tolerances."""
 
     @property
     def domains(self) -> Domains:
@@ -60,23 +59,23 @@ class InferenceProblem:
 
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
-        """The doubts that matter to a witness, or to whether the train turns, in the order declared."""
+        """Priors of the wheels that an observed output or a condition depends on, in the order of declaration."""
         functions = [witness.formula for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
         return {wheel: doubt for wheel, doubt in self.doubts.items() if wheel in wheels}
 
     @property
     def combinations(self) -> int:
-        """Combinations of counts there are."""
+        """Number of combinations of counts."""
         return prod(len(doubt.counts) for doubt in self.doubts.values())
 
     @property
     def total(self) -> int:
-        """The sum of the weights of all combinations, as whole numbers."""
+        """Sum of the integer weights of all combinations."""
         return prod(doubt.total for doubt in self.doubts.values())
 
     def weight(self, teeth: Mapping[str, int]) -> int:
-        """The prior weight of some wheels' counts; of all wheels, the prior probability is this over `total`."""
+        """Return the prior weight of a combination; over `total` it is the prior probability."""
         return prod(self.doubts[wheel].weight(count) for wheel, count in teeth.items())
 
 
@@ -91,15 +90,15 @@ def build_inference_problem(
     scale: Fraction = Fraction(1),
     soft: bool = False,
 ) -> InferenceProblem:
-    """The question of a train in one state, or in all its states at once.
+    """Build the inference problem of a train in one state, or in all its states at once.
 
-    outputs     those that count as evidence and are shown; all without any
-    tolerance   relative, for targets that have none of their own
-    against     which claims count: "targets", "figures" (`expect` and `published`), or "all"
-    scale       multiplies every tolerance
+    outputs     outputs used as evidence and reported; default all
+    tolerance   relative tolerance of targets without one
+    against     kinds of claims that are used: "targets", "figures" (`expect` and `published`), or "all"
+    scale       factor of every tolerance
 
-    Raises `QuestionError` for states and outputs the train does not have, for asked outputs of which nothing is
-    known, where nothing is known of any output that moves, and for trains that never turn.
+    Raises `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if nothing is
+    known of any output that moves, and for trains that never turn.
     """
     _check(train, state, against, tolerance, scale)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
@@ -118,14 +117,16 @@ def build_inference_problem(
         here = {name: f for name, f in formulas.outputs.items() if f.wheels and (not outputs or name in outputs)}
         moved |= here.keys()
         shown |= {prefix + name: formula for name, formula in here.items()}
-        for asking in find_output_requirements(train, train.case(one), formulas.outputs, tolerance):
-            if outputs and asking.name not in outputs:
+        for requirement in find_output_requirements(train, train.case(one), formulas.outputs, tolerance):
+            if outputs and requirement.name not in outputs:
                 continue
-            formula = formulas.outputs[asking.name]
-            witness = ObservedOutput(prefix + asking.name, formula, observations_of(asking.demands, against, scale))
+            formula = formulas.outputs[requirement.name]
+            witness = ObservedOutput(
+                prefix + requirement.name, formula, observations_of(requirement.demands, against, scale)
+            )
             if witness.claims and formula.wheels:
                 witnesses.append(witness)
-                known.add(asking.name)
+                known.add(requirement.name)
             else:
                 remarks += _remarks(witness)
         remarks += [f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined]
@@ -135,11 +136,11 @@ def build_inference_problem(
 
 
 def _remarks(witness: ObservedOutput) -> Iterator[str]:
-    """On an output that is no evidence: no wheel in doubt moves it, or no tolerance is stated."""
+    """Yield a remark on an output that is not evidence: no uncertain count affects it, or it has no tolerance."""
     if not witness.claims:
-        yield f"'{witness.name}' is not judged: nothing with a tolerance is asked of it"
+        yield f"'{witness.name}' is not used: none of its claims has a tolerance"
     elif not witness.fits(witness.formula.constant):
-        yield f"no wheel in doubt moves '{witness.name}', and it is not as asked: {witness.text}"
+        yield f"no uncertain count affects '{witness.name}', and its speed does not satisfy: {witness.text}"
 
 
 def _check(
@@ -148,12 +149,20 @@ def _check(
     train.check_state(state)
     if against not in LIKELIHOOD_KINDS:
         raise QuestionError(
-            Problem(f"there are no claims called '{against}'", "others are", suggest(against, LIKELIHOOD_KINDS))
+            Problem(
+                f"unknown kind of claims '{against}'",
+                "kinds are all, targets and figures",
+                suggest(against, LIKELIHOOD_KINDS),
+            )
         )
     if tolerance is not None and tolerance < 0:
-        raise QuestionError(Problem(f"a tolerance of {tolerance}", "it is a distance", "give 0 or more"))
+        raise QuestionError(
+            Problem(f"the tolerance {tolerance} is negative", "a tolerance is a distance", "give 0 or more")
+        )
     if scale < 0:
-        raise QuestionError(Problem(f"tolerances times {scale}", "a tolerance is a distance", "give 0 or more"))
+        raise QuestionError(
+            Problem(f"the factor {scale} of tolerances is negative", "a tolerance is a distance", "give 0 or more")
+        )
 
 
 def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence[str]) -> None:
@@ -165,85 +174,89 @@ def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence
 
 
 def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequence[str]) -> None:
-    """moved, known: outputs that a wheel in doubt moves, and those of them of which something is known."""
+    """Raise `QuestionError` for outputs without evidence.
+
+    moved   outputs that depend on an uncertain count
+    known   those of them with a known speed
+    """
     for name in outputs:
         if name not in moved:
-            why = "no wheel in doubt moves it"
-            raise QuestionError(Problem(f"output '{name}' tells nothing of the counts", why, "leave it out"))
+            what, why = f"output '{name}' does not depend on uncertain counts", "it gives no information on them"
+            raise QuestionError(Problem(what, why, "omit it"))
         if name not in known:
-            raise _nothing_known(f"nothing is known of output '{name}'")
+            raise _no_evidence(f"the speed of output '{name}' is not known")
     if not known:
-        raise _nothing_known("nothing is known of any output that the wheels in doubt move")
+        raise _no_evidence("no output that depends on uncertain counts has a known speed")
 
 
-def _nothing_known(what: str) -> QuestionError:
+def _no_evidence(what: str) -> QuestionError:
     fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets that have none"
-    return QuestionError(Problem(what, "counts can only be weighed against something with a tolerance", fix))
+    return QuestionError(Problem(what, "counts are weighed by speeds with a tolerance", fix))
 
 
-# --------------------------------------------------------------------------- priors: the counts of each wheel in doubt
+# ------------------------------------------------------------------ priors: the possible counts of each uncertain wheel
 
 
 @dataclass(frozen=True, slots=True)
 class ToothCountPrior(Result):
-    """The counts one wheel may have, and their prior probabilities."""
+    """Possible tooth counts of one wheel, with their prior probabilities."""
 
     KEYS = ("wheel", "declared", "counts", "priors", "assumed")
 
     wheel: str
-    """Its id."""
+    """Id of the wheel."""
     counts: tuple[int, ...]
-    """Ascending, each once."""
+    """Distinct counts, ascending."""
     weights: tuple[int, ...]
-    """In parallel to the counts: positive, without a common divisor; the prior probability is weight / `total`."""
+    """Positive weights of the counts without a common divisor. The prior probability is weight / `total`."""
     declared: int | None
-    """The count the train declares."""
+    """Declared count of the wheel."""
     assumed: str
-    """Where the counts come from, in words; all are equally likely unless it says that they are weighted."""
+    """Source of the counts. All are equally probable unless it says that they are weighted."""
 
     @property
     def total(self) -> int:
-        """The sum of the weights."""
+        """Sum of the weights."""
         return sum(self.weights)
 
     def weight(self, count: int) -> int:
-        """The weight of one of its counts."""
+        """Return the weight of one of the counts."""
         return self.weights[self.counts.index(count)]
 
     @property
     def priors(self) -> tuple[Fraction, ...]:
-        """The chance of each count before the outputs are looked at; they sum to 1."""
+        """Prior probability of each count; they sum to 1."""
         return tuple(Fraction(weight, self.total) for weight in self.weights)
 
 
 def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -> tuple[ToothCountPrior, ...]:
-    """The priors of the wheels in doubt, in the order declared.
+    """Return the priors of the uncertain tooth counts, in the order of declaration.
 
-    free   wheel -> its counts, for wheels that are to have others than those declared; one count takes the doubt away
+    free   wheel -> possible counts, which replace the declared ones; a single count makes the wheel certain
 
-    A wheel with `range` or `choices` is in doubt with its `weights` (uniform where none are declared), one with
-    `search` uniformly. Raises `QuestionError` for wheels the train does not have, for what is no tooth count, for
-    weights that are no probabilities, and where no wheel is in doubt; `RangeError` for a doubt too wide to list.
+    A wheel with `range` or `choices` has its `weights` (uniform if none are declared), a wheel with `search` a uniform
+    prior. Raises `QuestionError` for unknown wheels, invalid tooth counts, weights that are not probabilities, and if
+    no count is uncertain; `RangeError` for a wheel with too many counts to list.
     """
     given = dict(free or {})
     for name in given:
         if name not in train.wheels:
             fix = suggest(name, train.wheels)
             raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
-    found = tuple(_all(train, given))
+    found = tuple(_priors(train, given))
     if not any(len(doubt.counts) > 1 for doubt in found):
         why = "no wheel has `range` or `choices` with more than one count"
         fix = "declare `teeth: {value: 64, range: [63, 66]}`, or free a wheel: --free WHEEL=63:66"
-        raise QuestionError(Problem(f"no wheel of '{train.name}' is in doubt", why, fix))
+        raise QuestionError(Problem(f"no tooth count of '{train.name}' is uncertain", why, fix))
     return found
 
 
-def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCountPrior]:
+def _priors(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCountPrior]:
     for name, (link, wheel) in train.wheels.items():
         place = train.place("links", link, "wheels", name)
         teeth = wheel.teeth if isinstance(wheel.teeth, Teeth) else Teeth(value=wheel.teeth)
         if name in given:
-            counts = _checked(name, given[name])
+            counts = _checked_counts(name, given[name])
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "requested")
         elif teeth.choices is not None or teeth.range is not None:
             yield _declared(name, teeth, place)
@@ -253,33 +266,34 @@ def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCoun
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "search")
 
 
-def _checked(name: str, counts: Sequence[int]) -> tuple[int, ...]:
-    """Counts as asked for: some, and possible."""
+def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
+    """Validate requested counts, and return them sorted."""
     found = tuple(sorted(set(counts)))
     if not found:
-        why = "a range ends before it begins, or nothing is listed"
-        raise QuestionError(Problem(f"wheel '{name}' has no counts to choose from", why, "write the least count first"))
+        what = f"wheel '{name}' has no possible counts"
+        why = "a range ends before it begins, or the list is empty"
+        raise QuestionError(Problem(what, why, "write the smaller count first"))
     for count in (found[0], found[-1]):
         if not 0 < count <= MOST_TEETH:
-            fix = "a tooth count is a whole number from 1 to 10^12"
-            raise QuestionError(Problem(f"{count} is not a tooth count", f"wheel '{name}' is to have it", fix))
+            why = "a tooth count is an integer from 1 to 10^12"
+            raise QuestionError(Problem(f"{count} is not a tooth count", why, f"correct the counts of wheel '{name}'"))
     if len(found) > MOST_COUNTS:
-        raise _too_wide(name, len(found), "")
+        raise _too_many_counts(name, len(found), "")
     return found
 
 
 def _check_width(name: str, count: int, place: str) -> None:
     if count > MOST_COUNTS:
-        raise _too_wide(name, count, place)
+        raise _too_many_counts(name, count, place)
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
-    """A doubt as declared, with its weights; counts of weight 0 are left out."""
+    """Return the declared prior of a wheel; counts of weight 0 are omitted."""
     if teeth.range is not None and teeth.choices is None:
         _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
     if why := teeth.fault_of_weights:
-        what = f"the weights of wheel '{name}' are no chances"
-        raise QuestionError(Problem(what, why, "give weights of 0 and more, one of them above 0", place))
+        what = f"the weights of wheel '{name}' are not probabilities"
+        raise QuestionError(Problem(what, why, "give weights of 0 or more, at least one of them above 0", place))
     chances = teeth.chances
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""
@@ -289,34 +303,34 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     )
 
 
-def _too_wide(name: str, count: int, place: str) -> RangeError:
-    what = f"the doubt of wheel '{name}' is too wide"
-    return RangeError(Problem(what, f"{count} counts, and at most {MOST_COUNTS} can be listed", "narrow it", place))
+def _too_many_counts(name: str, count: int, place: str) -> RangeError:
+    what = f"wheel '{name}' has {count} possible counts"
+    return RangeError(Problem(what, f"at most {MOST_COUNTS} can be listed", "narrow its range", place))
 
 
-# ------------------------------------------------------------- observations: claims on speeds, each with its tolerance
+# --------------------------------------------------------------------- observations: known speeds with their tolerances
 
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """One thing known about an output's speed."""
+    """Known speed of an output with its tolerance."""
 
     label: str
-    """In words, such as "speed 254/19 within 0.2 %"."""
+    """Description, such as "speed 254/19 within 0.2 %"."""
     wanted: Fraction
-    """The speed, in the train's unit; positive where only the magnitude counts."""
+    """Known speed in the unit of the train; positive if only the magnitude is known."""
     signed: bool
-    """False: only the magnitude counts."""
+    """False if only the magnitude is known."""
     intervals: tuple[Interval, ...]
-    """Where the speed (or its magnitude) may lie, closed; None stands for no bound."""
+    """Closed intervals of accepted speeds or magnitudes; None for an infinite end."""
 
     @property
     def is_exact(self) -> bool:
-        """True if one speed is allowed and no other."""
+        """True if only one speed is accepted."""
         return all(low == high for low, high in self.intervals)
 
     def scaled(self, factor: Fraction) -> Observation:
-        """The claim with all tolerances multiplied by a factor."""
+        """Return the observation with all tolerances multiplied by a factor."""
         if factor == 1:
             return self
         stretched = tuple((self._moved(low, factor), self._moved(high, factor)) for low, high in self.intervals)
@@ -326,24 +340,24 @@ class Observation:
         return None if end is None else self.wanted + factor * (end - self.wanted)
 
     def half(self, above: bool) -> Fraction | None:
-        """How far the speed may lie above or below what is wanted; None for any distance."""
+        """Return the tolerance above or below the known speed; None if it is unlimited."""
         own = [each for each in self.intervals if is_within(self.wanted, (each,))]
         end = own[0][1 if above else 0] if own else None
         return None if end is None else abs(end - self.wanted)
 
     def met(self, speed: Fraction) -> bool:
-        """True if a speed is in order."""
+        """Return whether a speed is accepted."""
         value = speed if self.signed else abs(speed)
         return is_within(value, self.intervals)
 
     def misfit(self, speed: Fraction) -> Fraction:
-        """(error / tolerance)^2; 0 without a bound on that side, and for an exact claim, which is met or not."""
+        """Return (error / tolerance)^2; 0 if the tolerance is unlimited, and for an exact observation."""
         value = speed if self.signed else abs(speed)
         half = self.half(value > self.wanted)
         return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
 
     def allowed(self) -> tuple[Interval, ...]:
-        """The speeds that are in order, of either sense where only the magnitude counts."""
+        """Return the intervals of accepted speeds, of either sense if only the magnitude is known."""
         if self.signed:
             return self.intervals
         ((low, high),) = self.intervals
@@ -354,39 +368,40 @@ class Observation:
 
 @dataclass(frozen=True, slots=True)
 class ObservedOutput:
-    """An output of which something is known."""
+    """Output with at least one observation."""
 
     name: str
-    """Of the output; "state: output" where several states are asked at once."""
+    """Name of the output, or "state: output" if several states are used at once."""
     formula: Formula
-    """Its speed as a function of the wheels in doubt; of one or more of them."""
+    """Speed as a function of one or more uncertain counts."""
     claims: tuple[Observation, ...]
-    """All hold at once; one at least."""
+    """Observations that are all satisfied at once; at least one."""
 
     @property
     def text(self) -> str:
-        """The claims in words."""
+        """Descriptions of the observations."""
         return "; ".join(claim.label for claim in self.claims)
 
     def fits(self, speed: Fraction | None) -> bool:
-        """True if a speed meets every claim; a train that has no speed there does not."""
+        """Return whether a speed satisfies every observation; False if the train has no speed."""
         return speed is not None and all(claim.met(speed) for claim in self.claims)
 
     def misfit(self, speed: Fraction) -> Fraction:
-        """The sum over the claims of (error / tolerance)^2."""
+        """Return the sum over the observations of (error / tolerance)^2."""
         return sum((claim.misfit(speed) for claim in self.claims), Fraction(0))
 
     def requested(self, soft: bool) -> IntervalConstraint | None:
-        """What must hold without doubt: every claim, where they are `soft` within `FAR` tolerances; None: nothing."""
+        """Return the hard constraint of all observations, with `soft` within `FAR` tolerances; None without bounds."""
         common: tuple[Interval, ...] = (_LINE,)
         for claim in self.claims:
             common = meet(common, (claim.scaled(FAR) if soft else claim).allowed())
         return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
 
     def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
-        """Return the constraint of this output for a join; unbounded if no claim is certain.
+        """Return the constraint of this output for a join, which is unbounded if no observation is hard.
 
-        Every speed in order must have a constraint. `graded`: the join also returns how well the output agrees.
+        The join needs a constraint even then, because every accepted speed must be defined. With `graded` the join also
+        returns the misfit of the output.
         """
         return replace(self.requested(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
 
@@ -394,10 +409,10 @@ class ObservedOutput:
 def observations_of(
     demands: Sequence[SpeedRequirement], kind: LikelihoodKind, factor: Fraction = Fraction(1)
 ) -> tuple[Observation, ...]:
-    """The demands on an output as claims; those on targets without a tolerance claim nothing.
+    """Convert the requirements on an output to observations; targets without a tolerance are omitted.
 
-    kind     "targets": without `expect` and `published`; "figures": only those; "all"
-    factor   multiplies every tolerance
+    kind     "targets" without `expect` and `published`, "figures" for only those, or "all"
+    factor   factor of every tolerance
     """
     return tuple(claim.scaled(factor) for claim in _claims(demands, kind))
 

@@ -1,4 +1,4 @@
-"""Counts in doubt as pages and tables: what fits, how likely each count is then, and which wheel decides what."""
+"""Report of uncertain tooth counts as documents and tables: combinations that fit, posteriors, variance shares."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
         WheelPosterior,
     )
 
-_LIKELIEST = 4  # counts told of one wheel; the JSON has all
+_MOST_PROBABLE = 4  # most probable counts that are printed; the JSON has all
 _STRONGEST = 12
 _DECIDING = 4
 _OUTPUTS = 4
@@ -28,7 +28,7 @@ _DECIDED = ("output", "mean speed", "standard deviation", "decided by")
 
 
 def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
-    """The combinations listed, as a flat table: counts, then the speed and the error of every output."""
+    """Return the listed combinations as a flat table of counts, then speed and error of every output."""
     return [
         {
             **one.teeth,
@@ -42,17 +42,17 @@ def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
 
 
 def describe_posterior(found: ToothCountPosterior) -> Document:
-    """What is known of counts in doubt: evidence, the posterior of each count, and what decides the outputs.
+    """Return the report of uncertain counts: evidence, posterior of each count, and variance shares of the outputs.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        From `geartrain.search.infer_counts`.
+        Result of `geartrain.search.infer_counts`.
 
     Returns
     -------
     Document
-        Assumptions first; probabilities with their intervals of 95 % where they are estimates.
+        Document that begins with the assumptions. Estimated probabilities have 95 % intervals.
 
     Examples
     --------
@@ -62,29 +62,30 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
     >>> from geartrain.search import infer_counts
     >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
     >>> describe_posterior(found).summary[1]
-    '1 fit: a share of 0.2 of the weight they have before.'
+    '1 fits: a share of 0.2 of the prior weight.'
     """
-    return Document(f"Counts in doubt of {found.name}", list(_summary(found)), list(_sections(found)))
+    return Document(f"Uncertain tooth counts of {found.name}", list(_summary(found)), list(_sections(found)))
 
 
 def _summary(found: ToothCountPosterior) -> Iterator[str]:
     how = {
-        "exact": f"all were taken together, in {_many(found.examined)} steps; only what has an interval is estimated",
-        "sample": f"{_many(found.examined)} were drawn, seed {found.seed}; intervals are of 95 %",
+        "exact": f"exact join in {_many(found.examined)} steps; only values with an interval are estimated",
+        "sample": f"{_many(found.examined)} drawn with seed {found.seed}; intervals are 95 % intervals",
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."
     if found.cut:
-        yield "Interrupted: the figures are of what had been looked at."
+        yield "Interrupted: the figures cover only the combinations drawn so far."
     if found.turning.value != 1:
-        yield f"The train turns with a share of {found.turning} of them, by their weight."
-    share = f"a share of {found.evidence} of the weight they have before"
+        yield f"The train turns for a share of {found.turning} of the prior weight."
+    share = f"a share of {found.evidence} of the prior weight"
     if not found.posteriors or not found.evidence.value:
         minimum = f" (less than {found.evidence.high:.3g})" if found.evidence.high is not None else ""
-        yield f"None of them fits what the outputs are known to do{minimum}."
+        yield f"None of them fits the known speeds of the outputs{minimum}."
     elif found.soft:
-        yield f"Mean agreement: {found.evidence}."
+        yield f"Mean likelihood: {found.evidence}."
     else:
-        yield f"{'Those that fit' if found.fits is None else f'{_many(found.fits)} fit'}: {share}."
+        fit = "1 fits" if found.fits == 1 else "Those that fit" if found.fits is None else f"{_many(found.fits)} fit"
+        yield f"{fit}: {share}."
     yield from found.assumed
 
 
@@ -107,18 +108,18 @@ def _sections(found: ToothCountPosterior) -> Iterator[Section]:
 
 def _known(found: ToothCountPosterior) -> Section:
     rows = [(one.name, one.text, str(found.alone.get(one.name, "-"))) for one in found.witnesses]
-    line = "How much of the weight each output would leave if it were known alone."
+    line = "Share of the prior weight that fits each output, regardless of the others."
     return Section("What is known", [line], [Table(("output", "known", "fits alone"), rows)])
 
 
 def _wheels(found: ToothCountPosterior) -> Section:
     rows = [_wheel(posterior) for posterior in found.posteriors.values()]
     lines = [
-        "`bits` is what the outputs tell of a wheel: the relative entropy of its chances now and before.",
-        "A dash stands for a wheel on which nothing known depends. Before, all its counts are as likely, unless it is "
-        "said that they are weighted.",
+        "`posterior` is the probability of the declared count. `bits` is the information from the outputs: the "
+        "relative entropy of posterior and prior.",
+        "A dash marks a wheel on which no known output depends. Priors are uniform unless they are marked as weighted.",
     ]
-    header = ("wheel", "declared", "before", "chance now", "bits", "likeliest now")
+    header = ("wheel", "declared", "prior", "posterior", "bits", "most probable counts")
     return Section("Wheels", lines, [Table(header, rows)])
 
 
@@ -129,7 +130,7 @@ def _wheel(posterior: WheelPosterior) -> tuple[str, ...]:
     if posterior.idle or not posterior.chances:
         return doubt.wheel, declared, before, "-", "-", "-"
     own = "-" if doubt.declared is None else str(posterior.chance(doubt.declared))
-    return doubt.wheel, declared, before, own, figure(posterior.bits, 3), _likeliest(posterior)
+    return doubt.wheel, declared, before, own, figure(posterior.bits, 3), _most_probable(posterior)
 
 
 def _span(counts: Sequence[int]) -> str:
@@ -137,12 +138,12 @@ def _span(counts: Sequence[int]) -> str:
     return f"{counts[0]}-{counts[-1]}" if whole and len(counts) > 1 else " or ".join(map(str, counts))
 
 
-def _likeliest(posterior: WheelPosterior) -> str:
-    """The likeliest counts with their chances; those that have none are not told."""
+def _most_probable(posterior: WheelPosterior) -> str:
+    """Format the most probable counts with their probabilities; counts of probability 0 are omitted."""
     pairs = zip(posterior.doubt.counts, posterior.chances, strict=True)
     some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
-    told = ", ".join(f"{count}: {_short(chance)}" for count, chance in some[:_LIKELIEST])
-    return told + (f" and {len(some) - _LIKELIEST} more" if len(some) > _LIKELIEST else "")
+    listed = ", ".join(f"{count}: {_short(chance)}" for count, chance in some[:_MOST_PROBABLE])
+    return listed + (f" and {len(some) - _MOST_PROBABLE} more" if len(some) > _MOST_PROBABLE else "")
 
 
 def _short(chance: CountProbability) -> str:
@@ -153,14 +154,11 @@ def _deciding(shares: Sequence[VarianceShares]) -> Section:
     rows = []
     for one in shares:
         strongest = sorted(one.whole, key=lambda wheel: -float(one.whole[wheel]))[:_DECIDING]
-        told = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
-        told = told if one.exact else f"about {told}"
+        listed = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
+        listed = listed if one.exact else f"about {listed}"
         mean = rounded(one.mean) if isinstance(one.mean, Fraction) else one.mean
-        rows.append((one.output, figure(mean), figure(one.spread, 4), told))
-    line = (
-        "Shares of the variance of each speed that stay if all other counts are known, over the counts as they are "
-        "before anything is known of the outputs."
-    )
+        rows.append((one.output, figure(mean), figure(one.spread, 4), listed))
+    line = "Shares of the prior variance of each speed that remain if all other counts are known (total Sobol indices)."
     return Section("Which wheel decides which output", [line], [Table(_DECIDED, cut(rows))])
 
 
@@ -170,34 +168,34 @@ def _percent(share: Fraction | float) -> str:
 
 def _correlated(found: ToothCountPosterior) -> Section:
     strongest = list(found.correlations.items())[:_STRONGEST]
-    rows = [(" and ".join(pair), f"{value:+.3f}") for pair, value in strongest if abs(value) >= 0.0005]  # shown as 0
-    line = "Wheels that make up for each other in what fits: the strongest correlations of their counts."
+    # smaller values would be printed as 0
+    rows = [(" and ".join(pair), f"{value:+.3f}") for pair, value in strongest if abs(value) >= 0.0005]
+    line = "Strongest posterior correlations of counts: such wheels compensate for each other."
     return Section("Correlations", [line], [Table(("wheels", "correlation"), rows)])
 
 
 def _best(found: ToothCountPosterior) -> Section:
     lines = [
-        "Ordered by misfit, the sum of (error / tolerance)^2; of equals the likelier before, then the nearer to what "
-        "is declared.",
+        "Sorted by misfit, the sum of (error / tolerance)^2, then by prior probability and number of changed counts.",
     ]
     if not found.ranked:
-        why = "of those looked at" if found.method == "sample" or found.cut else "more have the same misfit"
-        lines.append(f"Not shown to be the best: {why}.")
+        why = "only a sample is ranked" if found.method == "sample" or found.cut else "more have the same misfit"
+        lines.append(f"Not proved to be the best: {why}.")
     some = found.best[0]
-    header = ["changed", "misfit", "chance"]
-    told = list(some.errors) if len(some.errors) <= _OUTPUTS else []
-    header += [f"error of {name}" for name in told] or ["greatest error"]
-    rows = [[*_told(one), *_errors(one, told)] for one in found.best]
+    header = ["changed", "misfit", "posterior"]
+    listed = list(some.errors) if len(some.errors) <= _OUTPUTS else []
+    header += [f"error of {name}" for name in listed] or ["maximum error"]
+    rows = [[*_combination_cells(one), *_errors(one, listed)] for one in found.best]
     return Section("Combinations that agree best", lines, [Table(header, cut(rows))])
 
 
-def _told(one: CountCombination) -> tuple[str, str, str]:
+def _combination_cells(one: CountCombination) -> tuple[str, str, str]:
     changed = ", ".join(f"{wheel} {one.teeth[wheel]}" for wheel in one.changed) or "nothing"
     return changed, figure(one.misfit, 4), "-" if one.chance is None else str(one.chance)
 
 
-def _errors(one: CountCombination, told: Sequence[str]) -> list[str]:
-    if told:
-        return [error_text(one.errors[name]) for name in told]
+def _errors(one: CountCombination, listed: Sequence[str]) -> list[str]:
+    if listed:
+        return [error_text(one.errors[name]) for name in listed]
     worst = max(one.errors, key=lambda name: abs(one.errors[name]))
     return [f"{worst} {error_text(one.errors[worst])}"]

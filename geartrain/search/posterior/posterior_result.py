@@ -1,11 +1,12 @@
-"""The posterior of tooth counts: of each wheel by itself, of two together, of whole combinations."""
+"""Posterior of tooth counts: of single wheels, of pairs, and of whole combinations."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal, NotRequired, TypedDict
+from itertools import islice
+from typing import Any, ClassVar, Literal, NotRequired, TypedDict
 
 from geartrain.numerics.exact import as_float, decimal
 from geartrain.numerics.long_float import Real, as_plain
@@ -18,7 +19,7 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """A probability: exact, to rounding, or estimated from a sample.
+    """Probability that is exact, correct to rounding, or estimated from a sample.
 
     Examples
     --------
@@ -31,20 +32,20 @@ class CountProbability(Result):
     KEYS = (Key("value", to=float), "exact", "low", "high")
 
     value: Fraction | float
-    """0 to 1; exact where it is a Fraction, to rounding where it is a float."""
+    """Probability, 0 to 1: exact for a Fraction, to rounding for a float."""
     low: float | None = None
-    """Lower end of the 95 % interval where the value is estimated from a sample."""
+    """Lower end of the 95 % interval of an estimate."""
     high: float | None = None
-    """Upper end of the 95 % interval where the value is estimated from a sample."""
+    """Upper end of the 95 % interval of an estimate."""
 
     @property
     def exact(self) -> Fraction | None:
-        """The value where it is exact."""
+        """Value if it is exact, else None."""
         return self.value if isinstance(self.value, Fraction) else None
 
     @property
     def is_exact(self) -> bool:
-        """True for a Fraction."""
+        """True if the value is a Fraction."""
         return isinstance(self.value, Fraction)
 
     def __float__(self) -> float:
@@ -57,7 +58,7 @@ class CountProbability(Result):
 
 @dataclass(frozen=True, slots=True)
 class WheelPosterior(Result):
-    """The posterior of one wheel's count.
+    """Posterior of the tooth count of one wheel.
 
     See Also
     --------
@@ -67,15 +68,15 @@ class WheelPosterior(Result):
     KEYS = (Key("", "doubt"), Key("posterior", "chances"), "likeliest", "bits", "idle")
 
     doubt: ToothCountPrior
-    """Its `counts`, and their `priors`: the probabilities before the outputs are looked at."""
+    """Possible counts with their prior probabilities."""
     chances: tuple[CountProbability, ...]
-    """Posterior probabilities in parallel to the counts; they sum to 1. Empty where nothing fits."""
+    """Posterior probability of each count; they sum to 1. Empty if nothing fits."""
     idle: bool
-    """True if no known output depends on it, so that its posterior is its prior."""
+    """True if no known output depends on the wheel, so that its posterior is its prior."""
 
     @property
     def likeliest(self) -> int | None:
-        """The count of the greatest chance, the least of equals; None where nothing fits."""
+        """Most probable count, the smallest if several are equally probable; None if nothing fits."""
         if not self.chances:
             return None
         best = max(range(len(self.chances)), key=lambda at: (self.chances[at].value, -at))
@@ -83,16 +84,16 @@ class WheelPosterior(Result):
 
     @property
     def bits(self) -> float:
-        """What the outputs tell of it: the relative entropy of posterior and prior [bit]; 0 for nothing."""
+        """Information from the outputs: relative entropy of posterior and prior [bit], 0 for none."""
         return relative_entropy(map(float, self.chances), self.doubt.priors)
 
     def chance(self, count: int) -> CountProbability:
-        """The posterior probability of a count.
+        """Return the posterior probability of a count.
 
         Parameters
         ----------
         count : int
-            A tooth count; of one the wheel cannot have the probability is 0.
+            Tooth count. The probability of an impossible count is 0.
         """
         if count not in self.doubt.counts or not self.chances:
             return CountProbability(Fraction(0))
@@ -101,19 +102,19 @@ class WheelPosterior(Result):
 
 @dataclass(frozen=True, slots=True)
 class CombinedOutput:
-    """The speed of an output under a combination of counts, and its relative error."""
+    """Speed of an output for one combination of counts, with its relative error."""
 
     KEYS = (Key("exact", "speed"), Key("value", "speed", as_float), Key("error", to=float))
 
     speed: Fraction
-    """Speed of the output under the combination."""
+    """Exact speed of the output [unit of the train]."""
     error: Fraction
-    """Relative error of the speed against what is known."""
+    """Relative error against the known speed."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCombination(Result):
-    """One combination: counts of all wheels that some known output depends on.
+    """Combination of the counts of all wheels that a known output depends on.
 
     See Also
     --------
@@ -123,27 +124,27 @@ class CountCombination(Result):
     KEYS = ("teeth", "outputs", Key("misfit", to=float), "chance", "changed")
 
     teeth: Mapping[str, int]
-    """Wheel -> count, in the order declared."""
+    """Wheel -> count, in the order of declaration."""
     speeds: Mapping[str, Fraction]
     """Output -> exact speed [unit of the train]."""
     errors: Mapping[str, Fraction]
-    """Output -> relative error against the claim it agrees with least; the speed itself where 0 is wanted."""
+    """Output -> relative error against the observation with the largest misfit; the speed itself if 0 is wanted."""
     misfit: Fraction
-    """Sum over the claims of (error / tolerance)^2; an exact claim adds nothing."""
+    """Sum over the observations of (error / tolerance)^2; exact observations add 0."""
     chance: CountProbability | None
-    """Posterior probability; None where it is not known, in a sample."""
+    """Posterior probability; None if it is unknown, as in a sample."""
     changed: tuple[str, ...]
-    """Wheels whose count is not the declared one."""
+    """Wheels whose count differs from the declared one."""
 
     @property
     def outputs(self) -> Mapping[str, CombinedOutput]:
-        """Speed and error by output."""
+        """Output -> its speed and error."""
         return {name: CombinedOutput(speed, self.errors[name]) for name, speed in self.speeds.items()}
 
 
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
-    """Which wheel decides an output: Sobol indices of its speed over the prior of the counts.
+    """Sobol indices of the speed of an output over the prior of the counts.
 
     See Also
     --------
@@ -160,42 +161,51 @@ class VarianceShares(Result):
     )
 
     output: str
-    """Its name."""
+    """Name of the output."""
     mean: Fraction | float
-    """Of its speed [unit of the train]."""
+    """Prior mean of the speed [unit of the train]."""
     spread: Real
-    """Standard deviation of its speed [unit of the train]; `LongFloat` past 1e308."""
+    """Standard deviation of the speed [unit of the train]; `LongFloat` beyond 1e308."""
     own: Mapping[str, Fraction | float]
-    """Wheel -> first-order index, 0 to 1: the share of the variance that goes if the wheel's count is known."""
+    """Wheel -> first-order index, 0 to 1: the share of the variance that vanishes if its count is known."""
     whole: Mapping[str, Fraction | float]
-    """Wheel -> total index, at least `own`: the share that stays if all other counts are known."""
+    """Wheel -> total index, at least `own`: the share of the variance that remains if all other counts are known."""
     exact: bool
-    """False where the indices are estimated from `samples` combinations."""
+    """False if the indices are estimated from `samples` combinations."""
     samples: int = 0
-    """0 where they are exact."""
+    """Number of combinations of the estimate; 0 if the indices are exact."""
 
 
 class KnownOutput(TypedDict):
-    """An output of which something is known, its formula, and the share of the prior weight that fits it `alone`."""
+    """Observed output as plain data."""
 
     output: str
     """Name of the output."""
     claims: list[str]
-    """What is known of its speed."""
+    """Descriptions of the observations of its speed."""
     formula: str
-    """Its speed as a function of the uncertain counts."""
+    """Speed as a function of the uncertain counts."""
     alone: NotRequired[CountProbability]
-    """Share of the prior weight that fits this output alone."""
+    """Share of the prior weight that fits this output, regardless of the others."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothCountPosterior(Tabular, Result):
-    """The posterior of all tooth counts in doubt; `found["wheel"]` is that of one wheel.
+    """Posterior of all uncertain tooth counts; `found["wheel"]` is the posterior of one wheel.
 
     See Also
     --------
     infer_counts : gives it
     """
+
+    MEANINGS: ClassVar = {
+        "wheel": "Wheel with an uncertain tooth count.",
+        "teeth": "Tooth count.",
+        "prior": "Prior probability of the count [1].",
+        "posterior": "Posterior probability of the count; empty where nothing fits [1].",
+    }
+
+    PAGE = "search.posterior.posterior_report:describe_posterior"
 
     KEYS = (
         *(Key("train", "name"), "method", "soft", "combinations", "examined", "evidence", "turning", "fits", "ranked"),
@@ -204,50 +214,58 @@ class ToothCountPosterior(Tabular, Result):
     )
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     method: Method
-    """All combinations by the exact join, or a sample of them."""
+    """Method: exact join of all combinations, or sampling."""
     soft: bool
-    """Whether agreement is a matter of degree."""
+    """True for a Gaussian likelihood, False if a combination either fits or not."""
     combinations: int
-    """Of counts there are."""
+    """Number of combinations of counts."""
     examined: int
-    """Steps of the exact join, or combinations drawn."""
+    """Number of steps of the exact join, or of combinations drawn."""
     evidence: CountProbability
-    """Share of the prior weight that fits; the mean of exp(-misfit / 2) where agreement is by degree."""
+    """Share of the prior weight that fits; with `soft` the mean of exp(-misfit / 2)."""
     turning: CountProbability
-    """Share of the prior weight with which the train turns at all."""
+    """Share of the prior weight with which the train turns."""
     fits: int | None
-    """Number of combinations that fit, where it is known."""
+    """Number of combinations that fit, if it is known."""
     witnesses: tuple[ObservedOutput, ...]
-    """Outputs of which something is known."""
+    """Observed outputs."""
     alone: Mapping[str, CountProbability]
-    """Output -> share of the prior weight that fits it alone."""
+    """Output -> share of the prior weight that fits this output, regardless of the others."""
     posteriors: Mapping[str, WheelPosterior]
-    """By wheel."""
+    """Wheel -> its posterior."""
     correlations: Mapping[tuple[str, str], float]
-    """Pairs of wheels -> correlation of their counts in what fits, -1 to 1, strongest first."""
+    """Pair of wheels -> posterior correlation of their counts, -1 to 1, in descending order of magnitude."""
     best: tuple[CountCombination, ...]
-    """Combinations that agree best, best first."""
+    """Combinations in ascending order of misfit."""
     ranked: bool
-    """Whether none better than the last of them is left out."""
+    """True if no better combination than the last one is omitted."""
     shares: Mapping[str, VarianceShares]
-    """Output -> which wheel decides it."""
+    """Output -> Sobol indices of its speed."""
     remarks: tuple[str, ...]
-    """What the reader should know."""
+    """Remarks for the reader."""
     seed: int | None
-    """Of the sample, if there is one."""
+    """Random seed of the sample; None for the exact method."""
     cut: bool
-    """True if it was interrupted: the figures are of what had been drawn."""
+    """True after an interruption: the figures cover the combinations drawn so far."""
+
+    def _summary(self) -> str:
+        likely = ", ".join(
+            f"{wheel} {found.likeliest}" for wheel, found in islice(self.posteriors.items(), 4) if found.chances
+        )
+        more = f", {len(self.posteriors) - 4} more wheels" if len(self.posteriors) > 4 else ""
+        searched = f"{self.combinations:,} combinations, {self.method}"
+        return f"{self.name}: most probable {likely or 'nothing fits'}{more}; {searched}"
 
     def __getitem__(self, wheel: str) -> WheelPosterior:
         return self.posteriors[wheel]
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each count of each wheel: its chances before the outputs are looked at and after.
+        """Table with a row for each count of each wheel: its prior and posterior probability.
 
-        After is None where nothing fits.
+        The posterior is None if nothing fits.
         """
         rows = [(wheel, found, at) for wheel, found in self.posteriors.items() for at in range(len(found.doubt.counts))]
         return {
@@ -259,12 +277,12 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """How the search ended."""
+        """Status of the search: "whole" or "interrupted"."""
         return "interrupted" if self.cut else "whole"
 
     @property
     def known(self) -> list[KnownOutput]:
-        """The witnesses, and how far each goes alone where that was found."""
+        """Observed outputs as plain data, with the evidence of each output if it was computed."""
         found = []
         for one in self.witnesses:
             known = KnownOutput(output=one.name, claims=[claim.label for claim in one.claims], formula=str(one.formula))
@@ -275,20 +293,20 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def correlated(self) -> list[tuple[str, str, float]]:
-        """Two wheels and the correlation of their counts, strongest first."""
+        """Triples (wheel, wheel, correlation of their counts), in descending order of magnitude."""
         return [(*pair, value) for pair, value in self.correlations.items()]
 
     @property
     def assumed(self) -> Sequence[str]:
-        """The assumptions behind the figures, in sentences."""
+        """Assumptions of the inference, one sentence each."""
         agree = (
-            "Agreement is by degree: a combination weighs exp(-misfit/2), the tolerances taken as standard deviations; "
-            "what is more than 5 tolerances off is refused."
+            "The likelihood is exp(-misfit/2), with the tolerances as standard deviations; errors of more than 5 "
+            "tolerances are rejected."
             if self.soft
-            else "A combination fits if every output is within its tolerance, and otherwise it does not: no degrees."
+            else "A combination fits if every output is within its tolerance; its likelihood is then 1, else 0."
         )
         return (
-            "The counts of different wheels are independent before the outputs are looked at.",
+            "The prior treats the counts of different wheels as independent.",
             agree,
-            "What the outputs show is taken to be what they were meant to show; no misprint or repair is allowed for.",
+            "The known speeds are taken to be the intended ones, without misprints or repairs.",
         )

@@ -1,6 +1,6 @@
-"""What both methods of a posterior end with: evidence, correlations, the best combinations, shares of variance.
+"""Results common to both methods of inference: evidence, correlations, best combinations, variance shares.
 
-The best are in an order that no rounding and no way of searching can change.
+The order of the best combinations does not depend on rounding or on the method.
 """
 
 from __future__ import annotations
@@ -29,18 +29,20 @@ from geartrain.search.posterior.posterior_result import (
 )
 from geartrain.search.posterior.sampled_posterior import KEPT, TIE, PosteriorTally, origin_of, plain_number
 
-_LISTED = 200_000  # combinations up to which a variance is taken over all of them
-_DRAWN = 1 << 14  # in each of two samples otherwise
+_LISTED = 200_000  # maximum number of combinations that are enumerated for a variance
+_DRAWN = 1 << 14  # size of each of two samples, for more combinations
 _CERTAIN = 1e-4
-"""Spread over range below which a count has no correlation to tell: other counts have a chance under 10^-8, and
-covariances in float64 would be rounding."""
+"""Ratio of standard deviation to range below which a count is treated as certain and has no correlations.
+
+All other counts then have a total probability below 1e-8, and covariances in float64 would be rounding errors.
+"""
 
 _NONE = 1e-13
-"""Correlation below which it is rounding, and none."""
+"""Magnitude of a correlation below which it is a rounding error, and reported as 0."""
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """The first `most` of an ascending list and all equals of the last; False if equals had to be left out."""
+    """Return the first `most` entries of an ascending list with ties of the last, and False if ties are omitted."""
     found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
@@ -54,12 +56,12 @@ def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[
 def rank_combinations(
     question: InferenceProblem, candidates: Iterable[GradedAssignment], most: int, evidence: CountProbability | None
 ) -> tuple[CountCombination, ...]:
-    """Exact figures of the candidates, best first: by misfit, then prior weight, then nearness to what is declared.
+    """Sort the candidates exactly by misfit, then by prior weight, then by the number of changed counts.
 
-    evidence   of all that fits; None where it is not known, and then no chances are given
+    evidence   total weight of all that fits; None if it is not known, and then no probabilities are computed
     """
     made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
-    # exact misfits, then whole numbers: no two ways of searching can disagree on this order
+    # exact misfits, then integers: the order does not depend on the method of search
     made.sort(key=lambda one: (one.misfit, -question.weight(one.teeth), len(one.changed), tuple(one.teeth.values())))
     return tuple(made[:most])
 
@@ -99,7 +101,7 @@ def _chance(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and candidates for the best, by either method."""
+    """Evidence, posteriors, correlations and best candidates, by either method."""
 
     examined: int
     evidence: CountProbability
@@ -110,24 +112,24 @@ class PosteriorSummary:
     candidates: Sequence[GradedAssignment]
     ranked: bool
     effective: float
-    """Number of combinations that the figures rest on, where they are of a sample; infinite where they are not."""
+    """Effective sample size (Kish); infinite for the exact method."""
 
 
 def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> PosteriorSummary:
-    """What a sample of combinations comes to."""
+    """Compute the summary of a sample of combinations."""
     wheels = tally.batch.wheels
     candidates = [
         GradedAssignment(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
         for misfit, at in tally.best
     ]
     by = dict(zip(wheels, tally.by, strict=True))
-    # Kish's effective sample size: hits of unequal weight tell as much as so many of equal weight
+    # Kish's effective sample size: the number of hits of equal weight with the same variance
     trials = tally.weight**2 / tally.square if tally.square else None
     posteriors = {
         wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
     }
     evidence = _share(tally.weight, tally.examined, tally, question.soft)
-    correlations = _of_sizes(question, tally)
+    correlations = _sample_correlations(question, tally)
     return PosteriorSummary(
         tally.examined,
         evidence,
@@ -142,13 +144,14 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
 
 
 def _share(weight: float, examined: int, tally: PosteriorTally, soft: bool) -> CountProbability:
-    """A share with its interval: Wilson's for hits, the normal one for degrees of agreement."""
+    """Return a share with its 95 % interval: Wilson's for hits, the normal interval for graded agreement."""
     if not examined:
         return CountProbability(0.0, 0.0, 1.0)
     mean = float(weight) / examined
     if not soft or not weight:
         return CountProbability(mean, *wilson(float(weight), examined))
-    half = deviations() * sqrt(max(tally.square / examined - mean**2, 0.0) / examined)  # a variance: 0 but for rounding
+    # rounding may make a variance negative
+    half = deviations() * sqrt(max(tally.square / examined - mean**2, 0.0) / examined)
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
 
 
@@ -162,11 +165,11 @@ def _counted(tally: PosteriorTally) -> CountProbability:
 def wheel_posterior(
     doubt: ToothCountPrior, weights: Sequence[Any] | None, total: Any, trials: float | None
 ) -> WheelPosterior:
-    """The chances of one wheel's counts.
+    """Return the posterior of one wheel.
 
-    weights   of what fits with each count; None: nothing known depends on the wheel
-    total     their sum
-    trials    number of hits behind them, where they are of a sample
+    weights   total weight of what fits, for each count; None if no known output depends on the wheel
+    total     sum of the weights
+    trials    number of hits, if the weights are from a sample
     """
     if not total:
         return WheelPosterior(doubt, (), weights is None)
@@ -186,8 +189,8 @@ def wheel_posterior(
     )
 
 
-def _of_sizes(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
-    """Correlations from sums of products of counts."""
+def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
+    """Return correlations from the sums of products of counts."""
     if not tally.weight:
         return {}
     wheels = tally.batch.wheels
@@ -206,7 +209,7 @@ def correlations_of(
     total: Any,
     covariances: Mapping[tuple[str, str], float],
 ) -> dict[tuple[str, str], float]:
-    """Correlations from covariances; wheels that no output and no condition joins have none."""
+    """Return correlations from covariances, only for wheels that an output or a condition connects."""
     scopes = [
         *(one.formula.wheels for one in question.witnesses),
         *(one.function.wheels for one in question.conditions),
@@ -221,12 +224,12 @@ def correlations_of(
 def _moments(
     question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Posterior mean and standard deviation of every wheel's count; 0 for one that is as good as certain."""
+    """Return posterior mean and standard deviation of each count; the deviation is 0 if the count is almost certain."""
     means, spreads = {}, {}
     for wheel, weights in by.items():
         counts, whole = question.doubts[wheel].counts, Fraction(plain_number(total))
         pairs = [(count, Fraction(plain_number(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
-        # in fractions: of counts near 10^12 the square of a deviation is lost in a float
+        # in fractions: for counts near 10^12 floats lose the square of a deviation
         mean = sum((chance * count for count, chance in pairs), Fraction(0))
         means[wheel] = float(mean)
         spread = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
@@ -241,36 +244,37 @@ def _correlated(
     for (first, second), covariance in covariances.items():
         size = spreads[first] * spreads[second]
         if size:
-            value = min(1.0, max(-1.0, covariance / size))  # rounding may lead beyond
+            value = min(1.0, max(-1.0, covariance / size))  # rounding may exceed 1
             found[first, second] = value if abs(value) > _NONE else 0.0
     return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))
 
 
-# --------------------------------------------------- shares of variance: which wheel decides an output (Sobol indices)
+# ------------------------------------------------------------------------- Sobol indices: variance shares of the counts
 
 
-# For independent x = (x_1 ... x_n) and f with mean m and variance V, S_i = Var(E[f | x_i]) / V is what goes if x_i is
-# known, T_i = 1 - Var(E[f | all but x_i]) / V what stays if all others are (Sobol 1993, 2001). A speed that is a sum of
-# monomials needs only the means of powers of each count, and is exact; any other is taken over its combinations, or
-# over a sample by the estimators of Saltelli et al. (2010), table 2.
+# For independent x = (x_1 ... x_n) and f with mean m and variance V, S_i = Var(E[f | x_i]) / V is the share of variance
+# that vanishes if x_i is known, and T_i = 1 - Var(E[f | all but x_i]) / V the share that remains if all others are
+# known (Sobol 1993, 2001). A speed that is a sum of monomials needs only the means of powers of each count, and its
+# indices are exact. Other speeds are evaluated over all combinations, or over a sample with the estimators of Saltelli
+# et al. (2010), table 2.
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
-"""Coefficients and powers (of either sign), in parallel to the wheels of a formula."""
+"""Pairs of a coefficient and powers of either sign, in parallel to the wheels of a formula."""
 
 
 def find_variance_shares(
     name: str, formula: Formula, doubts: Mapping[str, ToothCountPrior], seed: int = 0
 ) -> VarianceShares | None:
-    """The shares of one output; None where its speed has no value for some counts, or is the same for all."""
+    """Return the Sobol indices of an output; None if its speed is undefined for some counts, or constant."""
     own = [doubts[wheel] for wheel in formula.wheels]
     if not any(len(doubt.counts) > 1 for doubt in own):
         return None
     if len(formula.denominator) == 1:
-        return _exactly(name, formula.wheels, _monomials(formula), own)
+        return _exact_indices(name, formula.wheels, _monomials(formula), own)
     if prod(len(doubt.counts) for doubt in own) <= _LISTED:
-        return _listed(name, formula, own)
-    return _sampled(name, formula, own, seed)
+        return _listed_indices(name, formula, own)
+    return _sampled_indices(name, formula, own, seed)
 
 
 def _monomials(formula: Formula) -> Monomials:
@@ -279,7 +283,7 @@ def _monomials(formula: Formula) -> Monomials:
 
 
 class _Means:
-    """Means of powers of one count."""
+    """Cached means of powers of one count."""
 
     def __init__(self, doubt: ToothCountPrior) -> None:
         self._pairs = list(zip(doubt.counts, doubt.priors, strict=True))
@@ -291,10 +295,10 @@ class _Means:
         return self._known[power]
 
 
-def _exactly(
+def _exact_indices(
     name: str, wheels: Sequence[str], terms: Monomials, doubts: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
-    """E[f g] of two sums of monomials is a sum over pairs of terms of products of means, wheel by wheel."""
+    """Compute the indices of a sum of monomials exactly, from products of means over all pairs of terms."""
     means = [_Means(doubt) for doubt in doubts]
     mean = sum((c * prod(m(e) for m, e in zip(means, powers, strict=True)) for c, powers in terms), Fraction(0))
     pairs = [(a * b, p, q) for a, p in terms for b, q in terms]
@@ -316,15 +320,15 @@ def _exactly(
 
 
 def _root(value: Fraction) -> Real:
-    """The square root of a positive Fraction of any size, to 53 bits."""
-    # an even power of two brings the value near 2^128, so that its whole root has 63 bits and more
+    """Return the square root of a positive Fraction of any size, to 53 bits."""
+    # scale by an even power of two to about 2^128, so that the integer square root has at least 63 bits
     shift = (128 - value.numerator.bit_length() + value.denominator.bit_length()) // 2
     power = Fraction(2) ** shift
     return rounded(Fraction(isqrt(int(value * power * power))) / power)
 
 
-def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> VarianceShares | None:
-    """Over all combinations, as an array with one axis for each wheel; exact but for rounding."""
+def _listed_indices(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> VarianceShares | None:
+    """Compute the indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
     shape = tuple(len(doubt.counts) for doubt in doubts)
     columns = {
         doubt.wheel: np.array(doubt.counts).reshape([-1 if at == axis else 1 for at in range(len(shape))])
@@ -336,10 +340,10 @@ def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> V
         return None
     priors = [np.array([float(prior) for prior in doubt.priors]) for doubt in doubts]
     mean = float(_averaged(values, priors, range(len(shape))).ravel()[0])
-    # about the mean: a mean of squares less its square would lose a small variance
+    # relative to the mean: a mean of squares minus the squared mean would lose a small variance
     values = values - mean
     variance = float(_averaged(values**2, priors, range(len(shape))).ravel()[0])
-    # rounding of a speed that is the same for all counts
+    # rounding error of a speed that is constant
     if variance <= (1e-13 * mean) ** 2:
         return None
     own, whole = {}, {}
@@ -353,7 +357,7 @@ def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> V
 
 
 def _has_pole(formula: Formula, doubts: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
-    """True if the speed has no value at one of some places, where floats cannot tell."""
+    """Return whether the speed is undefined at one of some places that floats cannot decide."""
     shape = [len(doubt.counts) for doubt in doubts]
     for place in places:
         at = np.unravel_index(int(place), shape)
@@ -364,7 +368,7 @@ def _has_pole(formula: Formula, doubts: Sequence[ToothCountPrior], places: NDArr
 
 
 def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> Floats:
-    """The mean over some axes, which stay with length 1."""
+    """Return the mean over some axes, which remain with length 1."""
     found: Floats = values
     for axis in axes:
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]
@@ -372,8 +376,10 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
     return found
 
 
-def _sampled(name: str, formula: Formula, doubts: Sequence[ToothCountPrior], seed: int) -> VarianceShares | None:
-    """By two independent samples A and B, and A with one column of B for each wheel."""
+def _sampled_indices(
+    name: str, formula: Formula, doubts: Sequence[ToothCountPrior], seed: int
+) -> VarianceShares | None:
+    """Estimate the indices from two independent samples A and B, and from A with one column of B for each wheel."""
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(doubts)])))
     first, second = (
         {doubt.wheel: draw.choice(doubt.counts, _DRAWN, p=[float(prior) for prior in doubt.priors]) for doubt in doubts}
@@ -387,7 +393,7 @@ def _sampled(name: str, formula: Formula, doubts: Sequence[ToothCountPrior], see
     own, whole = {}, {}
     for doubt in doubts:
         mixed = formula.values(first | {doubt.wheel: second[doubt.wheel]})
-        # estimators (b) and (f) of the table; less the mean, which adds nothing but scatter
+        # estimators (b) and (f) of the table, relative to the mean, which would only add noise
         own[doubt.wheel] = float(((b - mean) * (mixed - a)).mean()) / variance
         whole[doubt.wheel] = float(((a - mixed) ** 2).mean()) / 2 / variance
     return VarianceShares(name, mean, sqrt(variance), own, whole, False, _DRAWN)

@@ -1,7 +1,8 @@
-"""A sample of combinations: what every output does in each, whether it fits, and what all of them come to.
+"""Sample of combinations of counts: speeds of outputs, likelihoods, and their sums.
 
-The structure is solved once, as formulas; each combination then costs a few multiplications an output. Combinations are
-taken in blocks that fit the processor's cache. Sums are plain data that add up: tasks of any size, in any order.
+The train is solved once, as formulas; each combination then costs a few multiplications per output. Combinations are
+evaluated in blocks that fit into the processor cache. Sums are plain data that can be added, for tasks of any size and
+in any order.
 """
 
 from __future__ import annotations
@@ -35,33 +36,33 @@ from geartrain.search.join.wheel_monomials import (
 from geartrain.search.posterior.inference_problem import InferenceProblem, Observation, ObservedOutput, ToothCountPrior
 
 LARGEST = 1 << 62
-"""Products of counts stay below this, so that they are exact in int64."""
+"""Upper bound of products of counts, so that they are exact in int64."""
 
 BLOCK = 1 << 13
-"""Combinations worked on at a time: 64 kB an array, so that a formula's columns stay in the processor's cache."""
-_FEW = 0.5  # of the rows: where fewer are left, to copy them out costs less than to judge the others too
+"""Number of combinations per block: 64 kB per array, so that the columns of a formula stay in the processor cache."""
+_FEW = 0.5  # share of rows below which copying the remaining rows is cheaper than evaluating all
 
 
 KEPT = 2000
-"""Combinations that a task brings out to find the best; equals beyond are left out."""
+"""Maximum number of best combinations that a task returns; further ties are omitted."""
 TIE = 1 + 1e-9
-"""Misfits in floats this near may be equal: which is less is decided later, exactly."""
+"""Ratio of misfits in floats below which they may be equal. They are compared exactly later."""
 Powers = Mapping[str, int]
-"""Wheel -> its power in a monomial, never 0; powers of one monomial have no common divisor."""
+"""Wheel -> its power in a monomial, not 0; the powers of one monomial have no common divisor."""
 
 
 Key = tuple[tuple[int, int], ...]
-"""A product of powers of items: (item, power) pairs, items ascending, powers of either sign."""
+"""Product of powers of items, as pairs (item, power) with ascending items and powers of either sign."""
 ProductPlan = Mapping[Key, tuple[Key, Key]]
-"""Product -> a shorter one that it holds, and what is still to be multiplied."""
+"""Product -> a shorter product that divides it, and the remaining factor."""
 
 
 class LikelihoodBatch:
-    """A question put to arrays of counts.
+    """Vectorised evaluation of an inference problem over arrays of counts.
 
-    every    True: the speeds of all outputs are to be had too
-    wheels   those that matter to a witness or to whether the train turns, in the order declared; with `every`, those
-             of all outputs
+    every    True if the speeds of all outputs are also required
+    wheels   wheels that an observed output or a condition depends on, with `every` also those of all outputs, in the
+             order of declaration
     """
 
     def __init__(self, question: InferenceProblem, every: bool = False) -> None:
@@ -74,38 +75,38 @@ class LikelihoodBatch:
         self.wheels = tuple(wheel for wheel in question.doubts if wheel in moved)
         self.domains = {wheel: question.doubts[wheel].counts for wheel in self.wheels}
         self.monomials = find_monomials(functions, self.domains)
-        # formulas of few wheels first: they cost least, and what they refuse the others need not judge
+        # formulas of few wheels first: they are cheap, and rows that they reject need no further evaluation
         ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
         outputs = question.outputs.items() if every else ()
         self._values = {name: FormulaValues.of(f, self.monomials, self.domains) for name, f in outputs}
-        self._judges = [
+        self._likelihoods = [
             OutputLikelihood(one, self.monomials, self.domains, question.soft, self._values.get(one.name))
             for one in ordered
         ]
-        self._gates = [exact_constraint(one, self.monomials, self.domains) for one in question.conditions]
-        values = [*self._values.values(), *(judge.value for judge in self._judges)]
+        self._conditions = [exact_constraint(one, self.monomials, self.domains) for one in question.conditions]
+        values = [*self._values.values(), *(judge.value for judge in self._likelihoods)]
         self._plan = find_product_plan(key for value in values for key in value.plan)
 
     def columns(self, counts: Mapping[str, Ints]) -> MonomialColumns:
-        """Some combinations: wheel -> counts, of one length, for all `wheels`."""
+        """Return columns for combinations, given as wheel -> counts of equal length for all `wheels`."""
         return CombinationColumns(self.monomials, counts, len(next(iter(counts.values()))) if counts else 1)
 
     def turns(self, rows: MonomialColumns) -> Bools:
-        """With which combinations the train turns at all."""
+        """Test with which combinations the train turns."""
         found: Bools = np.ones(rows.size, dtype=np.bool_)
-        for gate in self._gates:
+        for gate in self._conditions:
             found &= gate.holds(rows)
         return found
 
     def judged(self, rows: MonomialColumns) -> tuple[Bools, Floats]:
-        """Which combinations fit, exactly, and their misfit, to rounding; infinite where they do not.
+        """Test exactly which combinations fit, and compute their misfits to rounding, infinite for the others.
 
-        What one output refuses is not shown to the next, as soon as that saves work.
+        Combinations that one output rejects are removed before the next output when this saves work.
         """
         alive, total = np.arange(rows.size), np.zeros(rows.size)
         some = rows
         met = self.turns(rows)
-        for judge in self._judges:
+        for judge in self._likelihoods:
             if np.count_nonzero(met) < _FEW * some.size:
                 kept = np.flatnonzero(met)
                 if not len(kept):
@@ -119,21 +120,21 @@ class LikelihoodBatch:
         return found, np.where(found, total, np.inf)
 
     def speeds(self, rows: MonomialColumns) -> dict[str, tuple[Floats, Floats]]:
-        """Output -> speeds, and bounds on their errors."""
+        """Return output -> speeds, and bounds of their errors."""
         return {name: value.bounded(rows, self._plan) for name, value in self._values.items()}
 
 
 class PosteriorTally:
     """Sums over combinations.
 
-    examined    combinations
-    turning   number of those with which the train turns
-    weight    of those that fit: their number, or their degrees of agreement where that is asked for
-    square    sum of squared degrees of agreement, for intervals
-    by        for each wheel the weight of what fits with each of its counts
-    sizes     sums of count x count', each from the wheel's `origin_of` on, weighted
-    best      (misfit, indices of counts), best first
-    ranked    False once equals had to be left out
+    examined  number of combinations
+    turning   number of combinations with which the train turns
+    weight    number of combinations that fit, or sum of their likelihoods
+    square    sum of squared likelihoods, for intervals
+    by        weight of what fits with each count, for each wheel
+    sizes     weighted sums of products of two counts, each relative to the `origin_of` its wheel
+    best      pairs (misfit, indices of counts), ascending
+    ranked    False if ties were omitted
     """
 
     def __init__(self, batch: LikelihoodBatch, most: int) -> None:
@@ -149,17 +150,17 @@ class PosteriorTally:
         self._steps = [np.array(doubt.counts, dtype=np.float64) - origin_of(doubt) for doubt in doubts]
 
     def add(self, places: Mapping[str, Ints | int], misfit: Floats, weights: Any) -> None:
-        """Rows that fit.
+        """Add rows that fit.
 
         places    wheel -> index of its count, one number for all rows or one for each
-        misfit    of each row
-        weights   of each row, whole numbers or floats
+        misfit    misfit of each row
+        weights   weight of each row, integers or floats
         """
         size = len(misfit)
         if not size:
             return
         at = [np.broadcast_to(places[wheel], (size,)) for wheel in self.batch.wheels]
-        self.weight += plain_number(weights.sum())  # Python's own number: over many blocks int64 would not hold it
+        self.weight += plain_number(weights.sum())  # a Python integer: the sum of many blocks may exceed int64
         self.square += float((weights.astype(np.float64) ** 2).sum())
         for sums, index in zip(self.by, at, strict=True):
             for choice in np.unique(index):
@@ -169,24 +170,24 @@ class PosteriorTally:
         self._keep(misfit, at)
 
     def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
-        near = np.flatnonzero(misfit <= self._bar())
+        near = np.flatnonzero(misfit <= self._threshold())
         order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
         self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
         self._trim()
 
-    def _bar(self) -> float:
+    def _threshold(self) -> float:
         return self.best[self.most - 1][0] * TIE if len(self.best) >= self.most else np.inf
 
     def _trim(self) -> None:
         self.best.sort()
-        bar = self._bar()
-        self.best = [one for one in self.best if one[0] <= bar]
+        threshold = self._threshold()
+        self.best = [one for one in self.best if one[0] <= threshold]
         if len(self.best) > KEPT:
             self.ranked = False
             self.best = self.best[:KEPT]
 
     def join(self, other: Mapping[str, Any]) -> None:
-        """Add what another tally came to."""
+        """Add the sums of another tally."""
         self.examined += other["examined"]
         self.turning += other["turning"]
         self.weight += other["weight"]
@@ -198,7 +199,7 @@ class PosteriorTally:
         self._trim()
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data, for `join`."""
+        """Return the sums as plain data, for `join`."""
         return {
             "examined": self.examined,
             "turning": self.turning,
@@ -212,17 +213,17 @@ class PosteriorTally:
 
 
 def plain_number(value: Any) -> int | float:
-    """A sum as Python's own number, which does not overflow."""
+    """Convert a sum to a Python number, which does not overflow."""
     return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
 def origin_of(doubt: ToothCountPrior) -> int:
-    """The count from which the others are reckoned, so that sums of products keep their digits: the likeliest."""
+    """Return the most probable count, relative to which sums of products keep their digits."""
     return doubt.counts[doubt.weights.index(max(doubt.weights))]
 
 
 def packed(question: InferenceProblem, most: int) -> bytes:
-    """What all tasks share, as a worker takes it."""
+    """Return the data that all tasks share, pickled."""
     return pickle.dumps((question, most))
 
 
@@ -233,11 +234,11 @@ def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
 
 
 def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
-    """Combinations drawn by their prior chances: task is the seed, the number of the block, and how many."""
+    """Draw combinations from their prior; a task is (seed, number of the block, number of combinations)."""
     batch, most = _unpacked(shared)
     tally = PosteriorTally(batch, most)
     seed, block, size = task
-    # a stream for each block: what is drawn does not depend on how blocks are shared out
+    # an independent random stream for each block: the draws do not depend on the distribution of tasks
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
     places = {}
     for wheel in batch.wheels:
@@ -255,21 +256,21 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     return tally.to_dict()
 
 
-# ------------------------------------------- likelihood: floats decide where their error allows it, integers elsewhere
+# ----------------------------------------- likelihood: floats decide if their error bound allows it, integers otherwise
 
 
 @dataclass(frozen=True, eq=False)
 class FormulaValues:
-    """A formula seen through monomials: each of them is part of one of its groups, or of none."""
+    """Formula compiled to products of monomials."""
 
     quotient: BoundedQuotient | None
-    """None where floats may overflow, so that nothing can be said of their error."""
+    """Formula with error bounds; None if floats may overflow, so that errors have no bound."""
     plan: ProductPlan
-    """Its products in few multiplications."""
+    """Plan that forms its products with few multiplications."""
 
     @classmethod
     def of(cls, formula: Formula, monomials: Sequence[Powers], domains: Domains) -> FormulaValues:
-        """Compile a formula."""
+        """Compile a formula for given monomials."""
         largest = [log10(Fraction(max(domains[wheel]))) for wheel in formula.wheels]
         if not formula.denominator or not in_range((*formula.numerator, *formula.denominator), largest):
             return cls(None, {})
@@ -290,27 +291,29 @@ class FormulaValues:
 
     @property
     def relative(self) -> float | None:
-        """A bound on the relative error of every value; None where that depends on the row."""
+        """Bound of the relative error of every value; None if it depends on the row."""
         return None if self.quotient is None else self.quotient.relative
 
     def __call__(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats | None]:
-        """Values at some rows, and bounds on their errors where `relative` is None: infinite where no digit is sure.
+        """Return the values at some rows, and bounds of their errors if `relative` is None.
 
-        plan   of many formulas at once; default its own
+        A bound is infinite if no digit is certain.
+
+        plan   plan of many formulas at once; default the plan of this formula
         """
         known = rows.values.get(self)
         if known is None:
-            value, room = self._worked_out(rows, self.plan if plan is None else plan)
+            value, room = self._evaluated(rows, self.plan if plan is None else plan)
             known = _filled(value, rows.size), None if room is None else _filled(room, rows.size)
             rows.values[self] = known
         return known
 
     def bounded(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats]:
-        """Values, and bounds on their errors in any case."""
+        """Return the values, and bounds of their absolute errors in any case."""
         value, room = self(rows, plan)
         return value, (self.relative or 0) * np.abs(value) if room is None else room
 
-    def _worked_out(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
+    def _evaluated(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
         if self.quotient is None:
             return np.zeros(()), np.full((), np.inf)
         return self.quotient(lambda key: rows.product(key, plan))
@@ -321,7 +324,7 @@ def _filled(values: Floats, size: int) -> Floats:
 
 
 def _key(exponents: Mapping[str, int], monomials: Sequence[Powers]) -> Key:
-    """A monomial in wheels as a product of items."""
+    """Convert a monomial in wheels to a product of items."""
     found = []
     for item, powers in enumerate(monomials):
         wheel, power = next(iter(powers.items()))
@@ -331,11 +334,11 @@ def _key(exponents: Mapping[str, int], monomials: Sequence[Powers]) -> Key:
 
 
 class OutputLikelihood:
-    """One witness before many combinations, seen through given monomials.
+    """Likelihood of one observed output over many combinations.
 
-    witness   whose claims are judged
-    soft      False: claims hold or not; True: they agree more or less, up to `FAR` tolerances
-    value     its formula, where that is compiled already
+    witness   observed output
+    soft      False if observations are either satisfied or not; True for graded agreement, up to `FAR` tolerances
+    value     compiled formula, if there is one
     """
 
     def __init__(
@@ -348,7 +351,7 @@ class OutputLikelihood:
     ) -> None:
         self.value = value or FormulaValues.of(witness.formula, monomials, domains)
         requested = witness.requested(soft)
-        self._folded, self._ends = _folded(() if requested is None else requested.intervals)
+        self._interval_ends, self._ends = _interval_ends(() if requested is None else requested.intervals)
         self._gate = None if requested is None else exact_constraint(requested, monomials, domains)
         self._poles = exact_constraint(
             IntervalConstraint(witness.name, witness.formula, ((None, None),)), monomials, domains
@@ -356,7 +359,7 @@ class OutputLikelihood:
         self._misfit = misfit_of(witness)
 
     def judge(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Bools, Floats]:
-        """Which rows are in order, exactly; and their misfit, sum of (error / tolerance)^2, to rounding."""
+        """Test exactly which rows are accepted, and compute the misfits of their speeds to rounding."""
         value, room = self.value(rows, plan)
         met, doubtful = self._decided(value, room)
         unsure = np.flatnonzero(doubtful)
@@ -368,33 +371,33 @@ class OutputLikelihood:
         return met, misfit
 
     def _decided(self, value: Floats, room: Floats | None) -> tuple[Bools, Bools]:
-        """What floats say, and where they are so near an end that they may be wrong."""
+        """Return the decisions in floats, and a mask of the rows so close to an end that they may be wrong."""
         if self._gate is None:
             sure = np.isfinite(value if room is None else room)
             return sure, ~sure
         met: Bools = np.zeros(len(value), dtype=np.bool_)
         doubtful: Bools = np.zeros(len(value), dtype=np.bool_)
-        size = np.abs(value) if self._folded else value
+        size = np.abs(value) if self._interval_ends else value
         for middle, half, edge in self._ends:
             gap = np.abs(size - middle)
             gap -= half
             met |= gap <= 0
             np.abs(gap, out=gap)
-            # a value twice as large as an end is far from it, so that a relative error needs no look at the value
+            # larger values are far from both ends, so the relative error is bounded at the ends only
             near = edge + 4 * (self.value.relative or 0) * (abs(middle) + half) if room is None else edge + room
             doubtful |= ~(gap > near)
         return met, doubtful
 
 
-def _folded(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, float, float]]]:
-    """Intervals as middle, half and rounding of their ends; True if only those of the magnitude are given."""
+def _interval_ends(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, float, float]]]:
+    """Return intervals as (middle, half width, rounding of the ends), and True if they bound only the magnitude."""
     mirrored = {(None if high is None else -high, None if low is None else -low) for low, high in intervals}
     fold = len(intervals) > 1 and mirrored == set(intervals)
     found = []
     for low, high in intervals:
         if fold and low is not None and low < 0:
             continue
-        if low is None or high is None:  # a ray is settled with the exact numbers
+        if low is None or high is None:  # half-open intervals are decided by the exact constraint
             found.append((0.0, 0.0, np.inf))
             continue
         ends = float(max(abs(low), abs(high)))
@@ -404,7 +407,7 @@ def _folded(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, floa
 
 @dataclass(frozen=True, slots=True)
 class _Scale:
-    """A claim in floats: what is wanted, and one over the tolerance below and above."""
+    """Observation in floats: known speed, and reciprocal tolerances below and above."""
 
     wanted: float
     signed: bool
@@ -416,9 +419,9 @@ class _Scale:
         halves = (claim.half(side) for side in (False, True))
         wanted, below, above = (as_float(each or Fraction(0)) for each in (claim.wanted, *halves))
         if wanted is None or below is None or above is None:
-            what = f"'{claim.label}' asks for a speed beyond the range of float64"
-            why = "how far counts are off is weighed in floats, which hold 1e-308 to 1e308"
-            raise RangeError(Problem(what, why, "leave this output out, or give it an exact `expect`"))
+            what = f"'{claim.label}' is a speed beyond the range of float64"
+            why = "misfits are computed in floats from 1e-308 to 1e308"
+            raise RangeError(Problem(what, why, "omit this output, or give it an exact `expect`"))
         return cls(wanted, claim.signed, *(1 / half if half else 0.0 for half in (below, above)))
 
     def misfit(self, value: Floats) -> Floats:
@@ -428,7 +431,7 @@ class _Scale:
 
 
 def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
-    """What speeds of an output miss its claims by: the sum of (error / tolerance)^2, to rounding."""
+    """Return a function from speeds of an output to their misfits, the sums of (error / tolerance)^2, to rounding."""
     scales = [_Scale.of(claim) for claim in witness.claims if not claim.is_exact]
 
     def misfit(speeds: Floats) -> Floats:
@@ -440,19 +443,19 @@ def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
 def exact_constraint(
     requested: IntervalConstraint, monomials: Sequence[Powers], domains: Domains
 ) -> PolynomialConstraint:
-    """A demand that holds or does not, decided exactly."""
+    """Convert a constraint to polynomials in monomials, whose signs decide it exactly."""
     (found,) = find_polynomial_constraints([requested], [recipe_of(powers) for powers in monomials], domains)
     return found
 
 
-# ----------------------------------------- monomials of counts: columns of values, exact as quotients of whole numbers
+# ----------------------------------------------- monomials of counts: columns of values, exact as quotients of integers
 
 
 class MonomialColumns(PartialAssignments):
-    """Rows that hold the values of their items themselves, not places in a list.
+    """Rows that store the values of their items, instead of indices into lists.
 
-    tops, bottoms   item -> (size,) int64, positive
-    values          what was made of the rows, and by whom: values and bounds on their errors
+    tops, bottoms   item -> positive values, (size,) int64
+    values          cache of function -> its values and bounds of their errors
     """
 
     __slots__ = ("_bottoms", "_products", "_tops", "values")
@@ -464,21 +467,21 @@ class MonomialColumns(PartialAssignments):
         self.values: dict[object, tuple[Floats, Floats | None]] = {}
 
     def x(self, item: int) -> Floats:
-        """Values of an item, float64: two conversions and one division, three roundings at most."""
+        """Return the values of an item, float64 with at most three roundings: two conversions and one division."""
         if item not in self._x:
             self._x[item] = self.top(item) / self.bottom(item)
         return self._x[item]
 
     def top(self, item: int) -> Ints:
-        """Numerators of an item's values."""
+        """Return the numerators of the values of an item."""
         return self._tops[item]
 
     def bottom(self, item: int) -> Ints:
-        """Denominators of an item's values."""
+        """Return the denominators of the values of an item."""
         return self._bottoms[item]
 
     def product(self, key: Key, plan: ProductPlan) -> Floats:
-        """A product of items in float64: one rounding for each multiplication or division beside those of the items."""
+        """Return a product of items in float64, with one further rounding per multiplication or division."""
         if key not in self._products:
             shorter, rest = plan.get(key, ((), key))
             found: Floats = self.product(shorter, plan) if shorter else np.ones(())
@@ -489,16 +492,16 @@ class MonomialColumns(PartialAssignments):
         return self._products[key]
 
     def pick(self, where: NDArray[np.generic]) -> MonomialColumns:
-        """Some rows, by mask or by index."""
+        """Select rows by mask or by index."""
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return MonomialColumns([one[where] for one in self._tops], [one[where] for one in self._bottoms], size)
 
 
 class CombinationColumns(MonomialColumns):
-    """Rows of counts: the monomials are multiplied out when they are asked for.
+    """Rows of counts, whose monomials are multiplied on demand.
 
-    monomials   the items
-    counts      wheel -> (size,) counts
+    monomials   items
+    counts      wheel -> counts, (size,)
     """
 
     __slots__ = ("_counts", "_monomials")
@@ -508,7 +511,7 @@ class CombinationColumns(MonomialColumns):
         self._monomials, self._counts = monomials, counts
 
     def x(self, item: int) -> Floats:
-        """Values of an item: one rounding at most for each factor, and one for each conversion."""
+        """Return the values of an item, with at most one rounding per factor and one per conversion."""
         if item not in self._x:
             self._x[item] = self._quotient(self._monomials[item])
         return self._x[item]
@@ -521,17 +524,18 @@ class CombinationColumns(MonomialColumns):
                 if side is None:
                     sides[power > 0] = self._counts[wheel].astype(np.float64)
                 else:
-                    side *= self._counts[wheel]  # in place: new arrays cost more than what is done with them
+                    # in place, because allocating arrays costs more than the multiplication
+                    side *= self._counts[wheel]
         bottom, top = sides
         top = np.ones(()) if top is None else top
         return top if bottom is None else np.divide(top, bottom, out=bottom)
 
     def top(self, item: int) -> Ints:
-        """As of `MonomialColumns`."""
+        """Return the numerators of the values of an item."""
         return self._whole(item, 1)
 
     def bottom(self, item: int) -> Ints:
-        """As of `MonomialColumns`."""
+        """Return the denominators of the values of an item."""
         return self._whole(item, -1)
 
     def _whole(self, item: int, sign: int) -> Ints:
@@ -542,7 +546,7 @@ class CombinationColumns(MonomialColumns):
         return found
 
     def pick(self, where: NDArray[np.generic]) -> MonomialColumns:
-        """As of `MonomialColumns`."""
+        """Select rows by mask or by index."""
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return CombinationColumns(
             self._monomials, {wheel: column[where] for wheel, column in self._counts.items()}, size
@@ -550,11 +554,11 @@ class CombinationColumns(MonomialColumns):
 
 
 def find_product_plan(keys: Iterable[Key]) -> ProductPlan:
-    """Products in few multiplications: each from the longest of the others that it holds."""
+    """Plan products with few multiplications: each is formed from the longest other product that divides it."""
     plan: dict[Key, tuple[Key, Key]] = {}
     for key in sorted(dict.fromkeys(keys), key=lambda one: sum(abs(power) for _, power in one)):
         whole = dict(key)
-        inside = [one for one in plan if all(_holds(whole.get(item, 0), power) for item, power in one)]
+        inside = [one for one in plan if all(_divides(whole.get(item, 0), power) for item, power in one)]
         longest = max(inside, key=lambda one: sum(abs(power) for _, power in one), default=())
         taken = dict(longest)
         rest = tuple((item, power - taken.get(item, 0)) for item, power in key if power != taken.get(item, 0))
@@ -562,20 +566,20 @@ def find_product_plan(keys: Iterable[Key]) -> ProductPlan:
     return plan
 
 
-def _holds(whole: int, power: int) -> bool:
+def _divides(whole: int, power: int) -> bool:
     return 0 < power <= whole or whole <= power < 0
 
 
 def recipe_of(powers: Powers) -> ItemRecipe:
-    """A monomial as what is multiplied above and below."""
+    """Convert a monomial to the definition of an item."""
     above = tuple((wheel, power) for wheel, power in powers.items() if power > 0)
     return ItemRecipe(above, tuple((wheel, -power) for wheel, power in powers.items() if power < 0))
 
 
 def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
-    """As few monomials as possible through which all functions see the wheels, each exact in int64.
+    """Return the minimum number of monomials through which all functions depend on the wheels, each exact in int64.
 
-    domains   the wheels in question; only those on which a function depends are in a monomial
+    domains   possible wheels; wheels that no function depends on are in no monomial
     """
     moving = {wheel for one in requested for wheel in one.function.wheels}
     bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], requested, frozenset())
@@ -583,14 +587,14 @@ def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str
 
 
 def primitive(powers: Powers) -> dict[str, int]:
-    """Powers without their common divisor, the first positive."""
+    """Divide powers by their common divisor, and make the first positive."""
     common = math.gcd(*powers.values())
     common = common if next(iter(powers.values())) > 0 else -common
     return {wheel: power // common for wheel, power in powers.items()}
 
 
 def _parts(powers: Powers, domains: Mapping[str, Sequence[int]]) -> Iterator[Powers]:
-    """A monomial cut between wheels where its products would not fit int64."""
+    """Split a monomial between wheels into parts whose products fit into int64."""
     held: dict[str, int] = {}
     for wheel in (wheel for wheel in domains if wheel in powers):
         both = {**held, wheel: powers[wheel]}
@@ -602,7 +606,7 @@ def _parts(powers: Powers, domains: Mapping[str, Sequence[int]]) -> Iterator[Pow
 
 
 def fits(powers: Powers, domains: Mapping[str, Sequence[int]]) -> bool:
-    """True if all values of a monomial, above and below, are exact in int64."""
+    """Return whether all numerators and denominators of a monomial are exact in int64."""
     sizes = [1, 1]
     for wheel, power in powers.items():
         sizes[power > 0] *= max(domains[wheel]) ** abs(power)

@@ -1,4 +1,4 @@
-"""`geartrain posterior`: which tooth counts fit what the outputs show, where evidence leaves counts open."""
+"""Command `geartrain posterior`: tooth counts that fit the outputs, where evidence leaves counts uncertain."""
 
 from __future__ import annotations
 
@@ -37,36 +37,47 @@ from geartrain.errors import GearTrainError
 if TYPE_CHECKING:
     from geartrain.search.posterior.posterior_result import ToothCountPosterior
 
-Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
+Plot = Annotated[Path | None, typer.Option("--plot", help="Write a corner plot to this file (.svg, .png or .pdf).")]
 FORMS = (".md", ".html", ".json", ".csv", ".parquet")
 
 
 def run(
     file: File,
     free: Annotated[
-        Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: counts it may have; may be repeated.")
+        Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: possible counts of a wheel; may be repeated.")
     ] = None,
-    output: Annotated[Names, typer.Option("--output", help="Only this output is evidence; may be repeated.")] = None,
+    output: Annotated[
+        Names, typer.Option("--output", help="Use only this output as evidence; may be repeated.")
+    ] = None,
     state: StateName = None,
     tolerance: Annotated[
-        str | None, typer.Option("--tolerance", help="Relative, for targets without one, such as 0.5 % or 1/446.")
+        str | None,
+        typer.Option("--tolerance", help="Relative tolerance of targets without one, such as 0.5 % or 1/446."),
     ] = None,
-    against: Annotated[str, typer.Option("--against", help="What counts: all, targets, or figures (expect).")] = "all",
-    scale: Annotated[str, typer.Option("--scale", help="Multiply every tolerance, such as 1/4.")] = "1",
+    against: Annotated[
+        str, typer.Option("--against", help="Kinds of claims used: all, targets, or figures (expect).")
+    ] = "all",
+    scale: Annotated[str, typer.Option("--scale", help="Factor of every tolerance, such as 1/4.")] = "1",
     soft: Annotated[
-        bool, typer.Option("--soft", help="Agreement by degree, tolerances as standard deviations.")
+        bool, typer.Option("--soft", help="Gaussian likelihood with the tolerances as standard deviations.")
     ] = False,
     method: Annotated[
-        str | None, typer.Option("--method", help="exact or sample; default exact where the limit allows it.")
+        str | None, typer.Option("--method", help="exact or sample. Default: exact if it stays within --limit.")
     ] = None,
-    most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Combinations to list.")] = 20,
+    most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Number of combinations to list.")] = 20,
     limit: Annotated[
-        int, typer.Option("--limit", min=1, max=MOST_COUNT, help="Steps before a sample is drawn.")
+        int,
+        typer.Option(
+            "--limit",
+            min=1,
+            max=MOST_COUNT,
+            help="Maximum number of steps of the exact method; beyond it a sample is drawn.",
+        ),
     ] = 2_000_000,
     samples: Annotated[
-        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Combinations of a sample.")
+        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Number of combinations in a sample.")
     ] = 1_000_000,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the sample.")] = 1,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed of the sample.")] = 1,
     workers: Workers = None,
     dask: Dask = None,
     resume: Resume = False,
@@ -76,7 +87,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
+    """Find the tooth counts that fit the outputs, and their probabilities; exit 0 if any fits, 1 if none."""
     from geartrain.numerics.files import ColumnTable
     from geartrain.search.posterior.inference import infer_counts
     from geartrain.train.declaration_files import read_declaration
@@ -84,7 +95,7 @@ def run(
     to, drawing = sink(out, force, FORMS), picture_sink(plot, force, theme)
     check_distinct_outputs(to, drawing)
     if to.suffix == ".parquet" and to.path is not None:
-        ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it
+        ColumnTable(to.path, {}, force)  # reports a missing library before the work
     train = read_declaration(file)
     requested: dict[str, Any] = {
         "state": state,
@@ -131,7 +142,7 @@ def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
 
 
 def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """`m3=15:80`, `a1=45,48`, `b1=223`."""
+    """Parse options such as `m3=15:80`, `a1=45,48` and `b1=223`."""
     from geartrain.search.tooth_count_ranges import read_counts
 
     found: dict[str, tuple[int, ...]] = {}
@@ -149,7 +160,7 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
-    """One row group; nothing where nothing was found."""
+    """Write the rows as one row group; without rows write no file."""
     from geartrain.numerics.files import ColumnTable
 
     assert to.path is not None
@@ -164,9 +175,9 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[s
 def _draw_counts(
     found: ToothCountPosterior, again: Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior], to: Sink
 ) -> None:
-    """Counts of the wheels of which the outputs tell most, each and two by two, to a file.
+    """Draw a corner plot of the wheels with the most information, to a file.
 
-    again   sweeps the same train for the same evidence, with some wheels held to the counts given
+    again   function that repeats the inference with the counts of some wheels fixed
     """
     from geartrain.search.posterior.corner_plot import counts_figure
     from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels

@@ -1,4 +1,4 @@
-"""Products of a number of tooth counts, each unordered set once, in windows of value: memory stays bounded."""
+"""Products of tooth counts over all multisets of a given size, enumerated in windows of value with bounded memory."""
 
 from __future__ import annotations
 
@@ -26,36 +26,36 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]  # int64, or Python integers where those would overflow
 
 
-# Where a window of ratios cuts a list of products, exactly; and how far a ratio is from the wanted one.
+# Index ranges of products within windows of ratios, and relative errors of ratios.
 
 
 ROUNDING = 1e-28
-"""Errors from `errors` differ from the exact ones by less than this, or by 1e-12 of themselves."""
+"""Bound of the absolute difference between `errors` and the exact values; the relative difference is at most 1e-12."""
 
 
 def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
-    """For each factor f, the half-open range of `products` with low f <= product <= high f, decided exactly.
+    """Return the half-open index range of `products` with low f <= product <= high f for each factor f; exact.
 
     products   ascending, at least one
     factors    positive, in the same dtype: int64 below 2^52, or Python integers
     low, high  0 <= low <= high
     """
-    # no ratio of these products has a longer denominator than the largest factor
+    # no ratio of these products has a denominator larger than the largest factor
     longest = int(factors.max()) if len(factors) else 1
-    # past all products, with room for the guess in `_floors`: what lies beyond needs no exact floor
+    # above all products, with a margin for the estimate in `_floors`; larger values need no exact floor
     cap = int(products[-1]) + 8
     first, whole = _floors(factors, farey_neighbours(low, longest)[1], cap)
-    # the ceiling: one more where the product is not whole
+    # ceiling: one more than the floor if the product is not an integer
     first = first + ~whole
     last, _ = _floors(factors, farey_neighbours(high, longest)[0], cap)
     return np.searchsorted(products, first), np.searchsorted(products, last, side="right")
 
 
 def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.bool_]]:
-    """floor(factor x edge), no more than `cap`; and whether the product is whole.
+    """Return floor(factor x edge), at most `cap`, and whether the product is an integer.
 
-    In int64 the remainder factor n - floor d is worked out modulo 2^64: with d below 2^52 and a floor guessed in
-    float64 within 3 it is less than 2^63, hence right.
+    For int64 the remainder factor n - floor d is computed modulo 2^64. With d below 2^52, and a float64 estimate of the
+    floor that is within 3 of it, the remainder is less than 2^63 and therefore exact.
     """
     n, d = edge.numerator, edge.denominator
     if factors.dtype == object:
@@ -71,13 +71,15 @@ def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.b
 
 
 def _wrapped(number: int) -> np.int64:
-    """The integer modulo 2^64 as a signed one."""
+    """Return the integer modulo 2^64 as a signed int64."""
     return np.int64((number + (1 << 63)) % (1 << 64) - (1 << 63))
 
 
 def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
-    """top / (beneath value) - 1 of each pair, to about 1e-30: in twice float64's digits (Dekker's products)."""
-    # the value and all products of its halves then stay within float64
+    """Return the relative error top / (beneath value) - 1 of each pair to about 1e-30, by Dekker's double-double
+    products.
+    """
+    # then the value and all products of its halves are within the range of float64
     short = abs(value.numerator.bit_length() - value.denominator.bit_length()) < 300
     if tops.dtype == object or beneaths.dtype == object or not short:
         n, d = value.numerator, value.denominator
@@ -89,13 +91,13 @@ def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
     product = q * head
     q_high, q_low = split(q)
     head_high, head_low = split(np.float64(head))
-    # largest first: in this order no sum rounds
+    # largest first: in this order no addition has a rounding error
     lost = ((q_high * head_high - product) + q_high * head_low + q_low * head_high) + q_low * head_low
     return np.asarray(((tops - product) - (lost + q * tail)) / product)
 
 
 def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> tuple[list[Fraction], Places]:
-    """The different exact |errors| of some pairs, ascending, and the place of each pair's among them."""
+    """Return the distinct exact absolute errors of some pairs, ascending, and for each pair the index of its error."""
     ratios, which = distinct_quotients(tops, beneaths)
     misses = [abs(ratio / value - 1) for ratio in ratios]
     ascending = sorted(set(misses))
@@ -104,13 +106,13 @@ def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> tuple[list[Frac
 
 
 def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
-    """The least and the greatest |error| of ratios from `low` to `high`."""
+    """Return the minimum and maximum absolute relative error of ratios from `low` to `high`."""
     first, last = low / value - 1, high / value - 1
     return max(first, -last, Fraction(0)), max(last, -first)
 
 
 def rounded_up(bound: float | Fraction) -> Fraction:
-    """Never less than the bound, in few digits: a tolerance that may be written down."""
+    """Round a bound up to three or four significant digits, so that it can be printed as a tolerance."""
     exact = Fraction(bound)
     if exact <= 0:
         return Fraction(0)
@@ -121,105 +123,110 @@ def rounded_up(bound: float | Fraction) -> Fraction:
 
 MOST_STAGES = 5
 PLAIN = 1 << 52
-"""Products below this are int64 and exact in float64; longer ones are Python integers in arrays of objects."""
-_MOST_OBJECTS = 2 * 10**6  # products as Python integers, which are held one by one
-_MOST_ROWS = 12 * 10**6  # of the tables
+"""Limit of products as int64, which float64 represents exactly; larger products are Python integers (dtype object)."""
+_MOST_OBJECTS = 2 * 10**6  # maximum number of products as Python integers in memory
+_MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductWindows:
-    """Products c_1 c_2 ... c_k of admissible counts c_1 <= ... <= c_k, held as (low part) x (high part).
+    """Products c_1 c_2 ... c_k of admissible counts c_1 <= ... <= c_k, stored as (low part) x (high part).
 
-    The sorted counts are cut at their middle one, m: a row is m and what is below it, and may be joined with every high
-    part whose counts are all at least m. So each unordered set is there once, and only O(n^3) numbers are in memory for
-    n counts, while the C(n+k-1, k) products are made window by window.
+    The sorted counts are split at their middle element m. A row is m together with the counts below it, and is combined
+    with every high part whose counts are all at least m, so each multiset occurs once. Memory is O(n^3) for n counts,
+    while the C(n+k-1, k) products are generated window by window.
     """
 
     counts: tuple[int, ...]
-    """Admissible counts, ascending."""
+    """Admissible tooth counts, ascending."""
     size: int
-    """K."""
+    """Number k of counts in a product."""
     rows: Ints
     """Product of m and the counts below it, (rows,)."""
     lows: Ints
-    """These counts, ascending, (rows, a)."""
+    """Counts of the low part, ascending, (rows, a)."""
     highs: Ints
     """Products of the high parts, ascending within each table, (highs,)."""
     uppers: Ints
-    """Their counts, ascending, (highs, b)."""
+    """Counts of the high parts, ascending, (highs, b)."""
     keys: Ints
-    """`highs` with their table's offset added: ascending throughout."""
+    """Sum of `highs` and the offset of their table, ascending over all tables, (highs,)."""
     offsets: Ints
     """Offset of the table of each row, (rows,)."""
     starts: Places
-    """Place of its first high part, (rows,)."""
+    """Index of the first high part of each row, (rows,)."""
     step: int
-    """Distance of the offsets: more than any high part."""
+    """Distance between the offsets, larger than any high part."""
 
     @property
     def total(self) -> int:
-        """Number of unordered sets."""
+        """Number of multisets."""
         return multisets(len(self.counts), self.size)
 
     @property
     def minimum(self) -> int:
-        """The smallest product."""
+        """Smallest product."""
         return int(self.counts[0] ** self.size)
 
     @property
     def most(self) -> int:
-        """The largest product."""
+        """Largest product."""
         return int(self.counts[-1] ** self.size)
 
     def below(self, bound: int) -> int:
-        """Number of unordered sets with a product less than `bound`, exact."""
+        """Return the exact number of multisets with a product less than `bound`."""
         if bound <= self.minimum:
             return 0
         return self.total if bound > self.most else int((_ends(self, bound) - self.starts).sum())
 
     def values(self, low: int, high: int) -> Ints:
-        """The products in [low, high), ascending, one for each unordered set."""
+        """Return the products in [low, high), ascending, one for each multiset."""
         row, column = self._places(low, high)
         found = self.rows[row]
+        # in place, because a window is the largest array of the search
         found *= self.highs[column]
         found.sort()
         return found
 
     def members(self, low: int, high: int, among: Ints) -> tuple[Ints, Ints]:
-        """The sets with a product in [low, high) that is one of `among` (ascending): products (n,), counts (n, k)."""
+        """Return the products in [low, high) that occur in `among` (ascending), (n,), and their counts, (n, k)."""
         row, column = self._places(low, high)
         found = self.rows[row] * self.highs[column]
         if not len(among):
             return found[:0], np.empty((0, self.size), dtype=self.lows.dtype)
+        # clipped, so that products above all of `among` have a valid index
         at = np.minimum(np.searchsorted(among, found), len(among) - 1)
         here = np.flatnonzero(among[at] == found)
         here = here[np.argsort(found[here], kind="stable")]
         return found[here], np.concatenate([self.lows[row[here]], self.uppers[column[here]]], axis=1)
 
     def _places(self, low: int, high: int) -> tuple[Places, Places]:
-        """Row and high part of every product in [low, high)."""
+        """Return the row and the high part of every product in [low, high)."""
         first = _ends(self, low)
         return spread(first, _ends(self, high))
 
 
 def multisets(number: int, size: int) -> int:
-    """Number of unordered sets of `size` of `number` counts, repeats allowed: C(n + k - 1, k)."""
+    """Return the number of multisets of `size` elements from `number` counts: C(n + k - 1, k)."""
     return comb(number + size - 1, size)
 
 
 @lru_cache(maxsize=4)
 def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -> ProductWindows:
-    """The products of `size` (1 to 5) of these counts (ascending).
+    """Build the products of `size` (1 to 5) of these counts (ascending).
 
-    plain   int64 or Python integers; None: as the largest product asks for. `RangeError` where memory would not do.
+    plain   True for int64, False for Python integers, None to decide by the largest product
+
+    `RangeError` is raised if the tables would not fit in memory.
     """
     plain = counts[-1] ** size < PLAIN if plain is None else plain
     check_memory(counts, size, plain)
     numbers = np.array(counts, dtype=np.int64 if plain else object)
+    # low and high parts of about equal size minimise the memory
     below = (size - 1) // 2
     rows, lows, table = _rows(numbers, below)
     if size - 1 - below < 2:
-        # one count above, or none: looked for in the counts themselves, from the middle one on
+        # at most one count above: the counts themselves, from the middle one on, are the table
         uppers = _chosen(numbers, size - 1 - below)
         starts = table if size > 1 else np.zeros_like(table)
         highs = row_products(uppers)
@@ -237,7 +244,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
-    """Each number with every choice of `below` numbers up to it: product, counts, place of the number."""
+    """Return every multiset of `below` numbers with a number >= all of them: product, counts, index of that number."""
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
     lows = np.concatenate([np.concatenate(parts), numbers[table][:, None]], axis=1)
@@ -245,18 +252,18 @@ def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
 
 
 def _by_product(chosen: Ints) -> Ints:
-    """The same sets in the order of their products."""
+    """Sort multisets (rows) by their products."""
     return np.asarray(chosen[np.argsort(row_products(chosen), kind="stable")])
 
 
 def expand(product: int, counts: tuple[int, ...], size: int) -> list[tuple[int, ...]]:
-    """All unordered sets of `size` counts with this product, each ascending, in ascending order.
+    """Return all multisets of `size` counts with a given product, each ascending, in lexicographic order.
 
     >>> expand(3600, tuple(range(12, 101)), 2)
     [(36, 100), (40, 90), (45, 80), (48, 75), (50, 72), (60, 60)]
     """
     numbers = _array(counts)
-    # longer products do not fit int64: then no count is ruled out beforehand
+    # larger products do not fit int64; then all counts are tried
     here = [int(count) for count in numbers[product % numbers == 0]] if product < PLAIN else list(counts)
     found: list[tuple[int, ...]] = []
     _factor(product, here, 0, size, (), found)
@@ -266,15 +273,17 @@ def expand(product: int, counts: tuple[int, ...], size: int) -> list[tuple[int, 
 def _factor(
     rest: int, counts: list[int], start: int, size: int, chosen: tuple[int, ...], found: list[tuple[int, ...]]
 ) -> None:
-    """Add every ascending choice from counts[start:] whose product is `rest`."""
+    """Append every ascending choice from counts[start:] whose product is `rest` to `found`."""
     if size == 1:
         if _find(counts, rest, start):
             found.append((*chosen, rest))
         return
     for at in range(start, len(counts)):
         count = counts[at]
+        # counts ascend, so all further products exceed `rest`
         if count**size > rest:
             return
+        # the other counts must be able to reach the quotient
         if rest % count == 0 and rest // count <= counts[-1] ** (size - 1):
             _factor(rest // count, counts, at, size - 1, (*chosen, count), found)
 
@@ -291,14 +300,14 @@ def _array(counts: tuple[int, ...]) -> Ints:
 
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Places:
-    """For each row, the place after the last high part whose product with it is less than `bound`."""
-    # one search in one key for all tables: the offset of a row leads to its own table
+    """Return the index after the last high part whose product with each row is less than `bound`, (rows,)."""
+    # one binary search for all tables: the offset of a row selects its table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
     return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
 
 
 def _chosen(numbers: Ints, size: int) -> Ints:
-    """All unordered sets of 0, 1 or 2 of the numbers, ascending within each, (sets, size)."""
+    """Return all multisets of 0, 1 or 2 of the numbers, ascending within each, (multisets, size)."""
     if size == 0:
         return np.empty((1, 0), dtype=numbers.dtype)
     if size == 1:
@@ -308,7 +317,7 @@ def _chosen(numbers: Ints, size: int) -> Ints:
 
 
 def row_products(chosen: Ints) -> Ints:
-    """Product along each row, in the dtype of the counts."""
+    """Return the product along each row, in the dtype of the counts."""
     found = np.ones(len(chosen), dtype=chosen.dtype)
     for column in chosen.T:
         found = found * column
@@ -316,10 +325,10 @@ def row_products(chosen: Ints) -> Ints:
 
 
 def check_memory(counts: tuple[int, ...], size: int, plain: bool) -> None:
-    """`RangeError` where the tables of `products_of` would not fit in memory."""
+    """Raise `RangeError` if the tables of `products_of` would not fit in memory."""
     number, half = len(counts), (size + 1) // 2
     rows = multisets(number, half) if size < 4 else multisets(number, 3)
     if rows > _MOST_ROWS or not (plain or multisets(number, size) <= _MOST_OBJECTS):
-        why = "the tables would not fit in memory" if plain else "products past 2^52 are held one by one"
+        why = "the tables would not fit in memory" if plain else "products above 2^52 are stored as Python objects"
         what = f"{number} counts are too many for {size} stages" + ("" if plain else f" of up to {counts[-1]} teeth")
-        raise RangeError(Problem(what, why, "take a shorter range of counts, or fewer stages"))
+        raise RangeError(Problem(what, why, "use a shorter range of counts, or fewer stages"))

@@ -1,7 +1,7 @@
-"""One piece of a search: all products beneath in a segment of value, against the products on top that they need.
+"""Search of one segment of the denominator products against the numerator products that may match them.
 
-`lay_out` cuts a search into pieces of about equal work. The pieces are independent, their questions and results are
-plain JSON data, and how they are cut changes no answer.
+`lay_out` divides a search into segments of about equal work. Segments are independent, their problems and results are
+plain JSON data, and the division has no influence on the result.
 """
 
 from __future__ import annotations
@@ -39,39 +39,40 @@ if TYPE_CHECKING:
     Span = tuple[Ints, Ints]
 
 
-_BINS = 256  # of the logarithms of counts
+_BINS = 256  # number of bins of the histogram of logarithms of counts
 
 
 @dataclass(frozen=True, slots=True)
 class SegmentPlan:
-    """Segments of the products beneath, and the density of pairs of sets."""
+    """Segments of the denominator products, and the density of pairs of multisets."""
 
     bounds: tuple[int, ...]
-    """Products beneath, ascending: segment n is [bounds[n], bounds[n + 1])."""
+    """Bounds of the denominator products, ascending. Segment n is [bounds[n], bounds[n + 1])."""
     densest: int
-    """The segment in which most pairs are near the wanted ratio."""
+    """Index of the segment with the most pairs near the requested ratio."""
     density: float
-    """Pairs of sets for each unit of |error|, over all segments; an estimate."""
+    """Estimated number of pairs of multisets per unit of absolute relative error, over all segments."""
 
     @property
     def segments(self) -> tuple[tuple[int, int], ...]:
-        """The segments, half-open."""
+        """Bounds of the segments, half-open."""
         return tuple(zip(self.bounds, self.bounds[1:], strict=False))
 
     def tolerance_for(self, number: float) -> Fraction:
-        """An |error| within which about so many pairs of sets lie."""
-        # without a density to go by a search begins narrow, and is widened
+        """Return an absolute relative error within which about `number` pairs of multisets are expected."""
+        # without a density the search starts with a narrow tolerance, which is then widened
         return Fraction(number / self.density) if self.density * 1e18 > number else Fraction(1, 10**18)
 
 
 def lay_out(question: StageProblem) -> SegmentPlan:
-    """Segments of about two blocks of products each, those beneath and those on top that go with them."""
+    """Divide the search into segments of about two blocks of products each, numerators and denominators together."""
     size, value = question.stages, question.value
     spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
-    # a single count spans nothing
+    # a single count has a span of 0
     width = max(*spans, 1e-6) / _BINS
     over, under = (_spread(counts, size, width) for counts in (question.top, question.beneath))
     start = size * log(question.beneath[0])
+    # offset between the bins of numerators and denominators with the requested ratio
     shift = (size * log(question.beneath[0] / question.top[0]) + log(value.numerator) - log(value.denominator)) / width
     at = np.arange(len(under))
     beside = np.interp(at + shift, np.arange(len(over)), over, left=0.0, right=0.0)
@@ -79,6 +80,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     minimum, most = question.beneath[0] ** size, question.beneath[-1] ** size
     if not len(used):
         return SegmentPlan((minimum, most + 1), 0, 0.0)
+    # the cost of a segment is the number of its products on both sides
     work = np.cumsum((under + beside)[used])
     number = max(ceil(work[-1] / (2 * block_of(question))), 1)
     places = np.searchsorted(work, work[-1] * np.arange(1, number) / number) + used[0] + 1
@@ -87,26 +89,26 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     both = under * beside
     peak = ceil(exp(start + (int(both.argmax()) + 0.5) * width))
     densest = int(np.searchsorted(np.array(bounds[1:-1], dtype=np.float64), float(peak), side="right"))
-    # twice, for an |error| has a side above the ratio and one below
+    # factor 2: an absolute error includes both sides of the ratio
     return SegmentPlan(bounds, densest, float(2 * both.sum() / width))
 
 
 def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
-    """Number of unordered sets by the logarithm of their product, in bins of `width` from the least."""
+    """Return the number of multisets by the logarithm of their product, in bins of `width` from the minimum."""
     places = np.array([log(count / counts[0]) / width for count in counts])
     one = np.bincount(places.astype(np.int64)).astype(np.float64)
     found = np.ones(1)
     for _ in range(size):
         found = np.convolve(found, one)
-    # the convolution counts ordered choices: scaled to the number of unordered sets
+    # the convolution counts sequences; scaled to the number of multisets
     return np.asarray(found * (multisets(len(counts), size) / found.sum()))
 
 
 BLOCK = 1 << 21
-"""Products of one side held at once: what bounds the memory."""
+"""Maximum number of products of one side in memory."""
 PER_ROW = 3
-"""A window costs a search in every row of the tables: it should bring some products for each."""
-_FEW = 1000  # solutions that may be made one by one from their products
+"""Minimum number of products per row of the tables in a block. A window costs a binary search in every row."""
+_FEW = 1000  # solutions that may be factored individually from their products
 
 Range = tuple[int, int]
 
@@ -114,21 +116,21 @@ Range = tuple[int, int]
 def task_of(
     question: StageProblem, low: int, high: int, hint: Fraction, bound: tuple[int, Fraction, int] | None = None
 ) -> dict[str, Any]:
-    """The plain data of one piece.
+    """Return the plain data of one segment.
 
-    low, high  products beneath, half-open
-    hint       a tolerance within which some of the best may be expected
-    bound      first, |error| and sum of a solution that is surely no better than the last one kept
+    low, high  range of the denominator products, half-open
+    hint       a tolerance within which some of the best solutions are expected
+    bound      rank value, absolute error and sum of a solution that is not better than the last one kept
     """
     plain = [bound[0], str(bound[1]), bound[2]] if bound else None
     return {"question": question.plain(), "low": low, "high": high, "hint": str(hint), "bound": plain}
 
 
 def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
-    """Count the solutions of a piece, exactly, and give its best.
+    """Count the solutions of a segment, exactly, and return its best.
 
-    Result: `count`; `removed`, reason -> pairs of sets within the tolerance that are no solutions; `rows`, the best as
-    [what the order asks for, counts on top, counts beneath].
+    The result has the keys `count`; `removed`, reason -> number of pairs of multisets within the tolerance that are not
+    solutions; and `rows`, the best as [rank value, numerator counts, denominator counts].
     """
     question = stage_problem_of(task["question"])
     plain = task["bound"]
@@ -141,18 +143,18 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def listed_by_value(question: StageProblem) -> bool:
-    """True if solutions need not be looked at one by one: what is asked can be seen from their products."""
+    """Return whether solutions can be ranked by their products, without an inspection of each."""
     return question.by == "error" and question.loose and question.best <= _FEW
 
 
 def block_of(question: StageProblem) -> int:
-    """Products of one side that are held at once: `BLOCK`, or more where even the tables are longer."""
+    """Return the number of products of one side in a block: `BLOCK`, or more if the tables are longer."""
     numbers = max(len(question.top), len(question.beneath))
     return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
 
 
 def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
-    """Ranges of products beneath and on top that cover every pair within the tolerance once, none too long."""
+    """Yield ranges of denominator and numerator products that cover every pair within the tolerance once."""
     if not question.reachable:
         return
     most = block_of(question)
@@ -162,11 +164,11 @@ def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range,
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
-    """[low, high) in parts of no more than `most` products each, ascending; nothing where there are none."""
+    """Split [low, high) into ascending ranges of at most `most` products each; empty ranges are omitted."""
     low, high = max(low, products.minimum), min(high, products.most + 1)
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
-        # the geometric mean, for products are spread evenly in logarithms
+        # the geometric mean, because the logarithms of products are about uniform
         middle = min(max(isqrt(low * high), low + 1), high - 1)
         yield from pieces(products, low, middle, most)
         yield from pieces(products, middle, high, most)
@@ -174,15 +176,15 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
         yield low, high
 
 
-# The best ratios by their error alone: compared as values, made into counts only where they are shown.
+# The best ratios by error only: compared as values, and factored into counts only if listed.
 
 
-_MANY = 1 << 20  # pairs of products looked at together
-_CLOSE = Fraction(1, 10**40)  # so near, only pairs of one and the same ratio are left
+_MANY = 1 << 20  # pairs of products in one vectorised step
+_CLOSE = Fraction(1, 10**40)  # at this distance only pairs with the same ratio remain
 
 
 class ValueFinder:
-    """Counts every solution by runs of equal products, and keeps the best by |error|, sum, largest and counts."""
+    """Count of all solutions by runs of equal products, and list of the best by error, sum and largest count."""
 
     def __init__(self, question: StageProblem, hint: Fraction, bound: tuple[int, Fraction, int] | None) -> None:
         self.question, self.hint = question, hint
@@ -191,12 +193,12 @@ class ValueFinder:
         self.keys: list[StageRank] = []
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segment`."""
+        """Return the result as plain data, in the format of `search_segment`."""
         rows = [[0, list(key[4]), list(key[5])] for key in self.keys]
         return {"count": self.count, "removed": {}, "rows": rows}
 
     def look(self, beneath: Range, top: Range) -> None:
-        """Consider all pairs of products of two ranges."""
+        """Process all pairs of products of two ranges."""
         under, over = distinct(self.question.under.values(*beneath)), distinct(self.question.over.values(*top))
         low, high = self.question.edges
         whole = cuts(over[0], under[0], low, high)
@@ -206,19 +208,21 @@ class ValueFinder:
             self._keep(*self._nearest(under, over, whole))
 
     def _nearest(self, under: Span, over: Span, whole: Span) -> tuple[Ints, Ints, Ints]:
-        """Products on top, beneath, and sets that make them, of pairs among which the block's best are."""
+        """Return the pairs of products that include the best of the block: numerators, denominators, numbers of
+        multiset pairs.
+        """
         best, limit = self.question.best, self.question.tolerance
         if self.most:
             limit = min(limit, self.most[0])
         tolerance = min(self.hint, limit)
         span = self._span(under, over, whole, tolerance)
-        # widened until the block's best are surely within
+        # widened until the best of the block are certainly within
         while weight(under, over, span) < best and tolerance < limit:
             tolerance = min(8 * tolerance, limit)
             span = self._span(under, over, whole, tolerance)
         fewer = Fraction(0)
         while _pairs(span) > _MANY and tolerance - fewer > _CLOSE:
-            # too wide a start: halve what lies between enough and too few
+            # the start was too wide: bisect between enough and too few
             middle = (tolerance + fewer) / 2
             inner = self._span(under, over, whole, middle)
             if weight(under, over, inner) < best:
@@ -230,7 +234,7 @@ class ValueFinder:
         return over[0][j], under[0][i], sets
 
     def _span(self, under: Span, over: Span, whole: Span, tolerance: Fraction) -> Span:
-        """For each product beneath, the products on top within a narrower tolerance."""
+        """Return the range of numerator products within a narrower tolerance for each denominator product."""
         value, (low, high) = self.question.value, self.question.edges
         if tolerance >= self.question.tolerance:
             return whole
@@ -238,7 +242,7 @@ class ValueFinder:
         return cuts(over[0], under[0], low, high) if low <= high else (whole[0], whole[0])
 
     def _keep(self, over: Ints, under: Ints, sets: Ints) -> None:
-        """Take the best of these pairs of products into the list."""
+        """Merge the best of these pairs of products into the list."""
         value, size, best = self.question.value, self.question.stages, self.question.best
         error = np.abs(errors(over, under, value))
         order = np.argsort(error, kind="stable")
@@ -249,7 +253,7 @@ class ValueFinder:
         minimum = _minimum_sums(over, under, size)
         misses, place = error_places(over, under, value)
         fresh: list[StageRank] = []
-        # nearest first, then by the least sum that is possible: from the first that is too late on, all are
+        # by error, then by the minimum possible sum: all after the first that is too late are too late
         for at in np.lexsort((minimum, place)).tolist():
             miss, total = misses[place[at]], float(minimum[at])
             if self._too_late(miss, total):
@@ -259,12 +263,13 @@ class ValueFinder:
             beneaths = expand(int(under[at]), self.question.beneath, size)
             tops = expand(int(over[at]), self.question.top, size)
             fresh += [key_of(0, top, beneath, value) for top in tops for beneath in beneaths]
+            # merged in batches, which limits the cost of sorting
             if len(fresh) >= best:
                 self.keys, fresh = merged([*self.keys, *fresh], best), []
         self.keys = merged([*self.keys, *fresh], best)
 
     def _too_late(self, miss: Fraction, total: float) -> bool:
-        """True if neither this pair nor any after it can be among the best."""
+        """Return whether neither this pair nor any later one can be among the best."""
         if self.most and miss > self.most[0]:
             return True
         if len(self.keys) < self.question.best:
@@ -273,7 +278,7 @@ class ValueFinder:
 
 
 def distinct(values: Ints) -> Span:
-    """The different ones of ascending values, (n,), and how many values stand before each and after all, (n + 1,)."""
+    """Return the distinct values of an ascending array, (n,), and their first indices with the length, (n + 1,)."""
     fresh = np.ones(len(values), dtype=bool)
     fresh[1:] = values[1:] != values[:-1]
     at = np.flatnonzero(fresh)
@@ -281,32 +286,32 @@ def distinct(values: Ints) -> Span:
 
 
 def weight(under: Span, over: Span, span: Span) -> int:
-    """Number of pairs of sets: for each product beneath, the sets of those on top in its span."""
+    """Count the pairs of multisets: those of all numerator products in the range of each denominator product."""
     return int(((over[1][span[1]] - over[1][span[0]]) * (under[1][1:] - under[1][:-1])).sum())
 
 
 def _pairs(span: Span) -> int:
-    """Number of pairs of products."""
+    """Return the number of pairs of products."""
     return int((span[1] - span[0]).sum())
 
 
 def _minimum_sums(over: Ints, under: Ints, size: int) -> Floats:
-    """A lower bound of the sum of all counts: no sum is less than with equal counts."""
+    """Return a lower bound of the sum of all counts. By the AM-GM inequality equal counts have the minimum sum."""
     root = 1.0 / size
     sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
-    # less what roots are rounded by: a lower bound must not be too great
+    # reduced by the rounding error of the roots, because a lower bound must not be too large
     return np.asarray(sums * (1 - 1e-12))
 
 
-# Solutions judged one by one, many at once: conditions on the counts, and orders other than by error.
+# Individual tests of solutions, vectorised: constraints on the counts, and orders other than by error.
 
 
 CHUNK = 1 << 16
-"""Pairs looked at together."""
+"""Number of pairs processed in one vectorised step."""
 
 
 class RowFinder:
-    """Looks at every pair of sets within the tolerance."""
+    """Search that inspects every pair of multisets within the tolerance."""
 
     def __init__(self, question: StageProblem, bound: tuple[int, Fraction, int] | None) -> None:
         self.question = question
@@ -315,31 +320,32 @@ class RowFinder:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segment`."""
+        """Return the result as plain data, in the format of `search_segment`."""
         found = self.judge.result()
         return {**found, "count": self.count} if self.loose else found
 
     def look(self, beneath: Range, top: Range) -> None:
-        """Consider all pairs of sets with products in two ranges."""
+        """Process all pairs of multisets with products in two ranges."""
         question, (low, high) = self.question, self.question.edges
         below, above = distinct(question.under.values(*beneath)), distinct(question.over.values(*top))
         span = cuts(above[0], below[0], low, high)
         self.count += weight(below, above, span)
+        # denominators with at least one numerator within the tolerance
         used = span[1] > span[0]
         if not used.any():
             return
-        # products on top that some window holds: windows opened less windows closed so far
+        # numerator products within some window: number of windows opened minus number closed so far
         opened, closed = (np.bincount(ends, minlength=len(above[0]) + 1) for ends in span)
         needed = np.cumsum(opened - closed)[:-1] > 0
-        under = self._useful(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
-        over = self._useful(sets_of(*question.over.members(*top, above[0][needed])), question.beneath[0])
+        under = self._prune(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
+        over = self._prune(sets_of(*question.over.members(*top, above[0][needed])), question.beneath[0])
         if len(over.products) and len(under.products):
             first, last = cuts(over.products, under.products, low, high)
             for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
                 self.judge.see(over, under, j, i)
 
-    def _useful(self, sets: CountSets, minimum: int) -> CountSets:
-        """Without the sets that can be in no solution better than what is there; only where every pair is one."""
+    def _prune(self, sets: CountSets, minimum: int) -> CountSets:
+        """Remove multisets that cannot be in a better solution than those listed, if every pair is a solution."""
         bound, by = self.judge.best.bound, self.question.by
         if not self.loose or bound is None or by not in ("total", "largest"):
             return sets
@@ -349,7 +355,7 @@ class RowFinder:
 
 @dataclass(frozen=True, slots=True)
 class CountSets:
-    """Unordered sets of counts on one side: products, counts (n, k), sums and largest of these."""
+    """Multisets of counts of one side: products (n,), counts (n, k), sums (n,) and largest counts (n,)."""
 
     products: Ints
     counts: Ints
@@ -357,18 +363,18 @@ class CountSets:
     largest: Ints
 
     def taken(self, at: Ints) -> CountSets:
-        """Some of them."""
+        """Return the multisets at the given indices."""
         return CountSets(self.products[at], self.counts[at], self.sums[at], self.largest[at])
 
 
 def sets_of(products: Ints, counts: Ints) -> CountSets:
-    """Sets with these products and counts (ascending in each row)."""
+    """Build multisets from products and counts (ascending in each row)."""
     counts = counts.astype(np.int64)
     return CountSets(products, counts, counts.sum(axis=1), counts[:, -1])
 
 
 class StageFilter:
-    """Sorts pairs of sets within the tolerance into solutions and others, and keeps the best."""
+    """Filter of pairs of multisets by the constraints; counts the solutions and keeps the best."""
 
     def __init__(self, question: StageProblem, bound: tuple[int, float] | None = None) -> None:
         self.question, self.fit = question, question.fit
@@ -378,26 +384,26 @@ class StageFilter:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segment`."""
+        """Return the result as plain data, in the format of `search_segment`."""
         rows = self.best.rows()
         plain = zip(rows.first.tolist(), rows.top.tolist(), rows.beneath.tolist(), strict=True) if rows else ()
         return {"count": self.count, "removed": self.removed, "rows": [list(row) for row in plain]}
 
     def see(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> None:
-        """Judge the pairs of set j on top and set i beneath."""
+        """Process the pairs of numerator multisets j and denominator multisets i."""
         bound = self.best.bound
         if self.quick and bound:
-            # what is certainly not among the best needs no look at its counts
+            # solutions that are certainly not among the best need no test of their counts
             self.count += len(j)
             near = np.flatnonzero(self._first(over, under, j, i) <= bound[0])
             self._rank(over, under, j[near], i[near], None)
         else:
-            good, found = self._suits(over, under, j, i)
+            good, found = self._feasible(over, under, j, i)
             self.count += len(good)
             self._rank(over, under, j[good], i[good], found)
 
     def _first(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> Ints:
-        """What the order asks for, from sums and largest counts alone."""
+        """Return the primary rank values, from the sums and largest counts only."""
         if self.question.by == "total":
             return np.asarray(over.sums[j] + under.sums[i])
         if self.question.by == "largest":
@@ -405,7 +411,7 @@ class StageFilter:
         return np.zeros(len(j), dtype=np.int64)
 
     def _rank(self, over: CountSets, under: CountSets, j: Ints, i: Ints, found: FeasiblePairings | None) -> None:
-        """Keep the best of these solutions."""
+        """Add these solutions to the list of the best."""
         top, beneath = over.counts[j], under.counts[i]
         first = first_of(self.question.by, top, beneath, self.fit, found)
         p, q = over.products[j], under.products[i]
@@ -416,27 +422,27 @@ class StageFilter:
         if len(rows):
             self.best.add(rows)
 
-    def _suits(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
-        """Which pairs satisfy the fit, and what their pairings have; the others are counted by reason."""
+    def _feasible(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
+        """Return the pairs (indices) that satisfy the constraints, and their pairings; count the others by reason."""
         fit, at = self.fit, np.arange(len(j))
         top, beneath = over.counts[j], under.counts[i]
         if fit.different:
-            # equal counts stand beside each other once they are sorted
+            # equal counts are neighbours after sorting
             both = np.sort(np.concatenate([top, beneath], axis=1), axis=1)
-            at = self._left(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "a count that is there twice")
+            at = self._filter(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "repeated count")
         if fit.totals_matter:
             total, (minimum, most) = top[at].sum(axis=1) + beneath[at].sum(axis=1), fit.totals
-            at = self._left(at, (total >= minimum) & (total <= most), "a sum of counts out of bounds")
+            at = self._filter(at, (total >= minimum) & (total <= most), "sum of counts out of bounds")
         by = self.question.by
         if not fit.pairs_matter and by not in ("hunting", "centres"):
             return at, None
         found = suited(top[at], beneath[at], fit, coprime=by == "hunting", centres=by == "centres")
         good = np.flatnonzero(found.possible)
-        at = self._left(at, found.possible, pairing_reason(self.question))
+        at = self._filter(at, found.possible, pairing_reason(self.question))
         return at, found.taken(good)
 
-    def _left(self, at: Ints, good: Bools, reason: str) -> Ints:
-        """Those that are good; the others are charged to the reason."""
+    def _filter(self, at: Ints, good: Bools, reason: str) -> Ints:
+        """Return the indices for which `good` is true, and count the others under the reason."""
         gone = len(at) - int(good.sum())
         if gone:
             self.removed[reason] = self.removed.get(reason, 0) + gone
@@ -444,11 +450,11 @@ class StageFilter:
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """What no pairing of the sets has."""
+    """Return the reason for which pairs of multisets without a feasible pairing are rejected."""
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
-        *(["one centre distance"] if fit.reverted else []),
-        *([f"a larger ring in {fit.internal} of the stages"] if fit.internal else []),
+        *(["equal centre distances"] if fit.reverted else []),
+        *([f"a ring larger than its pinion in {fit.internal} of the stages"] if fit.internal else []),
     ]
     return f"no pairing with {' and '.join(requested)}"

@@ -1,4 +1,4 @@
-"""All pieces of a search, here or by many, and the tolerance that proves the best found are the best there are."""
+"""Search of all segments, serial or parallel, and the tolerance that proves that the best solutions were found."""
 
 from __future__ import annotations
 
@@ -32,36 +32,39 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]
 
 
-# Reverted trains: all stages have the same sum of counts, so each sum is a search of its own, and a small one. As
-# an exact join (equal sums as equations, stages in order as conditions) the same took 0.6 times as long for two
-# stages of 15 to 120 teeth, 1.3 times for 12 to 400, and 1.5 to 4.3 times for three and four stages: so it stays.
+# Reverted trains: all stages have the same sum of counts, so each sum is an independent small search. The same problem
+# as an exact join (equal sums as equations, order of the stages as conditions) took 0.6 times as long for two stages
+# of 15 to 120 teeth, but 1.3 times for 12 to 400 teeth, and 1.5 to 4.3 times for three and four stages.
 
 
-_SLACK = 1e-12  # relative: floats find candidates with it, integers decide
+_SLACK = 1e-12  # relative margin: floats select candidates with it, integers decide
 
-APART = "no pairing on one centre distance"
+APART = "no pairing with equal centre distances"
 SHARED = "no such pairing with coprime counts in every stage"
-TOTAL = "a sum of counts out of bounds"
+TOTAL = "sum of counts out of bounds"
 
 
 def sums_of(question: StageProblem) -> range:
-    """Sums that a stage may have, whatever the bounds of the total."""
+    """Return the range of possible sums of the two counts of a stage."""
     return range(question.top[0] + question.beneath[0], question.top[-1] + question.beneath[-1] + 1)
 
 
 def stages_of(question: StageProblem, total: int) -> list[tuple[int, int]]:
-    """All stages (count on top, count beneath) with a sum of counts."""
+    """Return all stages (numerator count, denominator count) with a given sum of counts."""
     beneath = set(question.beneath)
     return [(count, total - count) for count in question.top if total - count in beneath]
 
 
 def tally(question: StageProblem) -> dict[str, int]:
-    """How many pairs of sets have no one centre distance, no coprime pairing, or a total out of bounds: exact."""
+    """Count the pairs of multisets that lack a common centre distance, a coprime pairing, or an admissible total;
+    exact.
+    """
     size, fit = question.stages, question.fit
     minimum, most = fit.totals
     sums = {APART: question.considered, SHARED: 0, TOTAL: 0}
     for total in sums_of(question):
         stages = stages_of(question, total)
+        # multisets of stages with this sum, before and after the test for common divisors
         whole = multisets(len(stages), size) if stages else 0
         good = sum(gcd(*stage) == 1 for stage in stages) if fit.hunting else len(stages)
         left = multisets(good, size) if good else 0
@@ -72,9 +75,10 @@ def tally(question: StageProblem) -> dict[str, int]:
 
 
 def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
-    """Solutions whose stages have a sum in [low, high): counted, and the best of them, as `search_segment` gives them.
+    """Search all reverted trains whose stages have a sum of counts in [low, high); same result as `search_segment`.
 
-    Every unordered set of stages is looked at once, as a lower and an upper half, by the products of their ratios.
+    Every multiset of stages is visited once, as a lower and an upper half: meet in the middle on the products of
+    ratios.
     """
     question = stage_problem_of(task["question"])
     judge = StageFilter(question)
@@ -89,7 +93,7 @@ def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageFilter) -> None:
-    """All unordered sets of these stages with a ratio within the tolerance."""
+    """Send all multisets of these stages with a ratio within the tolerance to the filter."""
     size = question.stages
     counts = np.array(stages, dtype=np.int64 if question.plain_integers else object)
     lower, upper = _halves(len(stages), size // 2), _halves(len(stages), size - size // 2)
@@ -97,19 +101,19 @@ def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageF
     low_ratios, high_ratios = ratios[lower].prod(axis=1), ratios[upper].prod(axis=1)
     order = np.argsort(high_ratios, kind="stable")
     upper, high_ratios = upper[order], high_ratios[order]
-    # floats find candidates, a little too many; `_judge` decides in integers
+    # floats select slightly too many candidates; `_judge` decides in integers
     low, high = question.edges
     first = np.searchsorted(high_ratios, float(low) * (1 - _SLACK) / low_ratios)
     last = np.searchsorted(high_ratios, float(high) * (1 + _SLACK) / low_ratios, side="right")
     for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
-        # halves that ascend across the cut: each unordered set is met in one way only
+        # only halves in ascending order, so that each multiset occurs once
         once = np.flatnonzero(lower[i, -1] <= upper[j, 0]) if size > 1 else np.arange(len(i))
         chosen = np.concatenate([lower[i[once]], upper[j[once]]], axis=1)
         _judge(question, counts, chosen, judge)
 
 
 def _judge(question: StageProblem, counts: Ints, chosen: Ints, judge: StageFilter) -> None:
-    """Exact windows, then the other conditions."""
+    """Select the candidates within the tolerance by exact arithmetic and send them to the filter."""
     tops, beneaths = np.sort(counts[chosen, 0], axis=1), np.sort(counts[chosen, 1], axis=1)
     over, under = row_products(tops), row_products(beneaths)
     inside = np.flatnonzero(_are_within(over, under, question))
@@ -118,9 +122,10 @@ def _judge(question: StageProblem, counts: Ints, chosen: Ints, judge: StageFilte
 
 
 def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
-    """Whether over / under is within the tolerance, exactly, one by one."""
+    """Return whether each over / under is within the tolerance, exactly."""
     if not len(over):
         return np.zeros(0, dtype=bool)
+    # `cuts` requires ascending products
     values = np.unique(over)
     first, last = cuts(values, under, *question.edges)
     at = np.searchsorted(values, over)
@@ -128,7 +133,7 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
 
 
 def _halves(number: int, size: int) -> Ints:
-    """Unordered sets of `size` of so many stages, ascending in each, (sets, size)."""
+    """Return the multisets of `size` of the integers 0 to `number` - 1, ascending in each row, (multisets, size)."""
     found = np.zeros((1, 0), dtype=np.int64)
     for _ in range(size):
         minimum = found[:, -1] if found.shape[1] else np.zeros(1, dtype=np.int64)
@@ -138,44 +143,46 @@ def _halves(number: int, size: int) -> Ints:
 
 
 Bound = tuple[int, Fraction, int]
-_WIDER = 16  # times, from one tolerance to the next: all before the last cost little beside it
+_WIDER = 16  # factor between tolerances; all passes before the last then cost little
 _ENOUGH = 2 * 10**9
-"""Pairs of sets looked at one by one, after which a search without a tolerance is not widened any more."""
+"""Number of individually inspected pairs of multisets after which a search without a tolerance is not widened further.
+"""
 _MOST = 1e11
-"""Pairs of sets that may have to be looked at one by one."""
-_PILOT = Fraction(1, 100)  # |error| past which a first piece is not widened
+"""Maximum number of pairs of multisets that may be inspected individually."""
+_PILOT = Fraction(1, 100)  # absolute error beyond which the first segment is not widened
 
 
 @dataclass(frozen=True, slots=True)
 class SweepOutcome:
-    """What a sweep over all pieces found within `tolerance`."""
+    """Solutions of all segments within `tolerance`."""
 
     tolerance: Fraction
     count: int = 0
     removed: Mapping[str, int] = field(default_factory=dict)
     keys: Sequence[StageRank] = ()
     complete: bool = True
-    """Every piece was searched."""
+    """True if every segment was searched."""
     note: str = ""
-    """Why fewer were found than there may be."""
+    """Reason for which fewer solutions were found than may exist."""
 
     @property
     def inside(self) -> int:
-        """Pairs of sets within the tolerance, those that are no solutions included."""
+        """Number of pairs of multisets within the tolerance, including those that are not solutions."""
         return self.count + sum(self.removed.values())
 
 
 def within(question: StageProblem, means: Execution) -> SweepOutcome:
-    """All within the question's tolerance: counted, the best kept."""
+    """Count all solutions within the tolerance of the problem, and keep the best."""
     search = _search_for(question)
     search.check(question.tolerance)
     return search.sweep(question.tolerance, search.pilot(question.tolerance), means)
 
 
 def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
-    """The best by |error|, proved: the tolerance is widened until enough are within it, so that none is nearer.
+    """Find the best solutions by absolute error, with proof.
 
-    The question's own tolerance is not looked at.
+    The tolerance is increased until it includes enough solutions, so that all others have larger errors. The tolerance
+    of the problem is ignored.
     """
     search = _search_for(question)
     minimum, most = reach_of_errors(question.value, *question.reach)
@@ -183,10 +190,10 @@ def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     if bound:
         start = rounded_up(bound[1])
     while True:
-        # the nearest ratio of all may be far away: the tolerance begins there
+        # the nearest possible ratio may be far away; the tolerance starts there
         tolerance = min(minimum + start, most)
         found = search.sweep(tolerance, bound, means)
-        means = replace(means, journal=None)  # its pieces are those of the first tolerance
+        means = replace(means, journal=None)  # the journal belongs to the first tolerance only
         if found.count >= question.best or tolerance >= most or not found.complete:
             return found
         if _WIDER * found.inside > _ENOUGH and not question.loose:
@@ -196,13 +203,13 @@ def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
 
 def _given_up(found: SweepOutcome) -> str:
     return (
-        f"only {found.count} solutions are within {float(found.tolerance):.3g}, where {found.inside} pairs of "
-        "sets were looked at; give a tolerance to search farther"
+        f"only {found.count} solutions are within {float(found.tolerance):.3g}, among {found.inside} candidates; "
+        "give a tolerance to search further"
     )
 
 
 class _ByProducts:
-    """Pieces are segments of the products beneath."""
+    """Division of a search into segments of the denominator products."""
 
     def __init__(self, question: StageProblem) -> None:
         self.question = question
@@ -210,18 +217,18 @@ class _ByProducts:
         self.many = len(self.plan.segments) > 1
 
     def start(self) -> Fraction:
-        """An |error| within which a few times as many pairs lie as are wanted."""
+        """Return a tolerance within which a few times the requested number of pairs is expected."""
         return rounded_up(self.plan.tolerance_for(4 * self.question.best))
 
     def check(self, tolerance: Fraction) -> None:
-        """`RangeError` if more pairs of sets must be looked at one by one than can be."""
+        """Raise `RangeError` if too many pairs of multisets must be inspected individually."""
         pairs = float(tolerance) * self.plan.density
         if pairs > _MOST and not listed_by_value(self.question):
             raise RangeError(
                 Problem(
-                    f"about {pairs:.1g} pairs of sets are within the tolerance",
-                    "these conditions, this order or so long a list need a look at each of them",
-                    f"narrow the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
+                    f"about {pairs:.1g} candidates are within the tolerance",
+                    f"constraints, order or list length require a test of each, and at most {_MOST:.0g} are tested",
+                    f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
                 )
             )
 
@@ -229,29 +236,32 @@ class _ByProducts:
         return task_of(replace(self.question, tolerance=tolerance), *segment, self.start(), bound)
 
     def pilot(self, tolerance: Fraction) -> Bound | None:
-        """How good the best are at least, from the densest piece and the one with the smallest counts."""
+        """Return a bound of the best solutions, from the densest segment and the one with the smallest counts."""
         if not self.many:
             return None
         bound = None
+        # the first segment has the smallest counts, the densest one the smallest errors
         for number in (0, self.plan.densest):
-            reached = self._reached(tolerance, number, bound)[0]
+            reached = self._segment_bound(tolerance, number, bound)[0]
             bound = min((each for each in (bound, reached) if each), default=None)
         return bound
 
     def widened_pilot(self) -> Bound | None:
-        """The same where the tolerance is still open: widened until the pieces hold enough."""
+        """Return a bound of the best solutions before a tolerance is known; it is increased until there are enough
+        solutions.
+        """
         found = []
         for number in {0, self.plan.densest} if self.many else ():
             at = self.start()
-            bound, inside = self._reached(at, number)
+            bound, inside = self._segment_bound(at, number)
             while bound is None and at < _PILOT and (self.question.loose or _WIDER * inside < _ENOUGH):
                 at *= _WIDER
-                bound, inside = self._reached(at, number)
+                bound, inside = self._segment_bound(at, number)
             found.append(bound)
         return min((bound for bound in found if bound), default=None)
 
-    def _reached(self, tolerance: Fraction, number: int, known: Bound | None = None) -> tuple[Bound | None, int]:
-        """First, |error| and sum of the last that would be kept of one piece; and how many pairs were looked at."""
+    def _segment_bound(self, tolerance: Fraction, number: int, known: Bound | None = None) -> tuple[Bound | None, int]:
+        """Return the rank of the last solution kept from one segment, and the number of pairs that were inspected."""
         question = self.question
         result = search_segment(self._task(tolerance, self.plan.segments[number], known))
         keys = _keys(result, question)
@@ -259,13 +269,13 @@ class _ByProducts:
         return (keys[-1][:3] if len(keys) == question.best else None), inside
 
     def sweep(self, tolerance: Fraction, bound: Bound | None, means: Execution) -> SweepOutcome:
-        """All pieces."""
+        """Search all segments within a tolerance."""
         tasks = [self._task(tolerance, segment, bound) for segment in self.plan.segments]
-        return _swept(search_segment, tasks, self.question, tolerance, means)
+        return _run_tasks(search_segment, tasks, self.question, tolerance, means)
 
 
 class _BySums:
-    """Pieces are sums of the counts of a stage, all stages of a reverted train having the same."""
+    """Division of a search for reverted trains by the sum of the counts of a stage, which is equal in all stages."""
 
     many = False
 
@@ -273,51 +283,53 @@ class _BySums:
         self.question = question
 
     def start(self) -> Fraction:
-        """An |error| within which a few times as many reverted trains lie as are wanted."""
+        """Return a tolerance within which a few times the requested number of reverted trains is expected."""
         question = self.question
         stages = (len(stages_of(question, total)) for total in sums_of(question))
         number = sum(multisets(count, question.stages) for count in stages if count)
+        # width of the range of the logarithm of the ratio
         span = question.stages * log(question.top[-1] * question.beneath[-1] / question.top[0] / question.beneath[0])
         return rounded_up(min(4 * question.best * max(span, 1e-3) / max(number, 1), 1.0))
 
     def check(self, tolerance: Fraction) -> None:
-        """Nothing to refuse: reverted trains are few."""
+        """Accept every tolerance, because there are few reverted trains."""
 
     def pilot(self, tolerance: Fraction) -> Bound | None:
-        """None: the pieces are small."""
+        """Return None, because the segments are small."""
         del tolerance
         return None
 
     def widened_pilot(self) -> Bound | None:
-        """None: the pieces are small."""
+        """Return None, because the segments are small."""
         return None
 
     def sweep(self, tolerance: Fraction, bound: Bound | None, means: Execution) -> SweepOutcome:
-        """All pieces."""
+        """Search all sums within a tolerance."""
         del bound
         question = replace(self.question, tolerance=tolerance)
-        # four stages and more take long: in pieces of eight sums; fewer in one piece
+        # four and more stages are slow, so eight sums are one task; fewer stages are one task in all
         sums, step = sums_of(question), 8 if question.stages > 3 else 1 << 40
         plain = question.plain()
         tasks = [
             {"question": plain, "low": low, "high": min(low + step, sums.stop)}
             for low in range(sums.start, sums.stop, min(step, len(sums)))
         ]
-        return _swept(search_sums, tasks, question, tolerance, means)
+        return _run_tasks(search_sums, tasks, question, tolerance, means)
 
 
 def _search_for(question: StageProblem) -> _ByProducts | _BySums:
     return _BySums(question) if question.fit.reverted and not question.fit.internal else _ByProducts(question)
 
 
-def _swept(
+def _run_tasks(
     work: Callable[[Any], dict[str, Any]],
     tasks: list[Any],
     question: StageProblem,
     tolerance: Fraction,
     means: Execution,
 ) -> SweepOutcome:
-    """The results of all pieces as one; what is there so far if the user interrupts."""
+    """Run all segments and merge their results; a keyboard interrupt returns the results so far."""
+    # a single task runs in this process, without the overhead of an executor
     alone = len(tasks) == 1
     results = iter([work(tasks[0])]) if alone else means.run(work, tasks)
     count, keys, complete = 0, list[StageRank](), True

@@ -1,6 +1,6 @@
-"""One ratio by stages as a question in plain data: the ratio, constraints, pairings, and orders of solutions.
+"""Problem data of a search for one ratio by stages: ratio, constraints, feasible pairings, orders of solutions.
 
-The orders are total, and independent of where and when solutions are found.
+The orders are total, and do not depend on the sequence in which solutions are found.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ if TYPE_CHECKING:
 
 Set = tuple[int, ...]
 Pairs = tuple[tuple[int, int], ...]
-_CHUNK = 1 << 18  # numbers handled at once
-_TABLE = 1024  # up to here, a table tells which counts are coprime
+_CHUNK = 1 << 18  # numbers in one vectorised step
+_TABLE = 1024  # maximum count of the lookup table of coprime pairs
 
 
 @dataclass(frozen=True, slots=True)
 class StageConstraints(Result):
-    """Conditions on the counts of a train of stages, and on how they can be paired; all in one and the same pairing.
+    """Constraints on the tooth counts of a train of stages and on their pairing, all satisfied by the same pairing.
 
     Examples
     --------
@@ -45,40 +45,42 @@ class StageConstraints(Result):
     """
 
     hunting: bool = False
-    """The two counts of every stage have no common divisor, so that every tooth meets every tooth of its mate."""
+    """Requirement that the two counts of every stage are coprime, so that every tooth meets every tooth of its mate."""
     reverted: bool = False
-    """All stages have one centre distance in one module: equal sums of their counts, or differences for a stage with
-    a ring."""
+    """Requirement that all stages have the same centre distance at the same module: equal sums of their counts, or
+    equal differences for a stage with a ring.
+    """
     different: bool = False
-    """No count is there twice."""
+    """Requirement that all counts are distinct."""
     internal: int = 0
-    """How many of the meshes are with a ring, 0 to the number of stages. Such a mesh keeps the sense, the others
-    reverse it; its ring has more teeth than its pinion."""
+    """Number of internal meshes, 0 to the number of stages. An internal mesh keeps the sense of rotation, an external
+    mesh reverses it. The ring has more teeth than its pinion.
+    """
     minimum_total: int | None = None
-    """Least sum of all counts."""
+    """Minimum sum of all counts."""
     most_total: int | None = None
-    """Greatest sum of all counts."""
+    """Maximum sum of all counts."""
     largest: int | None = None
-    """Greatest count."""
+    """Maximum tooth count of a wheel."""
 
     def sense(self, stages: int) -> int:
-        """1 if output and input turn the same way, -1 if not.
+        """Return 1 if output and input turn in the same sense, -1 if in opposite senses.
 
         Parameters
         ----------
         stages : int
-            Gear pairs one after the other.
+            Number of gear pairs in series.
         """
         return -1 if (stages - self.internal) % 2 else 1
 
     @property
     def pairs_matter(self) -> bool:
-        """True if a condition is on the pairing, and not on the counts alone."""
+        """True if a constraint depends on the pairing, not only on the counts."""
         return self.hunting or self.reverted or self.internal > 0
 
     @property
     def totals(self) -> tuple[int, int]:
-        """Least and greatest sum of all counts."""
+        """Minimum and maximum sum of all counts."""
         minimum = 0 if self.minimum_total is None else self.minimum_total
         return minimum, (1 << 62) if self.most_total is None else self.most_total
 
@@ -89,92 +91,92 @@ class StageConstraints(Result):
 
     @property
     def free(self) -> bool:
-        """True if every unordered pair of sets will do, `largest` aside."""
+        """True if every pair of multisets satisfies the constraints other than `largest`."""
         return not (self.pairs_matter or self.different or self.totals_matter)
 
     def check(self, stages: int) -> None:
-        """Refuse what no train of so many stages can be asked, by a `QuestionError`.
+        """Raise `QuestionError` if no train with this number of stages can satisfy the constraints.
 
         Parameters
         ----------
         stages : int
-            Gear pairs one after the other.
+            Number of gear pairs in series.
         """
         if not 0 <= self.internal <= stages:
             raise QuestionError(
                 Problem(
                     f"internal is {self.internal}",
-                    f"of {stages} meshes, 0 to {stages} can be with a ring",
+                    f"with {stages} meshes, 0 to {stages} can be internal",
                     f"give internal from 0 to {stages}",
                 )
             )
         minimum, most = self.totals
         if minimum > most:
             what = f"minimum_total is {minimum}, most_total is {most}"
-            raise QuestionError(Problem(what, "no sum is between them", "exchange them, or leave one out"))
+            raise QuestionError(Problem(what, "the minimum exceeds the maximum", "exchange them, or omit one"))
 
 
 @dataclass(frozen=True)
 class StageProblem:
-    """Products of `stages` counts on top over as many beneath, within a tolerance of a value."""
+    """Search for quotients of two products of `stages` counts each that are within a tolerance of a value."""
 
     value: Fraction
-    """The wanted ratio, positive."""
+    """Requested ratio, positive."""
     stages: int
-    """1 to 5."""
+    """Number of stages, 1 to 5."""
     top: Set
-    """Admissible counts on top, ascending."""
+    """Admissible counts of the numerator, ascending."""
     beneath: Set
-    """Admissible counts beneath, ascending."""
+    """Admissible counts of the denominator, ascending."""
     fit: StageConstraints
-    """Conditions on the counts; `largest` is already applied to `top` and `beneath`."""
+    """Constraints on the counts; `largest` is already applied to `top` and `beneath`."""
     by: str
-    """Order of the solutions."""
+    """Order of the solutions, a `StageOrder`."""
     best: int
-    """How many are kept."""
+    """Number of solutions to keep."""
     tolerance: Fraction
-    """Greatest |error|, as a fraction of the value."""
+    """Maximum absolute error as a fraction of the value."""
 
     @property
     def plain_integers(self) -> bool:
-        """True if int64 holds all products, and float64 holds them exactly."""
+        """True if int64 and float64 represent all products exactly."""
         return bool(max(self.top[-1:] + self.beneath[-1:], default=1) ** self.stages < PLAIN)
 
     @cached_property
     def over(self) -> ProductWindows:
-        """Products of the counts on top."""
+        """Products of the numerator counts."""
         return products_of(self.top, self.stages, self.plain_integers)
 
     @cached_property
     def under(self) -> ProductWindows:
-        """Products of the counts beneath."""
+        """Products of the denominator counts."""
         return products_of(self.beneath, self.stages, self.plain_integers)
 
     @property
     def reach(self) -> tuple[Fraction, Fraction]:
-        """Least and greatest ratio of the products."""
+        """Minimum and maximum ratio of the products."""
         low, high = Fraction(self.top[0], self.beneath[-1]), Fraction(self.top[-1], self.beneath[0])
         return low**self.stages, high**self.stages
 
     @cached_property
     def edges(self) -> tuple[Fraction, Fraction]:
-        """Least and greatest ratio within the tolerance, and within reach of the products."""
+        """Minimum and maximum ratio that are within the tolerance and within the range of the products."""
         minimum, most = self.reach
         return max(self.value * (1 - self.tolerance), minimum), min(self.value * (1 + self.tolerance), most)
 
     @property
     def reachable(self) -> bool:
-        """True if some ratio of the products may be within the tolerance."""
+        """True if a ratio of the products may be within the tolerance."""
         low, high = self.edges
         return low <= high
 
     @property
     def considered(self) -> int:
-        """Number of pairs of unordered sets, one on top and one beneath."""
+        """Number of pairs of multisets, one for the numerator and one for the denominator."""
         return multisets(len(self.top), self.stages) * multisets(len(self.beneath), self.stages)
 
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
-        """The part of [low, high) of products beneath that some product on top can go with."""
+        """Return the part of [low, high) in which a denominator product can match a numerator product."""
         first, last = self.edges
         minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
         return max(low, -(-minimum * last.denominator // last.numerator)), min(
@@ -182,7 +184,7 @@ class StageProblem:
         )
 
     def tops_for(self, low: int, high: int) -> tuple[int, int]:
-        """The half-open range of products on top that products beneath in [low, high) may need."""
+        """Return the half-open range of numerator products that denominator products in [low, high) can match."""
         first, last = self.edges
         minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
         return max(-(-low * first.numerator // first.denominator), minimum), min(
@@ -191,14 +193,14 @@ class StageProblem:
 
     @property
     def loose(self) -> bool:
-        """True if every pair of sets within the tolerance is a solution."""
+        """True if every pair of multisets within the tolerance is a solution."""
         low, high = self.edges
-        # one ring is always possible unless all counts are equal, and then the ratio is 1
+        # one internal mesh is always possible unless all counts are equal, and then the ratio is 1
         ring_alone = self.fit.internal == 1 and not low <= 1 <= high
         return self.fit.free or (ring_alone and replace(self.fit, internal=0).free)
 
     def plain(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return the problem as plain data for JSON."""
         return {
             "value": fraction_text(self.value),
             "stages": self.stages,
@@ -212,7 +214,7 @@ class StageProblem:
 
 
 def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
-    """The question that `StageProblem.plain` wrote."""
+    """Build the problem from the plain data of `StageProblem.plain`."""
     return StageProblem(
         Fraction(plain["value"]),
         plain["stages"],
@@ -225,52 +227,52 @@ def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
     )
 
 
-# --------------------------------------------- pairings: the stages that a set of counts over another can be paired to
+# ------------------------------------------------------------ pairings of the counts of two multisets to stages
 
 
 @dataclass(frozen=True, slots=True)
 class FeasiblePairings:
-    """What the pairings that satisfy a fit have at best, for many pairs of sets at once."""
+    """Best properties of the pairings that satisfy the constraints, for n pairs of multisets."""
 
     possible: Bools
-    """Some pairing satisfies the fit, (n,)."""
+    """Truth of the statement that some pairing satisfies the constraints, (n,)."""
     coprime: Ints
-    """Most stages with coprime counts among these pairings, (n,); 0 where there are none."""
+    """Maximum number of stages with coprime counts over these pairings, (n,); 0 if no pairing is feasible."""
     centres: Ints
-    """Fewest different centre distances among these pairings, (n,); large where there are none."""
+    """Minimum number of distinct centre distances over these pairings, (n,); large if no pairing is feasible."""
 
     def taken(self, at: Ints) -> FeasiblePairings:
-        """Some of them."""
+        """Return the rows at the given indices."""
         return FeasiblePairings(self.possible[at], self.coprime[at], self.centres[at])
 
 
 def suited(
     tops: Ints, beneaths: Ints, fit: StageConstraints, *, coprime: bool = True, centres: bool = True
 ) -> FeasiblePairings:
-    """Judge sets of counts, (n, k) on top and beneath, by all k! pairings and choices of the meshes with a ring.
+    """Evaluate all k! pairings and choices of internal meshes of numerator and denominator counts, (n, k) each.
 
-    coprime, centres   False: not wanted; then left at 0
+    coprime, centres   False if this property is not needed; it is then 0
     """
     size = tops.shape[1]
     step = max(_CHUNK // (len(_arrangements(size, fit.internal)[0]) * size), 1)
-    # one chunk at least, so that an empty answer has its columns too
+    # at least one chunk, so that an empty result has its columns too
     parts = [
-        _judged(tops[at : at + step], beneaths[at : at + step], fit, coprime, centres)
+        _evaluate_chunk(tops[at : at + step], beneaths[at : at + step], fit, coprime, centres)
         for at in range(0, max(len(tops), 1), step)
     ]
     return FeasiblePairings(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def _judged(
+def _evaluate_chunk(
     tops: Ints, beneaths: Ints, fit: StageConstraints, coprime: bool, centres: bool
 ) -> tuple[Bools, Ints, Ints]:
-    """The columns of `FeasiblePairings`."""
+    """Return the columns of `FeasiblePairings` for one chunk."""
     size = tops.shape[1]
     orders, rings, meshes, ringed = _arrangements(size, fit.internal)
     possible = np.ones((len(tops), len(orders)), dtype=bool)
     alone = kinds = np.zeros(possible.shape, dtype=np.int64)
     if fit.hunting or coprime:
-        # pairs as bits of one integer: an arrangement is tested by one `and`
+        # pairs as a bit mask: one `and` tests an arrangement
         alone = np.bitwise_count(_code(_coprime(tops, beneaths))[:, None] & meshes).astype(np.int64)
         if fit.hunting:
             possible &= alone == size
@@ -292,13 +294,15 @@ def _judged(
 
 
 def _code(table: Bools) -> Ints:
-    """A table of size x size truths as one integer: bit size i + j for count i on top with count j beneath."""
+    """Encode a table of size x size truths as a bit mask: bit size i + j for numerator count i with denominator count
+    j.
+    """
     size = table.shape[1]
     return table.reshape(len(table), size * size) @ (1 << np.arange(size * size, dtype=np.int64))
 
 
 def _coprime(tops: Ints, beneaths: Ints) -> Bools:
-    """Whether each count on top is coprime to each beneath, (n, k, k)."""
+    """Return whether each numerator count is coprime to each denominator count, (n, k, k)."""
     most = int(max(tops.max(initial=1), beneaths.max(initial=1)))
     if most > _TABLE:
         return np.asarray(np.gcd(tops[:, :, None], beneaths[:, None, :]) == 1)
@@ -313,9 +317,10 @@ def _coprime_table() -> Bools:
 
 @lru_cache(maxsize=32)
 def _arrangements(size: int, internal: int) -> tuple[Ints, Bools, Ints, Ints]:
-    """Every order of the counts beneath with every choice of the stages that have a ring.
+    """Return every permutation of the denominator counts with every choice of the internal stages.
 
-    Orders and choices, (arrangements, size) each; then the meshes and those with a ring, as bits of `_code`.
+    The arrays are permutations and choices, (arrangements, size) each, and the bit masks of all meshes and of the
+    internal meshes, (arrangements,) each, encoded as by `_code`.
     """
     choices = [[stage in chosen for stage in range(size)] for chosen in combinations(range(size), internal)]
     both = [(order, choice) for order in permutations(range(size)) for choice in choices]
@@ -328,17 +333,18 @@ def _arrangements(size: int, internal: int) -> tuple[Ints, Bools, Ints, Ints]:
 def best_pairing(
     top: tuple[int, ...], beneath: tuple[int, ...], fit: StageConstraints | None = None, *, centres: bool = False
 ) -> Pairs | None:
-    """The best of the pairings that satisfy the fit, None if none does.
+    """Return the best pairing that satisfies the constraints, or None if there is none.
 
-    Best: fewest different centre distances (only if `centres`), then most stages with coprime counts, then the most
-    even ratios (least quotient of the greatest and the least). The last `fit.internal` of the pairs have the ring;
-    before and behind that border pairs ascend.
+    The criteria are, in this order, the number of distinct centre distances (only if `centres`), the number of stages
+    with coprime counts, and the quotient of the maximum and the minimum ratio of a stage. The last `fit.internal` of
+    the pairs are internal; external and internal pairs are ascending.
 
     >>> best_pairing((39, 73, 91), (15, 34, 38))  # 39 and 15 have a common divisor
     ((39, 34), (73, 15), (91, 38))
     """
     fit = fit or StageConstraints()
     found: dict[Pairs, tuple[int, int]] = {}
+    # a set, because repeated counts give equal permutations
     for order in set(permutations(beneath)):
         stages = tuple(zip(top, order, strict=True))
         for chosen in combinations(range(len(stages)), fit.internal):
@@ -348,12 +354,13 @@ def best_pairing(
                 found[pairs] = merit
     if not found:
         return None
+    # a common multiple of the denominators, so that ratios are compared as integers
     minimum, scale = min(found.values()), prod(beneath)
     return min((_spread(pairs, scale), pairs) for pairs, merit in found.items() if merit == minimum)[1]
 
 
 def _sorted(stages: Pairs, chosen: tuple[int, ...]) -> Pairs:
-    """External pairs first, then those with a ring, each ascending."""
+    """Return external pairs first, then internal pairs, each ascending."""
     if not chosen:
         return tuple(sorted(stages))
     plain = sorted(pair for at, pair in enumerate(stages) if at not in chosen)
@@ -361,7 +368,7 @@ def _sorted(stages: Pairs, chosen: tuple[int, ...]) -> Pairs:
 
 
 def _merit(pairs: Pairs, fit: StageConstraints, centres: bool) -> tuple[int, int] | None:
-    """What is compared first, least first; None if the pairing does not satisfy the fit."""
+    """Return the sort key of a pairing, best first, or None if it does not satisfy the constraints."""
     border = len(pairs) - fit.internal
     coprime = sum(gcd(a, b) == 1 for a, b in pairs)
     if (fit.hunting and coprime < len(pairs)) or any(a == b for a, b in pairs[border:]):
@@ -375,7 +382,7 @@ def _merit(pairs: Pairs, fit: StageConstraints, centres: bool) -> tuple[int, int
 
 
 def _spread(pairs: Pairs, scale: int) -> Fraction:
-    """Greatest ratio over least; `scale` is a multiple of all counts beneath."""
+    """Return the maximum ratio over the minimum; `scale` is a multiple of all denominator counts."""
     ratios = [a * (scale // b) for a, b in pairs]
     return Fraction(max(ratios), min(ratios))
 
@@ -384,56 +391,60 @@ def _spread(pairs: Pairs, scale: int) -> Fraction:
 
 
 StageOrder = Literal["error", "total", "largest", "distinct", "hunting", "centres"]
-"""What comes first: least |error|, least sum of counts, least largest count, fewest different counts, most stages with
-coprime counts, fewest centre distances. Ties: least |error|, then sum, then largest, then the counts in order."""
+"""Primary criterion of the order: minimum absolute error, sum of counts, largest count, number of distinct counts;
+maximum number of stages with coprime counts; minimum number of centre distances. Ties are broken by absolute error,
+sum, largest count, and the counts.
+"""
 
 StageRank = tuple[int, Fraction, int, int, Set, Set]
-"""What decides between two solutions, least first: what the order asks for, |error|, sum, largest, counts."""
+"""Sort key of a solution, best first: primary criterion, absolute error, sum, largest count, counts of both sides."""
 
 
 def check_order(by: str) -> None:
-    """`QuestionError` for an order that is none."""
+    """Raise `QuestionError` if the order is unknown."""
     if by not in get_args(StageOrder):
         known = ", ".join(get_args(StageOrder))
         raise QuestionError(
-            Problem(f"'{by}' is no order of solutions", "solutions are ranked", f"write one of {known}")
+            Problem(
+                f"'{by}' is not an order of solutions", "the order is one predefined criterion", f"use one of {known}"
+            )
         )
 
 
 @dataclass(frozen=True, slots=True)
 class RankedStages:
-    """Candidates as columns of equal length."""
+    """Candidate solutions as columns of n rows."""
 
     top: Ints
-    """Counts, ascending in each row, (n, k)."""
+    """Numerator counts, ascending in each row, (n, k)."""
     beneath: Ints
-    """Counts, ascending in each row, (n, k)."""
+    """Denominator counts, ascending in each row, (n, k)."""
     over: Ints
-    """Their products, (n,)."""
+    """Products of the numerator counts, (n,)."""
     under: Ints
-    """Their products, (n,)."""
+    """Products of the denominator counts, (n,)."""
     first: Ints
-    """What the order asks for, least first, (n,)."""
+    """Primary criterion of the order, best first, (n,)."""
     error: Floats
-    """|error|, near enough to prune by, (n,)."""
+    """Absolute error, accurate enough for pruning, (n,)."""
 
     def __len__(self) -> int:
         return len(self.first)
 
     def taken(self, at: Ints) -> RankedStages:
-        """Some of the rows."""
+        """Return the rows at the given indices."""
         columns = (self.top, self.beneath, self.over, self.under, self.first, self.error)
         return RankedStages(*(column[at] for column in columns))
 
     @classmethod
     def joined(cls, parts: Sequence[RankedStages]) -> RankedStages:
-        """All rows of all parts."""
+        """Join the rows of all parts."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
 def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints, found: FeasiblePairings | None = None) -> Ints:
-    """What the order asks for first, least first, of sets of counts (n, k) over and beneath."""
+    """Return the primary criterion of the order, best first, for numerator and denominator counts, (n, k) each."""
     if by in ("hunting", "centres"):
         found = found or suited(tops, beneaths, fit, coprime=by == "hunting", centres=by == "centres")
         return -found.coprime if by == "hunting" else found.centres
@@ -448,15 +459,15 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints, found: 
 
 
 def margin(error: float) -> float:
-    """An error that is surely not less than an exact one whose approximation is `error`."""
-    # far wider than the 1e-12 to which errors are known
+    """Return an upper bound of an exact error whose approximation is `error`."""
+    # much larger than the relative error of 1e-12 of the approximations
     return error * (1 + 1e-9) + 2 * ROUNDING
 
 
 def cut(rows: RankedStages, best: int, value: Fraction) -> RankedStages:
-    """The first `best` of the rows in their order, decided exactly."""
+    """Return the first `best` rows in their order, compared exactly."""
     if len(rows) > best:
-        # near errors choose generously, for only these few are compared as Fractions
+        # approximate errors select slightly too many, which are then compared as Fractions
         order = np.lexsort((rows.error, rows.first))
         last = order[best - 1]
         first, error = rows.first[last], margin(float(rows.error[last]))
@@ -472,18 +483,18 @@ def cut(rows: RankedStages, best: int, value: Fraction) -> RankedStages:
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
-    """The key of one solution."""
+    """Return the sort key of one solution."""
     miss = abs(Fraction(prod(top), prod(beneath)) / value - 1)
     return first, miss, sum(top) + sum(beneath), max(*top, *beneath), tuple(top), tuple(beneath)
 
 
 def merged(keys: Iterable[StageRank], best: int) -> list[StageRank]:
-    """The first `best` keys, in order."""
+    """Return the first `best` keys, sorted."""
     return sorted(keys)[:best]
 
 
 class BestStages:
-    """The first n of all rows that are added, in bounded memory."""
+    """List of the first n of all rows that are added, in bounded memory."""
 
     def __init__(self, best: int, value: Fraction, bound: tuple[int, float] | None = None) -> None:
         self.best, self.value = best, value
@@ -493,18 +504,19 @@ class BestStages:
 
     @property
     def bound(self) -> tuple[int, float] | None:
-        """What the order asks for first, and an error: rows past both cannot be among the first n. None: any may be."""
+        """Primary criterion and error beyond which rows cannot be among the first n; None if unknown."""
         return self._bound
 
     def add(self, rows: RankedStages) -> None:
-        """Consider some rows."""
+        """Add rows to the candidates."""
         self._parts.append(rows)
         self._held += len(rows)
+        # several times the list length is stored between two sorts, which amortises their cost
         if self._held > max(4 * self.best, 1 << 17):
             self._settle()
 
     def rows(self) -> RankedStages | None:
-        """The first n, in order; None if no row was added."""
+        """Return the first n rows in order, or None if no row was added."""
         if not self._parts:
             return None
         self._settle()

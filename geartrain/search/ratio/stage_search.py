@@ -1,10 +1,11 @@
-"""One ratio by one to five stages of gear pairs: every solution within a tolerance, or the best, proved.
+"""Search for one ratio by one to five stages of gear pairs: all solutions within a tolerance, or the best with proof.
 
-A train of k stages has the ratio P / Q, P and Q products of k counts each. For every product Q beneath, those P on top
-that are within the tolerance are a window of a sorted list: sorted products answer what trying all pairs would, at the
-cost of sorting. Where a window ends is decided in integers. Products are made in segments of value, which bounds the
-memory and makes independent pieces of work: four stages of 200 counts (69 million sets a side) stay below 0.2 GB, five
-(2800 million) below 0.4 GB; conditions and other orders stay below 0.5 GB.
+A train of k stages has the ratio P / Q, where P and Q are products of k tooth counts each. For every denominator
+product Q, the numerator products P within the tolerance are a contiguous window of a sorted list. This meet-in-the-
+middle search finds all solutions at the cost of sorting. The ends of the windows are determined in integers. Products
+are generated in segments of value, which bounds the memory and gives independent tasks. Four stages of 200 counts
+(69 million multisets per side) need less than 0.2 GB, five (2800 million) less than 0.4 GB, and with constraints and
+other orders less than 0.5 GB.
 """
 
 from __future__ import annotations
@@ -14,11 +15,11 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
-from typing import Literal
+from typing import ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets, rounded_up
@@ -29,21 +30,36 @@ from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import CountRuns, Counts
 
 OUTSIDE = "outside the tolerance"
-SENSE = "the other sense of rotation"
+SENSE = "opposite sense of rotation"
 DEFAULT_TOLERANCE = Fraction(1, 10**6)
-_FAR = 10**12  # times beyond all ratios of the counts
-_LONG = 100_000  # counts of a wheel beyond which single pairs come from the tree of fractions, not from tables
-_QUICK = 3 * 10**6  # products made to find out what one more stage would give
+_FAR = 10**12  # factor beyond the ratios of all counts
+_LONG = 100_000  # number of counts of a wheel beyond which single pairs are found without tables
+_QUICK = 3 * 10**6  # maximum number of products for the suggestion of one more stage
 
 
 @dataclass(frozen=True, slots=True)
-class StageFindings(Result):
-    """Solutions of one ratio by stages: pairs of unordered sets of counts. A sequence of its `solutions`.
+class StageFindings(Tabular, Result):
+    """Solutions of one ratio by stages as pairs of multisets of counts. The object is a sequence of its `solutions`.
 
     See Also
     --------
-    find_stages : gives it.
+    find_stages : returns it.
     """
+
+    ROWS = "search.tooth_numbers_report:stage_rows"
+    MEANINGS: ClassVar = {
+        "top": "Tooth counts of the numerator.",
+        "beneath": "Tooth counts of the denominator.",
+        "ratio": "Product of the numerator counts over product of the denominator counts [1].",
+        "value": "Ratio as a float [1].",
+        "error": "Ratio over the requested ratio, minus 1 [1].",
+        "stages": "Stages of the best pairing.",
+        "total": "Sum of all tooth counts.",
+        "largest": "Largest tooth count.",
+        "distinct": "Number of distinct tooth counts.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_stages"
 
     KEYS = (
         "wanted",
@@ -63,49 +79,56 @@ class StageFindings(Result):
     )
 
     wanted: TargetRatio
-    """The ratio."""
+    """Requested ratio."""
     stages: int
     """Number of stages."""
     top: Sequence[int]
-    """Admissible counts on top, ascending."""
+    """Admissible counts of the numerator, ascending."""
     beneath: Sequence[int]
-    """Admissible counts beneath, ascending."""
+    """Admissible counts of the denominator, ascending."""
     fit: StageConstraints
-    """Conditions on the counts."""
+    """Constraints on the counts."""
     by: str
-    """The order of `solutions`."""
+    """Order of `solutions`."""
     tolerance: Fraction | None
-    """The greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list; None where
-    the best pairs of long ranges were found without any."""
+    """Maximum absolute error as a fraction of the ratio: the requested one, or the one that proves the list. None if
+    the best pairs of long ranges were found without a tolerance.
+    """
     complete: bool
-    """True if everything within the tolerance was looked at; False if the search was interrupted."""
+    """True if all candidates within the tolerance were examined; False if the search was interrupted."""
     count: int | None
     """Number of solutions within the tolerance, exact if `complete`; None without a tolerance."""
     solutions: tuple[GearStages, ...]
-    """The best of them."""
+    """Best solutions in the order `by`."""
     shortfall: Shortfall
-    """Where the other pairs of sets went."""
+    """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
-    """What was assumed, in words; empty if nothing."""
+    """Assumptions that were made; empty if none."""
+
+    def _summary(self) -> str:
+        best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
+        return (
+            f"{self.wanted.label or self.wanted.value}: {len(self.solutions)} solutions in {self.stages} stages{best}"
+        )
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """Whether the search was whole."""
+        """ "whole" if the search was completed, "interrupted" if not."""
         return "whole" if self.complete else "interrupted"
 
     @property
     def considered(self) -> int:
-        """Number of pairs of unordered sets that the admissible counts make."""
+        """Number of pairs of multisets of admissible counts."""
         return self.shortfall.considered
 
     @property
     def top_runs(self) -> str:
-        """The counts that may stand on top, as they are asked for: `15:60`."""
+        """Admissible counts of the numerator as text, such as `15:60`."""
         return str(CountRuns.of(self.top)) if self.top else ""
 
     @property
     def beneath_runs(self) -> str:
-        """The counts that may stand beneath."""
+        """Admissible counts of the denominator as text."""
         return str(CountRuns.of(self.beneath)) if self.beneath else ""
 
     def __len__(self) -> int:
@@ -132,53 +155,55 @@ def find_stages(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> StageFindings:
-    """Solutions of a ratio by stages of gear pairs, counted, and the best of them: meet in the middle.
+    """Find and count the solutions of a ratio by stages of gear pairs, and list the best; meet in the middle.
 
-    Every product of counts beneath finds its window in the sorted products on top; where a window ends is decided in
-    integers. The answer is complete.
+    For every denominator product the window of numerator products within the tolerance is found in a sorted list. The
+    ends of the windows are determined in integers, and the search is exhaustive.
 
     Parameters
     ----------
     wanted : TargetRatio
-        The ratio, teeth on top over teeth beneath. Its sense, if it asks for one, must be that of so many external and
-        internal meshes.
+        The ratio, numerator over denominator. If its sense of rotation is given, it must agree with the numbers of
+        external and internal meshes.
     stages : int
-        Gear pairs one after the other, 1 to 5.
+        Number of gear pairs in series, 1 to 5.
     wheels, pinions : sequence of int
-        Admissible counts: of a ratio of 1 or more those on top and those beneath, of one below 1 the other way round.
+        Admissible tooth counts of the numerator and the denominator for a ratio of 1 or more, and the opposite for a
+        ratio below 1.
     tolerance : Fraction, optional
-        Greatest |error| as a fraction of the ratio, 0 or more. Without it the order by error finds and proves the best,
-        within a tolerance that holds enough of them; other orders take 1e-6, and `note` says so.
+        Maximum absolute error as a fraction of the ratio, 0 or more. Without it, the order by error finds and proves
+        the best, within a tolerance that includes enough of them; other orders use 1e-6, which `note` reports.
     best : int
-        How many to list, 1 or more.
+        Maximum length of the list, 1 or more.
     by : {"error", "total", "largest", "distinct", "hunting", "centres"}
-        What comes first: least |error|, fewest teeth together, least largest count, fewest different counts, most
-        stages with coprime counts, fewest centre distances. Ties: least |error|, then sum, largest, and the counts.
+        Primary criterion: minimum absolute error, sum of counts, largest count, number of distinct counts, maximum
+        number of stages with coprime counts, minimum number of centre distances. Ties are broken by absolute error,
+        sum, largest count, and the counts.
     fit : StageConstraints, optional
-        Conditions on the counts.
+        Constraints on the counts.
     executor : concurrent.futures.Executor, optional
-        Where independent pieces of a large search run; default here. The answer does not depend on it.
+        Executor of the independent tasks of a large search; this process by default. It does not change the result.
     journal : Journal, optional
-        Where finished pieces are kept, for a run that may be cut.
+        Store of finished tasks, so that an interrupted run can be resumed.
     tell : callable, optional
-        Called with (pieces done, pieces in all).
+        Progress function, called with (tasks done, total tasks).
 
     Returns
     -------
     StageFindings
-        With `complete` False if an interrupt from the keyboard ended the search early.
+        Its `complete` is False if a keyboard interrupt ended the search early.
 
     Raises
     ------
     QuestionError
-        For a question that makes no sense.
+        If an argument is invalid.
     RangeError
-        For counts whose tables would not fit in memory (more than some 400 counts for four stages and more), and for a
-        ratio far out of reach.
+        If the tables of products would not fit in memory (more than about 400 counts for four or more stages), or if
+        the ratio is far out of reach.
 
     Examples
     --------
-    The 13.368 turns of the Moon in a year, 254/19, by two stages:
+    The 13.368 revolutions of the Moon in a year, 254/19, by two stages:
 
     >>> from geartrain.search import (read_counts, read_ratio)
     >>> counts = read_counts("15:130")
@@ -188,6 +213,7 @@ def find_stages(
     """
     fit = fit or StageConstraints()
     larger, smaller = CountRuns.of(wheels), CountRuns.of(pinions)
+    # a single external pair reverses the sense, so a positive sense has no solution
     plain = by == "error" and fit == StageConstraints() and wanted.sense <= 0
     if stages == 1 and plain and max(len(larger), len(smaller)) > _LONG:
         return _long_ranges(wanted, larger, smaller, tolerance, best)
@@ -210,7 +236,7 @@ def find_stages(
 def _long_ranges(
     wanted: TargetRatio, wheels: CountRuns, pinions: CountRuns, tolerance: Fraction | None, best: int
 ) -> StageFindings:
-    """Single pairs of long ranges, found without a list of the counts."""
+    """Return the solutions with a single pair in long ranges, without a list of the counts."""
     solutions = find_pairs(wanted, wheels, pinions, tolerance, best)
     count = None if tolerance is None else count_pairs(wanted, wheels, pinions, tolerance)
     top, beneath = (wheels, pinions) if wanted.value >= 1 else (pinions, wheels)
@@ -229,14 +255,16 @@ def _question(
     by: str,
     fit: StageConstraints,
 ) -> tuple[StageProblem, int, str]:
-    """The question in plain data, the number of pairs of sets, and what is assumed."""
+    """Return the problem as plain data, the number of pairs of multisets, and a note on assumptions."""
     check_order(by)
     if not 1 <= stages <= MOST_STAGES:
-        raise _refused(f"{stages} stages are asked for", f"1 to {MOST_STAGES} can be searched", "take fewer stages")
+        raise _question_error(f"stages is {stages}", f"it must be from 1 to {MOST_STAGES}", f"give 1 to {MOST_STAGES}")
     if best < 1:
-        raise _refused(f"the best {best} are asked for", "that is no list", "ask for 1 or more")
+        raise _question_error(f"best is {best}", "a list has at least one solution", "give 1 or more")
     if tolerance is not None and tolerance < 0:
-        raise _refused(f"the tolerance is {tolerance}", "no error is less than 0", "give 0 or more, such as 1e-6")
+        raise _question_error(
+            f"the tolerance is {tolerance}", "a tolerance must not be negative", "give 0 or more, such as 1e-6"
+        )
     fit.check(stages)
     given = [tuple(CountRuns.of(each).as_array().tolist()) for each in counts]
     top, beneath = given if wanted.value >= 1 else given[::-1]
@@ -245,7 +273,7 @@ def _question(
         top, beneath = (tuple(count for count in each if count <= fit.largest) for each in (top, beneath))
     note = ""
     if tolerance is None and by != "error":
-        note = f"no tolerance was given, and the order by {by} needs one: it is 1e-6"
+        note = f"the order by {by} needs a tolerance, and 1e-6 was used"
     used = DEFAULT_TOLERANCE if tolerance is None else Fraction(tolerance)
     return StageProblem(wanted.value, stages, top, beneath, fit, by, best, used), considered, note
 
@@ -270,64 +298,64 @@ def _findings(
 
 
 def _stages(key: StageRank, question: StageProblem) -> GearStages:
-    """One solution, paired."""
+    """Return one solution with its best pairing."""
     top, beneath = key[4:]
     ratio = Fraction(prod(top), prod(beneath))
     pairs = best_pairing(top, beneath, question.fit, centres=question.by == "centres")
-    assert pairs is not None  # the search lists only what can be paired
+    assert pairs is not None  # the search lists only solutions with a feasible pairing
     return GearStages(top, beneath, ratio, ratio / question.value - 1, pairs)
 
 
 def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
-    """No train of so many external meshes turns that way."""
+    """Return the shortfall if the numbers of external and internal meshes contradict the requested sense."""
     stages, internal = question.stages, question.fit.internal
     rings = internal + 1 if internal < stages else internal - 1
     has = "the same sense as" if question.fit.sense(stages) > 0 else "the opposite sense to"
     return Shortfall(
         considered,
         {SENSE: considered},
-        f"{plural(stages, 'stage')}, {internal} with a ring: the output has {has} the input, whatever the counts",
+        f"with {plural(stages, 'stage')}, {internal} of them internal, the output has {has} the input for all counts",
         f"add an idler, or a stage (stages={stages + 1}), or make a mesh internal (internal={rings})",
     )
 
 
 def _too_large(question: StageProblem, considered: int) -> Shortfall:
     largest = question.fit.largest
-    reason = f"a count above {largest}"
-    return Shortfall(considered, {reason: considered}, "no count is left", f"let largest be more than {largest}")
+    reason = f"count above {largest}"
+    return Shortfall(considered, {reason: considered}, f"all counts exceed {largest}", f"give largest above {largest}")
 
 
 def _check_reach(question: StageProblem) -> None:
-    """`RangeError` for products that would not fit in memory, or a ratio that is far beyond all of them."""
+    """Raise `RangeError` if the products would not fit in memory or if the ratio is far out of reach."""
     for counts in (question.top, question.beneath):
         check_memory(counts, question.stages, question.plain_integers)
     low, high = question.reach
     if not low / _FAR < question.value < high * _FAR:
-        made = f"{question.stages} stages of these counts make {decimal(low, 3)} to {decimal(high, 3)}"
+        made = f"ratios of {question.stages} stages with these counts are from {decimal(low, 3)} to {decimal(high, 3)}"
         raise RangeError(
             Problem(
                 f"a ratio of {decimal(question.value, 3)} is far out of reach",
                 made,
-                "take more stages, or a wider range of counts",
+                "use more stages, or a wider range of counts",
             )
         )
 
 
-def _refused(what: str, why: str, fix: str) -> QuestionError:
+def _question_error(what: str, why: str, fix: str) -> QuestionError:
     return QuestionError(Problem(what, why, fix))
 
 
-# --------------------------------------------- why there are no stages, or so few: what was nearest, and what to relax
+# ------------------------------------- explanation of short results: nearest miss and constraints to relax
 
 
 def tolerance_text(tolerance: Fraction) -> str:
-    """A tolerance or an error in a few digits, never less than it is."""
+    """Format a tolerance or an error with a few digits, rounded up."""
     return decimal(rounded_up(tolerance), 6)
 
 
 def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
-    """Reason -> pairs of sets it removed; with the solutions they make all that were considered."""
-    removed = {f"a count above {question.fit.largest}": considered - question.considered}
+    """Return reason -> number of rejected pairs of multisets. Their sum and the solutions equal `considered`."""
+    removed = {f"count above {question.fit.largest}": considered - question.considered}
     known = dict(outcome.removed)
     if question.fit.reverted and not question.fit.internal:
         removed.update(tally(question))
@@ -338,36 +366,37 @@ def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> M
 
 
 def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
-    """The account, and for an empty outcome the nearest miss and what to relax."""
+    """Return the rejected pairs by reason; for an empty result also the nearest miss and the constraints to relax."""
     if not outcome.complete:
-        return Shortfall(considered, {}, advice="the search was cut short; take it up again, or narrow the counts")
+        return Shortfall(considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts")
     removed = account(question, considered, outcome)
     if outcome.count:
         return Shortfall(considered, removed)
+    # the journal belongs to the search itself, not to its explanation
     one, means = replace(question, by="error", best=1), replace(means, journal=None)
     try:
         miss = nearest(one, means)
         plain = miss if question.fit.free else nearest(replace(one, fit=StageConstraints()), means)
         advice = "; ".join(_advice(question, miss, removed, sense))
-    except KeyboardInterrupt:  # the answer stands, only its explanation is cut short
+    except KeyboardInterrupt:  # the result is complete, only its explanation is interrupted
         return Shortfall(considered, removed)
     return Shortfall(considered, removed, _nearest(question, miss, plain), advice)
 
 
 def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
-    """The best of all in words, and the best without conditions where that is another one."""
+    """Describe the nearest miss, and the best solution without constraints if it differs."""
     parts = []
     if miss.keys and miss.complete:
         parts.append(in_words(miss.keys[0], question.value))
     elif miss.complete and not miss.note:
-        parts.append("no counts satisfy the conditions, whatever the tolerance")
+        parts.append("no counts satisfy the constraints at any tolerance")
     if plain.keys and plain.complete and plain.keys[:1] != miss.keys[:1]:
-        parts.append(f"without conditions {in_words(plain.keys[0], question.value)}")
+        parts.append(f"without constraints {in_words(plain.keys[0], question.value)}")
     return "; ".join(parts)
 
 
 def in_words(key: StageRank, value: Fraction) -> str:
-    """Counts, ratio and error of one solution."""
+    """Format counts, ratio and error of one solution."""
     top, beneath = key[4:]
     ratio = Fraction(prod(top), prod(beneath))
     counts = f"{' x '.join(map(str, top))} / {' x '.join(map(str, beneath))}"
@@ -375,21 +404,21 @@ def in_words(key: StageRank, value: Fraction) -> str:
 
 
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
-    """What to relax, most certain first."""
+    """Yield suggestions to relax the constraints, the most reliable first."""
     if miss.keys and miss.complete:
         yield f"a tolerance of {tolerance_text(miss.keys[0][1])} gives a solution"
     for reason, number in removed.items():
-        if reason not in (OUTSIDE, f"a count above {question.fit.largest}") and not question.fit.reverted:
-            yield f"'{reason}' removed {number} within the tolerance: give it up"
+        if reason not in (OUTSIDE, f"count above {question.fit.largest}") and not question.fit.reverted:
+            yield f"relax the constraint that rejected {number} candidates within the tolerance ({reason})"
     if question.stages < MOST_STAGES:
         yield from _one_more(question, sense)
 
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
-    """What another stage would give, if that is quickly known."""
+    """Yield the result of one more stage if it can be computed quickly."""
     size = question.stages + 1
     fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit
-    ring = ", its mesh with a ring so that the sense stays," if sense else ""
+    ring = " with an internal mesh, which keeps the sense," if sense else ""
     more = replace(question, stages=size, best=1, by="error", fit=fit)
     if max(multisets(len(counts), size) for counts in (question.top, question.beneath)) > _QUICK or not fit.free:
         yield f"try {size} stages"

@@ -1,4 +1,4 @@
-"""`geartrain teeth ratio RATIO`: stages of gear pairs."""
+"""Command `geartrain teeth ratio RATIO`: search for stages of gear pairs."""
 
 from __future__ import annotations
 
@@ -31,21 +31,25 @@ context_settings = NEGATIVE_NUMBERS
 def run(
     context: typer.Context,
     ratio: Ratio,
-    stages: Annotated[int, typer.Option("--stages", min=1, max=5, help="Gear pairs one after the other.")] = 2,
+    stages: Annotated[int, typer.Option("--stages", min=1, max=5, help="Number of gear pairs in series.")] = 2,
     counts: Range = ANY_COUNT,
     wheels: Wheels = None,
     pinions: Pinions = None,
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres.")
+        str, typer.Option("--by", help="Order of the solutions: error, total, largest, distinct, hunting, centres.")
     ] = "error",
     per: Per = None,
-    internal: Annotated[int, typer.Option("--internal", min=0, help="Pairs with a ring, which keep the sense.")] = 0,
-    hunting: Annotated[Flag, typer.Option("--hunting", help="Wheels that mesh have no common divisor.")] = False,
-    reverted: Annotated[Flag, typer.Option("--reverted", help="All pairs have one centre distance.")] = False,
-    different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
-    most_total: Annotated[int | None, typer.Option("--most-total", min=2, help="Greatest sum of all counts.")] = None,
+    internal: Annotated[
+        int, typer.Option("--internal", min=0, help="Number of internal pairs, which keep the sense.")
+    ] = 0,
+    hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
+    reverted: Annotated[Flag, typer.Option("--reverted", help="Require equal centre distances of all pairs.")] = False,
+    different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
+    most_total: Annotated[
+        int | None, typer.Option("--most-total", min=2, help="Maximum sum of all tooth counts.")
+    ] = None,
     workers: Workers = None,
     dask: Dask = None,
     resume: Resume = False,
@@ -54,7 +58,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Stages of gear pairs with a wanted ratio: every solution within a tolerance counted, the best proved."""
+    """Find gear pairs in series for a ratio: count all solutions within a tolerance and prove the best."""
     from geartrain.search.ratio.stage_problem import StageConstraints
     from geartrain.search.ratio.stage_search import find_stages
     from geartrain.search.target_ratio import read_ratio

@@ -1,9 +1,9 @@
-"""Variable elimination: how many choices of the counts of added wheels turn every dial as it must.
+"""Count choices of tooth counts of added wheels that give every dial its speed, by variable elimination.
 
-Wheels that change the speeds of the same dials enter by their quotient alone: a group. A dial with one group left fixes
-its quotient; else the smallest group is tried with each quotient that it may have (variable elimination). Tallies of
-products are faster here than the exact join of counts in doubt (`synthesis.join`): 1 to 4 ms a topology against 5 to 7,
-and for seven added wheels 0.6 s against 90 s.
+Wheels that change the speeds of the same dials form a group, which enters only by its quotient. A dial with one group
+left determines the quotient of this group. Otherwise all possible quotients of the smallest group are tried. Tables of
+products are faster here than the exact join of uncertain tooth counts (`search.join`): 1 to 4 ms per topology instead
+of 5 to 7 ms, and for seven added wheels 0.6 s instead of 90 s.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ from numpy.typing import NDArray
 from geartrain.search.reconstruct.train_topology import AddedWheels, CountLimit, Dials, Quotients
 from geartrain.search.weighted_alternatives import draw_index, sums_by
 
-# How many choices of added wheels' counts have a wanted quotient of products. With drivers y and driven wheels x,
-# prod y / prod x = num / den in lowest terms holds exactly where prod y = num m and prod x = den m for a whole m.
-# So the number of choices is the sum over m of P(num m) R(den m), where P(n) is the number of choices of drivers
-# with the product n, and R that of driven wheels.
+# Number of choices of added tooth counts with a given quotient of products. For drivers y and driven wheels x, prod y /
+# prod x = num / den in lowest terms if and only if prod y = num m and prod x = den m for an integer m. The number of
+# choices is therefore the sum over m of P(num m) R(den m), where P(n) is the number of choices of drivers with product
+# n, and R the same for driven wheels.
 
 
 Range = tuple[int, int]
-"""Least and greatest count of an added wheel."""
+"""Minimum and maximum tooth count of an added wheel."""
 
 _LONGEST = 1 << 24
-"""Products in a tally; of more wheels one is tried after the other."""
+"""Maximum length of a table of products. For larger products the counts of one wheel are tried in turn."""
 
 
 @lru_cache(maxsize=16)
 def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
-    """Number of choices with the product n at index n."""
+    """Return an array whose entry n is the number of choices of `wheels` tooth counts with product n."""
     if not wheels:
         return np.array([0, 1], dtype=np.int64)
     before = product_tally(wheels - 1, counts)
@@ -51,7 +51,7 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """How many choices of counts have prod(drivers) / prod(driven) = quotient; wheels are told apart."""
+    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient; wheels are distinguishable."""
     minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
     last = min(maximum**drivers // num, maximum**driven // den)
@@ -59,7 +59,7 @@ def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) 
     if last < first:
         return 0
     if drivers <= 1 and driven <= 1:
-        # 1 is the only product of no wheels
+        # the empty product is 1
         return last - first + 1 if drivers and driven else int(first <= 1 <= last)
     if maximum ** max(drivers, driven) <= _LONGEST:
         above = product_tally(drivers, counts)[first * num : last * num + 1 : num]
@@ -74,7 +74,7 @@ def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) 
 def list_choices(
     quotient: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
-    """The choices themselves: counts of the drivers, and of the driven wheels."""
+    """Yield the choices (counts of the drivers, counts of the driven wheels) with a given quotient."""
     num, den = quotient.numerator, quotient.denominator
     last = min(counts[1] ** drivers // num, counts[1] ** driven // den)
     for common in range(1, last + 1):
@@ -86,9 +86,9 @@ def list_choices(
 def quotients_of_parts(
     quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
 ) -> tuple[tuple[Fraction, int], ...]:
-    """Quotients of the first of two parts that make a quotient together, each with the number of choices of both.
+    """Return the quotients of the first of two parts with a given total quotient, each with its number of choices.
 
-    A part is its numbers of drivers and of driven wheels.
+    A part is given by its numbers of drivers and of driven wheels.
     """
     found: dict[Fraction, int] = {}
     for drivers, driven in list_choices(quotient, one[0] + other[0], one[1] + other[1], counts):
@@ -99,7 +99,7 @@ def quotients_of_parts(
 
 @lru_cache(maxsize=1 << 16)
 def factorings(number: int, wheels: int, counts: Range) -> tuple[tuple[int, ...], ...]:
-    """Counts of so many wheels with a given product, in every order."""
+    """Return all ordered factorizations of a number into `wheels` tooth counts."""
     minimum, maximum = counts
     if not minimum**wheels <= number <= maximum**wheels:
         return ()
@@ -111,7 +111,7 @@ def factorings(number: int, wheels: int, counts: Range) -> tuple[tuple[int, ...]
 
 @dataclass(frozen=True)
 class QuotientTable:
-    """All quotients of products of counts, rising: in lowest terms, with the number of choices of each."""
+    """Sorted table of quotients of products of tooth counts in lowest terms, with their numbers of choices."""
 
     tops: NDArray[np.int64]
     bottoms: NDArray[np.int64]
@@ -120,17 +120,17 @@ class QuotientTable:
 
     @staticmethod
     def of(tops: NDArray[np.int64], bottoms: NDArray[np.int64], choices: NDArray[np.int64]) -> QuotientTable:
-        """The table of quotients that may come several times, not in lowest terms."""
+        """Build the table from quotients that may be repeated and not in lowest terms."""
         common = np.gcd(tops, bottoms)
         pairs, at = np.unique(np.stack([tops // common, bottoms // common]), axis=1, return_inverse=True)
         number = sums_by(at.ravel(), choices, pairs.shape[1])
-        # two of them differ by more than rounding: their denominators are short
+        # floats distinguish all quotients, because their denominators are small
         values = pairs[0] / pairs[1]
         order = np.argsort(values)
         return QuotientTable(pairs[0][order], pairs[1][order], number[order], values[order])
 
     def within(self, minimum: Fraction, maximum: Fraction) -> slice:
-        """Where the quotients within bounds stand."""
+        """Return the slice of the quotients within bounds."""
         first = int(np.searchsorted(self.values, float(minimum) * (1 - 1e-15)))
         last = int(np.searchsorted(self.values, float(maximum) * (1 + 1e-15), side="right"))
         while first < last and self[first] < minimum:
@@ -145,7 +145,7 @@ class QuotientTable:
 
 @lru_cache(maxsize=32)
 def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
-    """The table of so many drivers over so many driven wheels."""
+    """Return the table of quotients of `drivers` over `driven` tooth counts."""
     one = np.ones(1, dtype=np.int64)
     if not drivers and not driven:
         return QuotientTable.of(one, one, one)
@@ -160,7 +160,7 @@ def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
 def quotients(
     minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[Fraction, int]]:
-    """Quotients within bounds, rising, each with its number of choices."""
+    """Yield the quotients within bounds in ascending order, each with its number of choices."""
     if minimum == maximum:
         if number := count_choices(minimum, drivers, driven, counts):
             yield minimum, number
@@ -172,7 +172,7 @@ def quotients(
 
 
 def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """How many choices have a quotient within bounds."""
+    """Count choices of tooth counts whose quotient is within bounds."""
     if minimum == maximum:
         return count_choices(minimum, drivers, driven, counts)
     if drivers + driven <= 3:
@@ -191,27 +191,27 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
 Group = tuple[Dials, int, int]
 Wanted = tuple[tuple[str, Quotients], ...]
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
-"""By group, counts of its drivers and of its driven wheels."""
+"""Dials of each group -> tooth counts of its drivers and of its driven wheels."""
 
 
 class AddedCounts:
-    """Assignments of counts from least to greatest to added wheels."""
+    """Assignments of tooth counts between a minimum and a maximum to added wheels."""
 
     def __init__(self, minimum: int, maximum: int) -> None:
         self.range = minimum, maximum
-        self._count = lru_cache(maxsize=1 << 18)(self._counted)
+        self._count = lru_cache(maxsize=1 << 18)(self._count_groups)
 
     @property
     def _choices(self) -> int:
         return self.range[1] - self.range[0] + 1
 
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
-        """How many there are; wheels are told apart."""
-        alike = _alike(added.groups, wanted)
+        """Count the assignments that satisfy all dials; wheels are distinguishable."""
+        alike = _merged_dials(added.groups, wanted)
         return int(self._count(added.groups, alike) * self._choices**added.idle) if alike is not None else 0
 
     def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
-        """The same where some of the wheels have a limit of their own, below the greatest count of all."""
+        """Count the assignments if some wheels have maximum counts of their own."""
         if not limits:
             return self.count(added, wanted)
         limit, others = limits[0], limits[1:]
@@ -230,14 +230,14 @@ class AddedCounts:
         return self.count_limited(added, wanted, others) - among(ruled_out)
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
-        """The assignments themselves, and the counts of wheels that change no speed."""
-        alike = _alike(added.groups, wanted)
+        """Yield the assignments as counts of the groups and counts of wheels that change no speed."""
+        alike = _merged_dials(added.groups, wanted)
         for counts in self._listed(added.groups, alike) if alike is not None else ():
             for idle in product(range(self.range[0], self.range[1] + 1), repeat=added.idle):
                 yield counts, idle
 
-    def _counted(self, groups: tuple[Group, ...], wanted: Wanted) -> int:
-        if not _may_hold(groups, wanted):
+    def _count_groups(self, groups: tuple[Group, ...], wanted: Wanted) -> int:
+        if not _may_satisfy(groups, wanted):
             return 0
         step = self._next(groups, wanted)
         if step is None:
@@ -252,14 +252,14 @@ class AddedCounts:
             return own and own * self._count(rest, divided(wanted, dials, bounds[0]))
         pair = _pair(groups, wanted)
         if pair is not None:
-            return self._counted_pair(groups, wanted, *pair)
+            return self._count_pair(groups, wanted, *pair)
         return sum(
             own * self._count(rest, divided(wanted, dials, quotient))
             for quotient, own in quotients(*bounds, drivers, driven, self.range)
         )
 
-    def _counted_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
-        """The same, with two groups whose product is known: few of the one leave what the other may have."""
+    def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
+        """Count the assignments by enumeration of two groups whose total quotient is known."""
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
         kinds = groups[one][1:], groups[other][1:]
         return sum(
@@ -270,7 +270,7 @@ class AddedCounts:
     def _listed(self, groups: tuple[Group, ...], wanted: Wanted) -> Iterator[Counts]:
         step = self._next(groups, wanted)
         if step is None:
-            if _may_hold(groups, wanted):
+            if _may_satisfy(groups, wanted):
                 yield {}
             return
         at, bounds, _ = step
@@ -284,7 +284,7 @@ class AddedCounts:
 
     @staticmethod
     def _next(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, Quotients, bool] | None:
-        """The group to be settled next, bounds of its quotient, and whether one dial alone asks for it."""
+        """Select the group to eliminate next, with bounds of its quotient, and whether only one dial depends on it."""
         if not groups:
             return None
         alone: dict[int, Quotients] = {}
@@ -302,21 +302,21 @@ class AddedCounts:
         private = next((at for at in alone if len(groups[at][0]) == 1), None)
         if private is not None:
             return private, alone[private], True
-        if alone:  # all that a group may have is what every dial allows that it alone still turns
+        if alone:  # its quotient must satisfy all dials that depend on no other group
             at = min(alone, key=lambda each: (groups[each][1] + groups[each][2], each))
             return at, alone[at], False
-        # so that soon a dial has one group left; it may be that none is left that asks
+        # eliminate a group of the dial with the fewest groups, so that this dial soon has only one left
         at = min(tried)[-1] if tried else 0
         return at, (Fraction(0), _BOUNDLESS), False
 
 
 _BOUNDLESS = Fraction(10**40)
 _LISTED_TOGETHER = 3
-"""Wheels of two groups whose choices are listed for what their product must be."""
+"""Maximum number of wheels in two groups whose choices with a given total quotient are enumerated."""
 
 
 def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Two groups of few wheels that are all that change the speed of an exact dial, and their product."""
+    """Return two small groups that alone determine the speed of an exact dial, with their total quotient."""
     best, fewest = None, _LISTED_TOGETHER + 1
     for dial, (low, high) in wanted:
         own = [at for at, group in enumerate(groups) if dial in group[0]]
@@ -326,14 +326,14 @@ def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction
     return best
 
 
-def _may_hold(groups: tuple[Group, ...], wanted: Wanted) -> bool:
-    """Whether the dials whose speed no group changes any more turn as they must."""
+def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
+    """Return whether the dials without remaining groups have their speeds."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
     return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
 
 
-def _alike(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
-    """Of dials whose speeds the same groups change, one with what all of them want; None if that cannot be."""
+def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
+    """Merge the bounds of dials that depend on the same groups; None if they have no common quotient."""
     found: dict[tuple[int, ...], tuple[str, Quotients]] = {}
     for dial, (low, high) in wanted:
         own = tuple(at for at, group in enumerate(groups) if dial in group[0])
@@ -351,40 +351,40 @@ def _without(wanted: Wanted, dials: Dials) -> Wanted:
 
 
 def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
-    """What is left to be reached by the other groups."""
+    """Return the quotients that the remaining groups must have."""
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
     )
 
 
-# In how many choices of the added wheels' counts a wheel has a count, and choices drawn with equal chances. Wheels
-# of one kind may be exchanged in any choice, so that each of them has a count equally often.
+# Number of choices in which a wheel has a given tooth count, and uniform random choices. Wheels of one kind are
+# interchangeable, so each of them has a given count equally often.
 
 
 _FEW = 2000
-"""Choices up to which they are listed: it is faster than to count those with each count."""
+"""Maximum number of choices that are enumerated, which is then faster than counting for each tooth count."""
 
 
 class AddedKind(NamedTuple):
-    """Added wheels of which none is told from another by the speeds of dials."""
+    """Kind of added wheels that the speeds of dials do not distinguish."""
 
     dials: Dials
-    """Whose speed they change; none for a wheel that changes no speed."""
+    """Dials whose speed the wheels change; empty for wheels that change no speed."""
     drives: bool
-    """Whether they drive on the way to them."""
+    """True for driving wheels on the way to these dials, False for driven wheels."""
     most: int | None = None
-    """Teeth that a ring allows, None for no limit but that of all."""
+    """Maximum tooth count in a mesh with a ring; None if only the general limit applies."""
 
 
 class OpenCounts(NamedTuple):
-    """Added wheels whose counts are open, what their quotients must be, and limits that rings set, sorted."""
+    """Added wheels without tooth counts, their required quotients, and the limits that rings set, sorted."""
 
     added: AddedWheels
     wanted: Wanted
     limits: tuple[CountLimit, ...] = ()
 
     def kinds(self) -> Iterator[tuple[AddedKind, int]]:
-        """Each kind with the number of its wheels."""
+        """Yield each kind with the number of its wheels."""
         limited = {kind: self.limits.count(kind) for kind in self.limits}
         for kind, number in limited.items():
             yield AddedKind(*kind), number
@@ -396,7 +396,7 @@ class OpenCounts(NamedTuple):
                 yield AddedKind(dials, drives), left
 
     def with_one(self, kind: AddedKind, count: int) -> OpenCounts:
-        """What is open once a wheel of a kind has a count, which its limit allows."""
+        """Return the remaining problem after one wheel of a kind has a tooth count, which must satisfy its limit."""
         limits = list(self.limits)
         if kind.most is not None:
             limits.remove(CountLimit(kind.dials, kind.drives, kind.most))
@@ -408,14 +408,14 @@ class OpenCounts(NamedTuple):
 
 
 class _FewChoices(NamedTuple):
-    """Sums over choices one by one."""
+    """Sums over enumerated choices."""
 
     of_kind: dict[AddedKind, Counter[int]]
     with_any: Counter[int]
 
 
 class AddedCountSums:
-    """Sums over all choices of counts from least to greatest."""
+    """Sums over all choices of tooth counts of added wheels."""
 
     def __init__(self, counts: AddedCounts) -> None:
         self._counts = counts
@@ -424,11 +424,11 @@ class AddedCountSums:
         self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
     def total(self, requested: OpenCounts) -> int:
-        """How many choices there are."""
+        """Return the total number of choices."""
         return self._counts.count_limited(requested.added, requested.wanted, requested.limits)
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
-        """By count, in how many choices one wheel of a kind has it; counts that it never has are left out."""
+        """Return tooth count -> number of choices in which one wheel of a kind has it; zeros are omitted."""
         few = self._few(requested)
         if few is not None:
             return few.of_kind[kind]
@@ -438,23 +438,25 @@ class AddedCountSums:
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """By count, in how many choices any of the wheels has it, by inclusion and exclusion."""
+        """Return tooth count -> number of choices in which any wheel has it, by inclusion-exclusion."""
         few = self._few(requested)
         if few is not None:
             return few.with_any
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)
-        return {count: whole - self._signed(requested, kinds, count, whole) for count in sorted(counts)}
+        return {count: whole - self._without_count(requested, kinds, count, whole) for count in sorted(counts)}
 
-    def _signed(self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int) -> int:
-        """The choices in which no wheel of some kinds has a count, of those that are open: so many."""
+    def _without_count(
+        self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
+    ) -> int:
+        """Count the choices in which no wheel of some kinds has a given tooth count, out of `number` choices."""
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]
         found, left, total = 0, requested, number
         for chosen in range(wheels + 1):
-            found += (-1) ** chosen * comb(wheels, chosen) * self._signed(left, others, count, total)
+            found += (-1) ** chosen * comb(wheels, chosen) * self._without_count(left, others, count, total)
             if chosen == wheels or (kind.most is not None and count > kind.most):
                 break
             left = left.with_one(kind, count)
@@ -464,7 +466,7 @@ class AddedCountSums:
         return found
 
     def _few(self, requested: OpenCounts) -> _FewChoices | None:
-        """The sums over choices one by one, where they are so few that this is fast."""
+        """Return the sums over enumerated choices if there are few of them, else None."""
         if requested.limits or self.total(requested) > _FEW:
             return None
         return self._listed(requested)
@@ -474,12 +476,12 @@ class AddedCountSums:
         for counts, idle in self._counts.assignments(requested.added, requested.wanted):
             wheels = {kind: counts[kind.dials][not kind.drives] if kind.dials else idle for kind in kinds}
             for kind, own in wheels.items():
-                found.of_kind[kind][own[0]] += 1  # the first stands for each
+                found.of_kind[kind][own[0]] += 1  # by symmetry the first wheel represents all of its kind
             found.with_any.update({count for own in wheels.values() for count in own})
         return found
 
     def draw(self, requested: OpenCounts, kind: AddedKind, chance: Random) -> tuple[int, OpenCounts]:
-        """The count of one wheel of a kind in a choice that is drawn, and what is open then."""
+        """Sample the tooth count of one wheel of a kind, and return it with the remaining problem."""
         by_count = self.of_kind(requested, kind)
         count = [*by_count][draw_index([*by_count.values()], chance)]
         return count, requested.with_one(kind, count)

@@ -1,4 +1,4 @@
-"""Orders of the arbors on chains: enumerated, or counted and drawn by dynamic programming over subsets."""
+"""Orders of the arbors on chains: enumerated, or counted and sampled by dynamic programming over subsets."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from geartrain.search.reconstruct.train_topology import (
 )
 from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives
 
-# What meshes with a ring: wheels with fewer teeth that are no rings. So an order of arbors may limit added counts.
+# A ring meshes only with external wheels of fewer teeth. The order of arbors may therefore limit added tooth counts.
 
 
 Rings = frozenset[str]
@@ -35,7 +35,10 @@ Rings = frozenset[str]
 
 
 def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
-    """Whether no ring keeps two wheels apart; an added one whose count is open may still be small enough."""
+    """Return whether two wheels can mesh: at most one is a ring, and its mate has fewer teeth.
+
+    An added wheel without a tooth count can mesh with any ring.
+    """
     internal, mate_internal = wheel.name in rings, mate.name in rings
     if internal == mate_internal:
         return not internal
@@ -44,17 +47,17 @@ def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
 
 
 def rings_mesh(arbor: Arbor, rings: Rings) -> bool:
-    """Whether all rings from an arbor on mesh with wheels that fit into them."""
+    """Return whether all rings in the subtree of an arbor mesh with wheels of fewer teeth."""
     return all(may_mesh(wheel, mate, rings) for wheel, mate in _meshes(arbor))
 
 
 def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
-    """Whether an order may limit counts below the greatest: whether a ring is so small."""
+    """Return whether a used ring has at most `maximum` teeth, so that it may limit the counts of added wheels."""
     return any(wheel.name in rings and wheel.teeth <= maximum for wheel in topology.used)
 
 
 class CountTokens:
-    """Added wheels by numbers below 0 instead of counts, so that their mates in an order can be told."""
+    """Negative numbers (tokens) instead of the tooth counts of added wheels, which identify each wheel."""
 
     def __init__(self, added: AddedWheels) -> None:
         self._owners: list[tuple[Dials, bool]] = []
@@ -70,16 +73,16 @@ class CountTokens:
         return tuple(-at - 1 for at in range(first, first + wheels))
 
     def limits(self, arbor: Arbor, rings: Rings, maximum: int) -> tuple[CountLimit, ...]:
-        """The limits below the greatest count that rings set in a train whose added wheels have tokens, sorted."""
+        """Return the limits that rings set in a train with tokens, sorted; only limits below `maximum`."""
         most = self.most(arbor, rings, maximum)
         return tuple(sorted(CountLimit(*self.owner(token), count) for token, count in most.items()))
 
     def owner(self, token: int) -> tuple[Dials, bool]:
-        """The dials whose speed a wheel changes, and whether it drives on the way to them."""
+        """Return the dials whose speed a wheel changes, and whether it drives on the way to them."""
         return self._owners[-token - 1]
 
     def most(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, int]:
-        """The same limits by token."""
+        """Return the limit that rings set for each token, if it is below `maximum`."""
         minimum: dict[int, int] = {}
         for pair in _meshes(arbor):
             for ring, inside in (pair, pair[::-1]):
@@ -95,7 +98,7 @@ def _meshes(arbor: Arbor) -> Iterator[tuple[PlacedWheel, PlacedWheel]]:
         yield from _meshes(child)
 
 
-# The orders in which the arbors of a topology may stand, and the trains that they and the counts make.
+# Orders of the arbors of a topology, and the trains that result from orders and tooth counts.
 
 
 _Step = tuple[str | None, ArborPass]
@@ -103,13 +106,13 @@ COMPOUND, IDLER = -1, -2
 _COMPOUND: _Step = (None, ArborPass(ADDED, ADDED, 0))
 _IDLER: _Step = (None, ArborPass(ADDED, ADDED, 0, idler=True))
 _Driving = tuple[str | None, PlacedWheel]
-"""An arbor by name, None for an added one, and the wheel on it that drives."""
+"""Name of an arbor, None for an added arbor, and the driving wheel on it."""
 _Pairs = frozenset[frozenset[str]]
 
 
 @dataclass(frozen=True)
 class MeshFacts:
-    """What is known of meshes: pairs of wheels that mesh, that do not, pairs of arbors that do not, and rings."""
+    """Known meshes: pairs of wheels that mesh, pairs that do not, coaxial pairs of arbors, and rings."""
 
     meshes: _Pairs = frozenset()
     apart: _Pairs = frozenset()
@@ -118,16 +121,16 @@ class MeshFacts:
 
     @staticmethod
     def of(problem: ReconstructionProblem) -> MeshFacts:
-        """Those of a question."""
+        """Return the known meshes of a question."""
         return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
 
     @property
     def are_any(self) -> bool:
-        """Whether anything is known."""
+        """True if any fact is known."""
         return bool(self.meshes or self.apart or self.coaxial or self.rings)
 
     def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
-        """Which meshes that must be, a mesh is; None if it must not be."""
+        """Return the known mesh that a mesh satisfies, as a set of at most one pair; None if the mesh is excluded."""
         assert driven is not None
         if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1].name, driven.name)) in self.apart:
             return None
@@ -143,14 +146,14 @@ def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
 # orders
 
 
-def _hanging(branching: Branching) -> Iterator[tuple[PlacedWheel, tuple[Chain, ...]]]:
+def _driven_chains(branching: Branching) -> Iterator[tuple[PlacedWheel, tuple[Chain, ...]]]:
     yield from branching.drives
     if branching.passes:
         assert branching.driven is not None
         yield branching.driven, branching.passes
 
 
-def _met_along(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) -> tuple[_Pairs | None, _Driving]:
+def _met_on_chain(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) -> tuple[_Pairs | None, _Driving]:
     found: _Pairs = frozenset()
     for name, each in steps:
         met = facts.met(driving, name, each.driven)
@@ -163,7 +166,7 @@ def _met_along(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) ->
 
 
 def sequences(chain: Chain) -> Iterator[tuple[_Step, ...]]:
-    """The arbors of a chain in each order; added ones are told apart by their kind only."""
+    """Yield the orders of the arbors of a chain. Added arbors of one kind are interchangeable."""
     yield from _sequences(chain.through, chain.compounds, chain.idlers)
 
 
@@ -185,7 +188,7 @@ def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Itera
 
 
 def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: MeshFacts) -> Iterator[Arbor]:
-    """The trains of a topology whose added wheels have these counts, one an order."""
+    """Yield the trains of a topology with given tooth counts of added wheels, one for each permitted order."""
     chains = topology.chains
     for chosen in product(*map(sequences, chains)):
         orders = {id(chain): steps for chain, steps in zip(chains, chosen, strict=True)}
@@ -196,10 +199,10 @@ def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: M
 
 
 def in_order(topology: Topology, orders: Mapping[int, list[int]], counts: Counts, idle: tuple[int, ...]) -> Arbor:
-    """The train of one order.
+    """Return the train of a topology with a given order of arbors.
 
-    orders   by `id` of a chain the arbors on it, from the driving wheel on: the number of a surviving one, `COMPOUND`
-             for an added one with two wheels, or `IDLER`
+    orders   `id` of a chain -> its arbors from the driving wheel on: index of a surviving arbor, `COMPOUND` for an
+             added arbor with two wheels, or `IDLER`
     """
     added = {COMPOUND: _COMPOUND, IDLER: _IDLER}
     steps = {
@@ -214,7 +217,7 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
     waiting = [(chain, (topology.root.name, driver)) for driver, chains in topology.root.drives for chain in chains]
     while waiting:
         chain, driving = waiting.pop()
-        met, last = _met_along(orders[id(chain)], driving, facts)
+        met, last = _met_on_chain(orders[id(chain)], driving, facts)
         if met is None:
             return False
         found |= met
@@ -224,14 +227,14 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
                 return False
             found |= at_end
             end = chain.end
-            waiting += [(each, (end.name, driver)) for driver, chains in _hanging(end) for each in chains]
+            waiting += [(each, (end.name, driver)) for driver, chains in _driven_chains(end) for each in chains]
         else:
             waiting += [(each, last) for each in chain.end]
     return found == facts.meshes
 
 
 class _Assembly:
-    """Puts counts into the added wheels of a topology, one after the other."""
+    """Assembly of a train that assigns tooth counts to the added wheels of a topology one by one."""
 
     def __init__(self, orders: dict[int, tuple[_Step, ...]], counts: Counts, idle: tuple[int, ...]) -> None:
         self.orders = orders
@@ -240,7 +243,7 @@ class _Assembly:
         self.idle = iter(idle)
 
     def branching(self, branching: Branching, dials: Dials) -> Arbor:
-        """An arbor at which paths end or part, with all that hangs from it; `dials` are all below it."""
+        """Return the arbor of a branching with its subtree; `dials` are all dials of the subtree."""
         past = {dial for chain in branching.passes for dial in chain.dials}
         driven = branching.driven
         if driven == ADDED:
@@ -254,11 +257,11 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """All that one wheel drives."""
+        """Return all arbors that one wheel drives."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:
-        """The arbors of a chain, the first one with all others below it."""
+        """Return the first arbor of a chain with the other arbors below it."""
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)
         for name, each in reversed(self.orders[id(chain)]):
@@ -273,16 +276,16 @@ class _Assembly:
         return below
 
 
-# Dynamic programming over the subsets of a chain's arbors: what holds in how many orders, and orders drawn. From the
-# driving wheel on, a chain goes on with one of the arbors that are left. What follows depends on which those are and
-# on the wheel that drives alone, not on how it came to that, so that orders are summed and not listed.
+# Dynamic programming over subsets of the arbors of a chain: marginals over orders, and random orders. From the driving
+# wheel on, a chain continues with one of the remaining arbors. The continuations depend only on the set of remaining
+# arbors and on the driving wheel, so orders are summed without being enumerated.
 
 
 _NamedDriving = tuple[TopologyArbor, TopologyWheel]
 
 
 class NamedMesh(NamedTuple):
-    """That a wheel of one arbor drives one of another."""
+    """Mesh between named wheels: driving arbor, driving wheel, driven arbor."""
 
     arbor: TopologyArbor
     wheel: TopologyWheel
@@ -290,14 +293,14 @@ class NamedMesh(NamedTuple):
 
 
 class AddedPlace(NamedTuple):
-    """That an added wheel of some name is of some kind."""
+    """Name of an added wheel with its kind."""
 
     name: str
     kind: AddedKind
 
 
 class ChainStep(NamedTuple):
-    """The arbor at a place on a chain: the number of a surviving one, -1 for two added wheels, -2 for an idler."""
+    """Arbor at a place on a chain: index of a surviving arbor, `COMPOUND` or `IDLER`."""
 
     chain: NamedChain
     place: int
@@ -305,8 +308,8 @@ class ChainStep(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Ahead:
-    """What is left to be put on a chain, what drives it, and pairs that must mesh there or below."""
+class _ChainState:
+    """State of the dynamic programme: arbors not yet placed, driving wheel, pairs that must mesh below."""
 
     chain: NamedChain
     through: frozenset[int]
@@ -316,16 +319,16 @@ class _Ahead:
     pairs: _Pairs
 
 
-class _Start(NamedTuple):
-    """An arbor at which paths end or part, and pairs that must mesh below it."""
+class _BranchingState(NamedTuple):
+    """Branching, and pairs of wheels that must mesh below it."""
 
     branching: NamedBranching
     pairs: _Pairs
 
 
 def topology_orders(root: NamedBranching, facts: MeshFacts) -> WeightedAlternatives[Hashable]:
-    """The orders of a topology that agree with what is known of meshes, each of weight 1."""
-    return WeightedAlternatives(_Start(root, facts.meshes), _Orders(facts).alternatives)
+    """Return the orders of a topology that satisfy the known meshes, each with weight 1."""
+    return WeightedAlternatives(_BranchingState(root, facts.meshes), _Orders(facts).alternatives)
 
 
 @dataclass(frozen=True)
@@ -333,12 +336,12 @@ class _Orders:
     facts: MeshFacts
 
     def alternatives(self, node: Hashable) -> Iterator[Alternative[Hashable]]:
-        """What may come next."""
-        if not isinstance(node, _Ahead):
-            assert isinstance(node, _Start)
+        """Yield the alternatives for the next arbor of a state."""
+        if not isinstance(node, _ChainState):
+            assert isinstance(node, _BranchingState)
             branching, pairs = node
-            places = tuple(_place(wheel) for wheel in branching.wheels() if wheel.kind is not None)
-            yield from self._onward(branching, pairs, places)
+            places = tuple(_added_place(wheel) for wheel in branching.wheels() if wheel.kind is not None)
+            yield from self._from_branching(branching, pairs, places)
             return
         for at in node.through:
             yield from self._step(node, node.chain.through[at], at, node.through - {at}, node.compounds, node.idlers)
@@ -351,53 +354,53 @@ class _Orders:
             yield from self._end(node)
 
     def _step(
-        self, node: _Ahead, arbor: TopologyArbor, which: int, through: frozenset[int], compounds: int, idlers: int
+        self, node: _ChainState, arbor: TopologyArbor, which: int, through: frozenset[int], compounds: int, idlers: int
     ) -> Iterator[Alternative[Hashable]]:
-        """The arbor that stands next."""
+        """Yield the alternative that places one arbor next, if it satisfies the known meshes."""
         left = self._left(node, arbor)
         if left is None:
             return
         assert arbor.driver is not None
         place = node.chain.chain.arbors - len(through) - compounds - idlers - 1
         wheels = dict.fromkeys([arbor.driven, arbor.driver])
-        places = tuple(_place(wheel) for wheel in wheels if wheel is not None and wheel.kind is not None)
-        ahead = _Ahead(node.chain, through, compounds, idlers, (arbor, arbor.driver), left)
+        places = tuple(_added_place(wheel) for wheel in wheels if wheel is not None and wheel.kind is not None)
+        ahead = _ChainState(node.chain, through, compounds, idlers, (arbor, arbor.driver), left)
         tells = (NamedMesh(*node.driving, arbor), ChainStep(node.chain, place, which), *places)
         yield Alternative(1, tells, (ahead,))
 
-    def _end(self, node: _Ahead) -> Iterator[Alternative[Hashable]]:
-        """What a chain ends with."""
+    def _end(self, node: _ChainState) -> Iterator[Alternative[Hashable]]:
+        """Yield the alternatives for the end of a chain."""
         end = node.chain.end
         if not isinstance(end, NamedBranching):
-            yield from self._hung([(node.driving, chain) for chain in end], node.pairs, ())
+            yield from self._distributed([(node.driving, chain) for chain in end], node.pairs, ())
             return
         left = self._left(node, end.arbor)
         if left is not None:
-            yield Alternative(1, (NamedMesh(*node.driving, end.arbor),), (_Start(end, left),))
+            yield Alternative(1, (NamedMesh(*node.driving, end.arbor),), (_BranchingState(end, left),))
 
-    def _left(self, node: _Ahead, arbor: TopologyArbor) -> _Pairs | None:
-        """Pairs that must mesh still after an arbor is driven; None if it must not be driven so."""
+    def _left(self, node: _ChainState, arbor: TopologyArbor) -> _Pairs | None:
+        """Return the pairs that must still mesh after an arbor is driven; None if the mesh is excluded."""
         source, wheel = node.driving
         met = self.facts.met((source.survivor, wheel.placed), arbor.survivor, arbor.driven and arbor.driven.placed)
         return None if met is None or not met <= node.pairs else node.pairs - met
 
-    def _onward(
+    def _from_branching(
         self, branching: NamedBranching, pairs: _Pairs, tells: tuple[Hashable, ...]
     ) -> Iterator[Alternative[Hashable]]:
         hung = [((branching.arbor, wheel), chain) for wheel, chains in branching.hanging for chain in chains]
-        yield from self._hung(hung, pairs, tells)
+        yield from self._distributed(hung, pairs, tells)
 
-    def _hung(
+    def _distributed(
         self, hung: list[tuple[_NamedDriving, NamedChain]], pairs: _Pairs, tells: tuple[Hashable, ...]
     ) -> Iterator[Alternative[Hashable]]:
-        """Chains that hang side by side, with each way in which the pairs may be shared out among them."""
+        """Yield each distribution of the pairs that must mesh over parallel chains."""
         known = sorted(pairs, key=sorted)
-        # a pair may mesh only where both of its wheels are: on a chain, below it, or driving it
+        # a pair can mesh only if both wheels are on the chain, in its subtree, or driving it
         inside = [chain.surviving_wheels | {driving[1].name} for driving, chain in hung]
         able = [[at for at, wheels in enumerate(inside) if pair <= wheels] for pair in known]
         for owners in product(*able):
             parts = tuple(
-                _Ahead(
+                _ChainState(
                     chain,
                     frozenset(range(len(chain.through))),
                     chain.chain.compounds,
@@ -410,6 +413,6 @@ class _Orders:
             yield Alternative(1, tells, parts)
 
 
-def _place(wheel: TopologyWheel) -> AddedPlace:
+def _added_place(wheel: TopologyWheel) -> AddedPlace:
     assert wheel.kind is not None
     return AddedPlace(wheel.name, wheel.kind)

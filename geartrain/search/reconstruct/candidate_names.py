@@ -1,4 +1,4 @@
-"""Names of the arbors and wheels of a candidate, and of a topology, the same in each of its trains."""
+"""Names of the arbors and wheels of a candidate, and of a topology with the same names in all of its trains."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from geartrain.search.reconstruct.added_counts import AddedKind
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Dials, Topology
 
-# A candidate in which every arbor and wheel has a name, in an order that does not depend on counts. Branches stand
-# in the order of the first pointer to which each leads. An added arbor is called after the first pointer that it
-# shows, as `new_sun`, else `new1`, `new2`, ...; its wheels are `new_sun1`, or `new1_1`, the driven one first. On a
-# surviving arbor `m` they are `m_new1`, `m_new2`, ...: a name such as `m3` would be that of another wheel wherever
-# the literature has one. So wheels that play the same part in different candidates have one name, whatever their
-# counts.
+# Canonical names of the arbors and wheels of a candidate, in an order that does not depend on tooth counts: branches
+# are sorted by the first pointer to which each leads. An added arbor is named after the first pointer that it shows,
+# such as `new_sun`, else `new1`, `new2`, ...; its wheels are `new_sun1` or `new1_1`, the driven wheel first. Added
+# wheels on a surviving arbor `m` are `m_new1`, `m_new2`, ..., because a name such as `m3` would be confused with
+# another wheel in the literature. Wheels with the same function in different candidates therefore have the same name,
+# whatever their counts.
 
 
 _ADDED = "new"
@@ -24,7 +24,7 @@ _ADDED = "new"
 
 @dataclass(frozen=True)
 class NamedWheel:
-    """A wheel of a candidate."""
+    """Wheel of a candidate with its name."""
 
     name: str
     teeth: int
@@ -33,48 +33,48 @@ class NamedWheel:
 
 @dataclass(frozen=True)
 class NamedArbor:
-    """An arbor of a candidate and all that it drives."""
+    """Arbor of a candidate with its name and the subtree that it drives."""
 
     name: str
     added: bool
     driven: NamedWheel | None
-    """The wheel that is driven; None for the input arbor."""
+    """Driven wheel; None for the input arbor."""
     dials: tuple[str, ...]
-    """Names of the dials that it shows, sorted."""
+    """Names of the dials that the arbor shows, sorted."""
     drives: tuple[tuple[NamedWheel, NamedArbor], ...]
-    """Every arbor that it drives, with the wheel that drives it."""
+    """Pairs of a driving wheel and an arbor that it drives."""
 
     def arbors(self) -> Iterator[NamedArbor]:
-        """This one and all below it, each before those that it drives."""
+        """Yield this arbor and its subtree in depth-first order."""
         yield self
         for _, arbor in self.drives:
             yield from arbor.arbors()
 
     def wheels(self) -> tuple[NamedWheel, ...]:
-        """Those of this arbor that mesh, each once, the driven one first."""
+        """Return the meshing wheels of this arbor, each once, the driven wheel first."""
         own = {self.driven.name: self.driven} if self.driven is not None else {}
         return tuple((own | {wheel.name: wheel for wheel, _ in self.drives}).values())
 
     def meshes(self) -> Iterator[tuple[NamedArbor, NamedWheel, NamedArbor]]:
-        """Every mesh: the arbor that drives, its wheel, and the arbor that is driven, in the order of `arbors`."""
+        """Yield every mesh as (driving arbor, driving wheel, driven arbor), in the order of `arbors`."""
         for wheel, arbor in self.drives:
             yield self, wheel, arbor
             yield from arbor.meshes()
 
 
 def name_train(arbor: Arbor, dials: Sequence[str], links: Collection[str], wheels: Collection[str]) -> NamedArbor:
-    """A candidate with names.
+    """Give names to all arbors and wheels of a candidate.
 
-    arbor   from its input on
-    dials   all of them, in the order of the evidence
-    links   names that arbors have already
-    wheels  names that wheels have already
+    arbor   input arbor
+    dials   all dials, in the order of the evidence
+    links   existing names of arbors
+    wheels  existing names of wheels
     """
     return _Naming(tuple(dials), FreeNames(set(links), set(wheels))).name(arbor)
 
 
 def free_name(name: str, kind: str, taken: Container[str]) -> str:
-    """The name itself, else one that says what it is."""
+    """Return the name itself if it is free, else a longer name with its kind."""
     if name not in taken:
         return name
     longer = f"{name}_{kind}"
@@ -82,7 +82,7 @@ def free_name(name: str, kind: str, taken: Container[str]) -> str:
 
 
 def numbered(stem: str, taken: Container[str]) -> str:
-    """The stem with the first number from 1 on that is free."""
+    """Return the stem with the first free number from 1."""
     number = 1
     while f"{stem}{number}" in taken:
         number += 1
@@ -91,22 +91,22 @@ def numbered(stem: str, taken: Container[str]) -> str:
 
 @dataclass
 class FreeNames:
-    """Names for what is added, none twice."""
+    """Generator of distinct names for added arbors and wheels."""
 
     links: set[str]
-    """Names that are taken."""
+    """Names of arbors that are already used."""
     wheels: set[str]
-    """Names that are taken."""
+    """Names of wheels that are already used."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
-        """The name of the next added arbor, which shows some dials."""
+        """Return the name of the next added arbor, after the first dial that it shows if there is one."""
         name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
         link = free_name(name, "arbor", self.links)
         self.links.add(link)
         return link
 
     def wheel(self, link: str, survives: bool) -> str:
-        """The name of the next added wheel of an arbor."""
+        """Return the name of the next added wheel of an arbor."""
         stem = f"{link}_{_ADDED}" if survives else f"{link}_" if link[-1].isdigit() else link
         name = numbered(stem, self.wheels)
         self.wheels.add(name)
@@ -115,7 +115,7 @@ class FreeNames:
 
 @dataclass
 class _Naming:
-    """Names that are given arbor by arbor, from the input on."""
+    """Assignment of names to the arbors of a candidate, in depth-first order from the input."""
 
     dials: tuple[str, ...]
     free: FreeNames
@@ -135,7 +135,10 @@ class _Naming:
         return NamedArbor(link, arbor.name is None, driven, arbor.dials, drives)
 
     def _drives(self, arbor: Arbor) -> Iterator[tuple[int, int, PlacedWheel, Arbor]]:
-        """The first dial below, which of the driving wheels (-1: the driven one itself), the wheel, what it drives."""
+        """Yield every driven arbor with its sorting key and its driving wheel.
+
+        The key is the first dial of the driven subtree, and the index of the driving wheel (-1 for the driven wheel).
+        """
         for child in arbor.passes:
             assert arbor.driven is not None
             yield self._first(child), -1, arbor.driven, child
@@ -144,7 +147,7 @@ class _Naming:
                 yield self._first(child), at, wheel, child
 
     def _first(self, arbor: Arbor) -> int:
-        """Which dial is the first that the arbor shows, or leads to."""
+        """Return the index of the first dial that the subtree of an arbor shows."""
         if id(arbor) not in self.firsts:
             below = [self._first(child) for _, children in arbor.drives for child in children]
             below += map(self._first, arbor.passes)
@@ -160,12 +163,12 @@ class _Naming:
         return NamedWheel(self.free.wheel(link, arbor.name is not None), wheel.teeth, True)
 
 
-# A topology in which every arbor and wheel has the name that it has in all of its trains. Added arbors of a chain
-# are named by their place on it, so that names do not depend on the order of the others.
+# Names of the arbors and wheels of a topology, which are valid in all of its trains. Added arbors of a chain are named
+# by their position, so that their names do not depend on the order of the other arbors.
 
 
 class TopologyWheel(NamedTuple):
-    """A wheel by its name; of an added one the kind, None for one that survives."""
+    """Named wheel of a topology; `kind` is None for a surviving wheel."""
 
     name: str
     placed: PlacedWheel
@@ -173,7 +176,7 @@ class TopologyWheel(NamedTuple):
 
 
 class TopologyArbor(NamedTuple):
-    """An arbor by its name, whether it is added, and the wheels by which a path passes it: in an idler the same."""
+    """Named arbor of a topology, with its driven and driving wheel, which are equal in an idler."""
 
     name: str
     added: bool
@@ -182,26 +185,26 @@ class TopologyArbor(NamedTuple):
 
     @property
     def survivor(self) -> str | None:
-        """The name of a surviving arbor."""
+        """Name of a surviving arbor; None for an added arbor."""
         return None if self.added else self.name
 
 
 @dataclass(frozen=True, eq=False)
 class NamedChain:
-    """Arbors in a row, and where they end."""
+    """Chain of named arbors, and its end."""
 
     chain: Chain
-    """Without names."""
+    """Chain without names."""
     through: tuple[TopologyArbor, ...]
     """Surviving arbors."""
     added: tuple[tuple[TopologyArbor, TopologyArbor], ...]
-    """By place among the added ones, the arbor as one with two wheels and as an idler."""
+    """Added arbors in order, each as an arbor with two wheels and as an idler."""
     end: NamedBranching | tuple[NamedChain, ...]
-    """An arbor with its wheels and what each drives, or what hangs from the last driving wheel."""
+    """Branching at which the chain ends, or the chains that its last driving wheel drives."""
 
     @cached_property
     def surviving_wheels(self) -> frozenset[str]:
-        """Names of the surviving wheels on it, and on all that is below."""
+        """Names of the surviving wheels on the chain and in its subtree."""
         wheels = [wheel for arbor in self.through for wheel in (arbor.driven, arbor.driver)]
         below = self.end
         if isinstance(below, NamedBranching):
@@ -213,17 +216,17 @@ class NamedChain:
 
 @dataclass(frozen=True, eq=False)
 class NamedBranching:
-    """An arbor at which paths end or part."""
+    """Named arbor at which paths end or separate."""
 
     arbor: TopologyArbor
-    """With the wheel that is driven."""
+    """Arbor with its driven wheel."""
     here: Dials
-    """Dials that it shows."""
+    """Dials that the arbor shows."""
     hanging: tuple[tuple[TopologyWheel, tuple[NamedChain, ...]], ...]
-    """Wheels, each with what it drives."""
+    """Wheels, each with the chains that it drives."""
 
     def wheels(self) -> Iterator[TopologyWheel]:
-        """Its wheels that mesh, each once."""
+        """Yield the meshing wheels of the arbor, each once."""
         if self.arbor.driven is not None:
             yield self.arbor.driven
         yield from (wheel for wheel, _ in self.hanging if wheel != self.arbor.driven)
@@ -232,7 +235,7 @@ class NamedBranching:
 def name_topology(
     topology: Topology, dials: Sequence[str], links: Collection[str], wheels: Collection[str]
 ) -> NamedBranching:
-    """A topology with names, from its input on; the other arguments are those of `name_train`."""
+    """Give names to all arbors and wheels of a topology; the other arguments are those of `name_train`."""
     return _TopologyNaming(tuple(dials), FreeNames(set(links), set(wheels))).branching(topology.root, ())
 
 
@@ -242,7 +245,7 @@ class _TopologyNaming:
     free: FreeNames
 
     def branching(self, branching: Branching, dials: Dials) -> NamedBranching:
-        """An arbor at which paths end or part; `dials` are all below it."""
+        """Give names to the arbor of a branching and to its subtree; `dials` are all dials of the subtree."""
         name = self.free.link(branching.here) if branching.name is None else branching.name
         past = {dial for chain in branching.passes for dial in chain.dials}
         turned = tuple(dial for dial in dials if dial not in past)
@@ -263,7 +266,7 @@ class _TopologyNaming:
         return NamedBranching(TopologyArbor(name, branching.name is None, driven, None), branching.here, below)
 
     def _chains(self, chains: Sequence[Chain]) -> dict[int, NamedChain]:
-        """Chains by identity, named in the order of the first dial of each."""
+        """Return named chains by identity; names are given in the order of the first dial of each chain."""
         return {id(chain): self._chain(chain) for chain in sorted(chains, key=lambda chain: self._first((chain,)))}
 
     def _first(self, chains: Sequence[Chain]) -> int:

@@ -1,6 +1,6 @@
-"""Rules of a question applied to one candidate: those it breaks, and the question that would admit it.
+"""Rules of a question applied to one candidate: the rules that it breaks, and the question that would admit it.
 
-A train of the literature is read as a candidate: surviving wheels are found in it by their names.
+A published train is read as a candidate: its surviving wheels are identified by their names.
 """
 
 from __future__ import annotations
@@ -35,66 +35,69 @@ Rule = Literal[
     "dial", "speed", "place", "wheel", "arbor", "count", "driven", "idler", "end", "ring", "teeth", "arbors", "beside",
     "seen", "apart", "coaxial", "distance",
 ]  # fmt: skip
-"""What a rule is about.
+"""Kinds of rules.
 
 dial      every dial is shown
-speed     with its speed and sense
-place     on the arbor where it is
+speed     a dial has its speed and sense
+place     a dial is on its arbor
 wheel     every surviving wheel meshes
 arbor     every surviving arbor is in the train
-count     a surviving wheel has a count that was read
-driven    a surviving wheel of a surviving arbor is driven
-idler     a driven wheel drives nothing
+count     a surviving wheel has one of its possible tooth counts
+driven    the driven wheel of a surviving arbor is a surviving wheel
+idler     a driven wheel does not drive
 end       an arbor that drives nothing shows a dial
-ring      a ring meshes with wheels of fewer teeth alone
-teeth     added wheels have as many teeth as they may
-arbors    there are no more added arbors than there may be
-beside    wheels are added on new arbors alone
-seen      wheels that were seen in mesh do
-apart     wheels that do not mesh do not
+ring      a ring meshes only with wheels of fewer teeth
+teeth     the tooth counts of added wheels are within their limits
+arbors    the number of added arbors is within its limit
+beside    wheels are added only on new arbors
+seen      wheels that were seen in mesh do mesh
+apart     wheels that are known not to mesh do not mesh
 coaxial   arbors on one axis do not mesh
-distance  wheels in mesh reach from axis to axis
+distance  the radii of meshing wheels fit the distance of their axes
 """
 
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """A rule that a candidate breaks."""
+    """Rule that a candidate breaks."""
 
     KEYS = ("rule", "subject", "what", "change")
 
     rule: Rule
-    """What the rule is about."""
+    """Kind of the rule."""
     subject: tuple[str, ...]
-    """Names of the dial, wheels or arbors; none where it is about what is added."""
+    """Names of the dial, wheels or arbors; empty if the rule concerns added parts."""
     what: str
-    """What the candidate has."""
+    """Property of the candidate that breaks the rule."""
     change: str | None
-    """What would have to be otherwise in the evidence to take it; None where nothing single would."""
+    """Change of the evidence that would admit the candidate; None if no single change would."""
     values: tuple[Fraction, ...] = ()
-    """The speed or the count that it has, or bounds that would hold what is added."""
+    """Speed or tooth count of the candidate, or limits that would admit its added parts."""
 
 
 def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[BrokenRule, ...]:
-    """Every rule that a candidate breaks but for the number of added wheels; none just where it explains the dials.
+    """Return every rule that a candidate breaks, except the maximum number of added wheels.
+
+    The result is empty if and only if the candidate explains the dials.
 
     Parameters
     ----------
     candidate : Arbor
-        From its input on. Its surviving arbors and wheels have the names of the question's, and it shows no other
-        dials.
+        Candidate from its input arbor. Its surviving arbors and wheels have the names of the question, and it shows no
+        other dials.
     problem : ReconstructionProblem
+        Typed question.
     """
     return (
-        *_of_dials(candidate, problem),
-        *_of_use(candidate, problem),
-        *_of_arbors(candidate, problem),
-        *_of_additions(candidate, problem),
-        *_of_meshes(candidate, problem),
+        *_dial_rules(candidate, problem),
+        *_use_rules(candidate, problem),
+        *_arbor_rules(candidate, problem),
+        *_addition_rules(candidate, problem),
+        *_mesh_rules(candidate, problem),
     )
 
 
-def _of_dials(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     shown: dict[str, list[tuple[Arbor, Fraction]]] = {}
     for arbor, speed in _speeds(candidate, problem.input_speed, problem.rings):
         for name in arbor.dials:
@@ -116,7 +119,7 @@ def _of_dials(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Brok
 
 
 def as_missing_dial(broken: BrokenRule) -> BrokenRule:
-    """A dial of another speed as one that is not shown; else the same."""
+    """Convert a rule broken by the speed of a dial to a dial that is not shown; return other rules unchanged."""
     if broken.rule != "speed":
         return broken
     return replace(broken, rule="dial", change=_without(*broken.subject), values=())
@@ -127,14 +130,14 @@ def _without(dial: str) -> str:
 
 
 def speed_text(dial: SearchedDial) -> str:
-    """The speed that a dial must have, in words."""
+    """Format the required speed of a dial."""
     bounds = dict.fromkeys((dial.minimum, dial.maximum))
     text = " to ".join(fraction_text(each) if dial.is_exact else f"{float(each):.7g}" for each in bounds)
     return text + ("" if dial.signed else " in either sense")
 
 
 def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterator[tuple[Arbor, Fraction]]:
-    """Every arbor with its speed."""
+    """Yield every arbor with its speed [turns per unit]."""
     yield candidate, speed
     for wheel, child in candidate.driven_arbors():
         assert child.driven is not None
@@ -142,7 +145,7 @@ def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterato
         yield from _speeds(child, sense * speed * wheel.teeth / child.driven.teeth, rings)
 
 
-def _of_use(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _use_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     used = {wheel.name: wheel.teeth for wheel in candidate.wheels() if wheel.name is not None}
     here = {arbor.name for arbor in candidate.arbors()}
     for arbor in (problem.input, *problem.arbors):
@@ -161,54 +164,54 @@ def _of_use(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Broken
 
 
 def counts_text(counts: Sequence[tuple[int, Fraction]]) -> str:
-    """Counts that a wheel may have, in few words."""
+    """Format possible tooth counts as a range `60-63` or as a list `60/62`."""
     teeth = [count for count, _ in counts]
     if len(teeth) > 1 and teeth == list(range(teeth[0], teeth[-1] + 1)):
         return f"{teeth[0]}-{teeth[-1]}"
     return "/".join(map(str, teeth))
 
 
-def _of_arbors(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _arbor_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     wheels = {arbor.name: arbor.wheels for arbor in problem.arbors}
     for arbor in candidate.arbors():
         said = arbor.name or "an added arbor"
         if arbor.name in wheels and wheels[arbor.name] and arbor.driven and arbor.driven.name is None:
-            what = f"{said} is driven by a wheel of {arbor.driven.teeth} that is added to it"
+            what = f"{said} is driven by an added wheel of {arbor.driven.teeth}"
             yield BrokenRule("driven", (said,), what, f"if {said} is lost")
         if arbor.passes and not problem.idlers:
             assert arbor.driven is not None
             idler = arbor.driven.name or f"an added wheel of {arbor.driven.teeth}"
-            yield BrokenRule("idler", (said,), f"{idler} is driven, and drives", "if a driven wheel may drive")
+            yield BrokenRule("idler", (said,), f"{idler} is driven and drives", "if a driven wheel may drive")
         if not arbor.dials and not any(arbor.driven_arbors()):
             yield BrokenRule("end", (said,), f"{said} leads to no pointer", None)
 
 
-def _of_additions(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _addition_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     limits = problem.additions
     added = sorted({wheel.teeth for wheel in candidate.wheels() if wheel.name is None})
     beyond = [teeth for teeth in added if not limits.minimum <= teeth <= limits.maximum]
     if beyond:
         minimum, maximum = min(limits.minimum, *added), max(limits.maximum, *added)
         bounds = Fraction(minimum), Fraction(maximum)
-        what = f"added wheels have {', '.join(map(str, beyond))} teeth, and {limits.minimum} to {limits.maximum} may be"
+        what = f"added wheels have {', '.join(map(str, beyond))} teeth, not {limits.minimum} to {limits.maximum}"
         yield BrokenRule("teeth", (), what, f"if added wheels may have {minimum} to {maximum} teeth", bounds)
     arbors = candidate.added_arbors
     if limits.arbors is not None and arbors > limits.arbors:
-        what = f"arbors are added: {arbors}, and {limits.arbors} may be"
+        what = f"{arbors} arbors are added, more than {limits.arbors}"
         yield BrokenRule("arbors", (), what, f"if {arbors} arbors may be added", (Fraction(arbors),))
-    beside = [arbor.name for arbor in candidate.arbors() if arbor.name and None in _own_wheels(arbor)]
+    beside = [arbor.name for arbor in candidate.arbors() if arbor.name and None in _wheel_names(arbor)]
     if limits.on == "new" and beside:
         what = f"wheels are added on {', '.join(beside)}"
         yield BrokenRule("beside", (), what, "if wheels may be added on surviving arbors")
 
 
-def _own_wheels(arbor: Arbor) -> set[str | None]:
-    """Names of wheels of one arbor that mesh, None for added ones."""
+def _wheel_names(arbor: Arbor) -> set[str | None]:
+    """Return the names of the meshing wheels of one arbor, None for added wheels."""
     driven = set() if arbor.driven is None else {arbor.driven.name}
     return driven | {wheel.name for wheel, _ in arbor.drives}
 
 
-def _of_meshes(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
+def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     meshes = list(candidate.meshes())
     wheels = {_pair(wheel.name, child.driven.name) for _, wheel, child in meshes if child.driven}
     arbors = {_pair(parent.name, child.name) for parent, _, child in meshes}
@@ -220,26 +223,26 @@ def _of_meshes(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
         yield BrokenRule("apart", tuple(pair), f"{said} mesh", f"without the fact that {said} do not mesh")
     for pair in sorted(map(sorted, problem.coaxial & arbors)):
         said = " and ".join(pair)
-        what = f"wheels of {said} mesh, which are on one axis"
+        what = f"wheels of the coaxial arbors {said} mesh"
         yield BrokenRule("coaxial", tuple(pair), what, f"without the fact that {said} are coaxial")
     for _, wheel, child in meshes:
         if child.driven is not None and not may_mesh(wheel, child.driven, problem.rings):
-            what = f"{wheel.name or wheel.teeth} does not turn in {child.driven.name or child.driven.teeth}"
+            what = f"{wheel.name or wheel.teeth} and {child.driven.name or child.driven.teeth} cannot mesh in a ring"
             yield BrokenRule("ring", (), what, None)
     if problem.geometry.reach is not None and not candidate_likelihood(candidate, problem.geometry):
-        what = "wheels in mesh do not reach from axis to axis"
-        yield BrokenRule("distance", (), what, "if the distances of axes keep no wheels apart")
+        what = "radii of meshing wheels do not fit the distance of their axes"
+        yield BrokenRule("distance", (), what, "if the distances of axes exclude no meshes")
 
 
 def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
     return frozenset((one, other))
 
 
-# The question that would take a candidate: with each rule that it breaks taken back.
+# The question that admits a candidate: all rules that it breaks are removed.
 
 
 def admitting_question(problem: ReconstructionProblem, broken: Iterable[BrokenRule]) -> ReconstructionProblem:
-    """The question with all that candidates break taken back, as `change` of each says."""
+    """Return the question without the rules that candidates break, as the fields `change` describe."""
     return reduce(_admit, broken, problem)
 
 
@@ -264,7 +267,7 @@ def _admit(problem: ReconstructionProblem, broken: BrokenRule) -> Reconstruction
 
 
 def _without_pair(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
-    """Without what is known of a pair, or of all distances; the same where the rule takes nothing back."""
+    """Return the question without a known fact of a pair or without all distances; unchanged for other rules."""
     pair = frozenset(broken.subject)
     if broken.rule == "seen":
         return replace(problem, meshes=problem.meshes - {pair})
@@ -288,7 +291,7 @@ def _admitted_dial(dial: SearchedDial, broken: BrokenRule) -> SearchedDial | Non
 
 
 def _without_parts(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
-    """Without a wheel or an arbor, or with a count read otherwise."""
+    """Return the question without a wheel or an arbor, or with another tooth count."""
     (name,) = broken.subject
 
     def changed(arbor: SurvivingArbor) -> SurvivingArbor:
@@ -319,45 +322,46 @@ def _read(wheel: SurvivingWheel, broken: BrokenRule) -> SurvivingWheel:
     return replace(wheel, counts=((int(teeth), Fraction(1)),))
 
 
-# ---------------------------------------------------------- a given train as a candidate, in the names of the question
+# ----------------------------------------------------------- a given train as a candidate, in the names of the question
 
 
 @dataclass(frozen=True)
 class KnownTrain:
-    """A train as a candidate."""
+    """Known train, read as a candidate of a question."""
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     arbor: Arbor
-    """From its input on; its dials are those of the question that its meshes lead to, at whatever speed."""
+    """Input arbor. It shows the dials of the question that its meshes reach, at any speed."""
     added: Mapping[str, int]
-    """Wheels that are added, by their names in the train, with their counts."""
+    """Names of the added wheels in the train -> tooth counts."""
     notes: tuple[str, ...]
-    """What of the train plays no part, or is otherwise than a candidate can be."""
+    """Features of the train that are not used, or that a candidate cannot have."""
 
 
 def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping[str, str] | None = None) -> KnownTrain:
-    """A train in the words of a question.
+    """Read a train as a candidate, with the names of a question.
 
     Parameters
     ----------
     train : Train
+        Known train.
     problem : ReconstructionProblem
-        Its arbors turn in the frame.
+        Typed question whose arbors turn in the frame.
     same : mapping of str to str, optional
-        Names of wheels and outputs of the train that the question calls otherwise, with those that it has there.
-        Others are called alike, or alike but for capitals.
+        Names of wheels and outputs of the train -> their names in the question. Others must have equal names, except
+        for capitals.
 
     Raises
     ------
     QuestionError
-        If the train has no arbor of the input, or its meshes close a loop, or a count of a wheel is not known.
+        If the train has no arbor of the input, its meshes close a loop, or the tooth count of a wheel is not known.
     """
-    return _Reading(train, problem, same or {}).known()
+    return _TrainReading(train, problem, same or {}).known()
 
 
-class _Reading:
-    """A train that is read in the words of a question."""
+class _TrainReading:
+    """Translation of a train into the names of a question."""
 
     def __init__(self, train: Train, problem: ReconstructionProblem, same: Mapping[str, str]) -> None:
         self.train, self.problem, self.same = train, problem, same
@@ -380,7 +384,7 @@ class _Reading:
 
     @cached_property
     def _matches(self) -> dict[str, str]:
-        """Wheels of the train, by those of the question."""
+        """Names of wheels of the question -> wheels of the train."""
         wanted = [wheel.name for arbor in self._arbors.values() for wheel in arbor.wheels]
         found = {self.same[name]: name for name in self.train.wheels if self.same.get(name) in wanted}
         free = [name for name in self.train.wheels if name not in self.same]
@@ -393,7 +397,7 @@ class _Reading:
 
     @cached_property
     def _links(self) -> dict[str, str]:
-        """Links of the train, by arbors of the question: that with most of its wheels, which is no other arbor's."""
+        """Arbors of the question -> links of the train, each the link with most of the wheels of the arbor."""
         found: dict[str, str] = {}
         for arbor in self._arbors.values():
             links = [self._link(self._matches[wheel.name]) for wheel in arbor.wheels if wheel.name in self._matches]
@@ -409,7 +413,7 @@ class _Reading:
 
     @cached_property
     def _joined(self) -> dict[str, str]:
-        """Links of the train, by those that a pin in a slot on the frame makes turn with them, and by themselves."""
+        """Links of the train -> first link of the group that pins and slots on the frame join, or the link itself."""
         tree, frame = find_tree(self.train), self.train.frame
         pairs = ((coupling.pin, coupling.slot) for coupling in self.train.couplings if coupling.kind == "pin_and_slot")
         joints = (pair for pair in pairs if all(tree.bears(frame, link) for link in pair))
@@ -417,12 +421,12 @@ class _Reading:
 
     @cached_property
     def _names(self) -> dict[str, str]:
-        """Arbors of the question, by links of the train."""
+        """Links of the train -> arbors of the question."""
         return {link: arbor for arbor, link in self._links.items()}
 
     @cached_property
     def _survivors(self) -> dict[str, str]:
-        """Wheels of the question by those of the train, each on the link that is its arbor."""
+        """Wheels of the train -> wheels of the question, only for wheels on the link of the right arbor."""
         return {
             self._matches[wheel.name]: wheel.name
             for arbor in self._arbors.values()
@@ -437,7 +441,7 @@ class _Reading:
         for name, own in self._matches.items():
             if own not in self._survivors:
                 arbor = next(each.name for each in self._arbors.values() if name in {one.name for one in each.wheels})
-                yield f"{own} is not fixed to the other wheels of {arbor}, and is not taken for {name}"
+                yield f"{own} is not fixed to the other wheels of {arbor}, and is therefore not identified with {name}"
 
     # meshes
 
@@ -446,13 +450,14 @@ class _Reading:
         name = self.problem.input.name
         found = self._links.get(name) or self._joined.get(name)
         if found is None:
-            what = f"'{self.train.name}' has no wheel of '{name}', where a train of the question begins"
-            raise QuestionError(Problem(what, "wheels are found by their names", "say `--same ITS=OURS`"))
+            what = f"'{self.train.name}' has no wheel of '{name}', the input of the question"
+            fix = "name one of its wheels with `--same ITS=OURS`"
+            raise QuestionError(Problem(what, "wheels are identified by their names", fix))
         return found
 
     @cached_property
     def _driven(self) -> dict[str, DrivenArbor]:
-        """How every link is driven that spur wheels on the frame lead to from the input, breadth first."""
+        """Link -> mesh that drives it, for all links reached from the input on the frame, breadth first."""
         rings = {own for own, name in self._survivors.items() if name in self.problem.rings}
         return walk_meshes(self.train, self._source, self._joined, rings)
 
@@ -460,14 +465,15 @@ class _Reading:
         count = self.train.wheels[wheel][1].count
         if count is None:
             place = self.train.place("links")
-            raise QuestionError(Problem(f"the count of '{wheel}' is still to be found", "", "give it a value", place))
+            what = f"the tooth count of '{wheel}' is not known"
+            raise QuestionError(Problem(what, "a train is ranked with all its counts", "give it a `value`", place))
         return count
 
     # pointers
 
     @cached_property
     def _shown(self) -> dict[str, str]:
-        """Links that show the dials, as far as meshes lead to them."""
+        """Dials -> links that show them, if meshes reach the link."""
         found = {}
         for dial in self.problem.dials:
             link = self._links.get(dial.place) if dial.place not in (None, NEW) else self._pointer(dial)
@@ -476,7 +482,7 @@ class _Reading:
         return found
 
     def _pointer(self, dial: SearchedDial) -> str | None:
-        """The link of a pointer whose arbor is not known: that of the output of its name, else one of its speed."""
+        """Return the link of a dial of unknown place: the output of the same name, else a link of the same speed."""
         called = {**{name: name for name in self.train.outputs}, **self.same}
         for name, output in self.train.case(None).outputs.items():
             if called[name] == dial.name and output.relative_to in (None, self.train.frame):
@@ -522,14 +528,18 @@ class _Reading:
 
 
 def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: ReconstructionProblem) -> None:
-    """Make sure that names which are said to be the same are names. Raises `QuestionError`."""
+    """Raise `QuestionError` if a pair of equal names does not name parts of a train and of the question."""
     own = {name for train in trains for name in (*train.wheels, *train.outputs)}
     requested = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}
     requested |= {dial.name for dial in problem.dials}
     for name, called in pairs.items():
         if name not in own:
-            what = f"'{name}' is no wheel and no output of a train that is ranked"
-            raise QuestionError(Problem(what, "", suggest(name, sorted(own))))
+            what = f"'{name}' is not a wheel or an output of a ranked train"
+            raise QuestionError(
+                Problem(what, "`--same ITS=OURS` begins with its name there", suggest(name, sorted(own)))
+            )
         if called not in requested:
-            what = f"'{called}' is no wheel and no dial of the evidence"
-            raise QuestionError(Problem(what, "", suggest(called, sorted(requested))))
+            what = f"'{called}' is not a wheel or a dial of the evidence"
+            raise QuestionError(
+                Problem(what, "`--same ITS=OURS` ends with its name there", suggest(called, sorted(requested)))
+            )

@@ -1,4 +1,4 @@
-"""Sensitivity of the counts to each hard fact: the question is asked again without it."""
+"""Sensitivity of the counts to each hard fact: the search is repeated without it."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 from geartrain.search.reconstruct.reconstruction_search import Reconstructions, find_reconstructions
 
 Search = Callable[[ReconstructionProblem], Reconstructions]
-"""What finds all explanations of a question."""
+"""Function that finds all explanations of a question."""
 
 _MINIMUM_TEETH = 3
 
 
 @dataclass(frozen=True)
 class ChangedQuestion:
-    """A question in which one thing is otherwise, and the words for it."""
+    """Question with one change, and a description of the change."""
 
     change: str
     problem: ReconstructionProblem
@@ -36,36 +36,37 @@ class ChangedQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ChangedCount(Result):
-    """How many trains explain what one thing otherwise would leave."""
+    """Numbers of trains that explain a question with one change."""
 
     KEYS = ("change", "mechanisms", "complete", "refused")
 
     change: str
-    """What is otherwise."""
+    """Description of the change."""
     mechanisms: tuple[int, ...]
-    """Trains with just 0, 1, 2, ... added wheels."""
+    """Numbers of trains with exactly 0, 1, 2, ... added wheels."""
     complete: bool = True
-    """Whether all were looked at."""
+    """True if the search covered all candidates."""
     refused: str | None = None
-    """Why it could not be asked."""
+    """Reason why the changed question could not be searched."""
 
     @property
     def total(self) -> int:
-        """Trains in all."""
+        """Total number of trains."""
         return sum(self.mechanisms)
 
     @property
     def fewest(self) -> int | None:
-        """The fewest added wheels with which there is a train; None where there is none."""
+        """Minimum number of added wheels of a train; None if no train was found."""
         return next((added for added, count in enumerate(self.mechanisms) if count), None)
 
 
 def changed_counts(
     questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
 ) -> Iterator[ChangedCount]:
-    """The counts of questions in their order, each as it comes; `search` is a function at the top of a module.
+    """Yield the counts of changed questions in their order, as soon as each is complete.
 
-    An interrupted one is left out, so that no journal keeps half of it.
+    An interrupted search is omitted, so that no journal stores a partial result. `search` must be a function at module
+    level, because it is sent to other processes.
     """
     answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
     for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True):
@@ -78,22 +79,22 @@ def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool,
         found = search(problem)
     except QuestionError as error:
         return [], False, error.problems[0].what
-    if not found.complete:  # the search tells what it has when it is stopped
+    if not found.complete:  # an interrupted search returns a partial result
         raise KeyboardInterrupt
     return [count.mechanisms for count in found.counts], True, None
 
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """The question without each of its hard facts in turn."""
+    """Return the question without each of its hard facts in turn."""
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
 
 def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """The question without what each of its dials shows, where there are several."""
+    """Return the question without each of its dials in turn, if there are several."""
     if len(problem.dials) < 2:
         return []
     return [
-        ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=_but(problem.dials, dial)))
+        ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=_without_dial(problem.dials, dial)))
         for dial in problem.dials
     ]
 
@@ -113,7 +114,7 @@ def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructi
             yield f"without the fact {said}", replace(problem, **left)
     if measured:
         left = {"apart": problem.apart - measured, "geometry": replace(problem.geometry, reach=None)}
-        yield "if the distances of axes keep no wheels apart", replace(problem, **left)
+        yield "if the distances of axes exclude no meshes", replace(problem, **left)
     yield from _senses(problem)
     for at, dial in enumerate(problem.dials):
         where = "is lost" if dial.place == NEW else f"is {dial.place}"
@@ -129,7 +130,7 @@ def _senses(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructio
         yield f"without the sense of {dial.name}", _with_dial(problem, at, _unsigned(dial))
     if len(signed) > 1:
         free = tuple(_unsigned(dial) if dial.signed else dial for dial in problem.dials)
-        yield "without any sense", replace(problem, dials=free)
+        yield "without the sense of any dial", replace(problem, dials=free)
 
 
 def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
@@ -155,7 +156,7 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
 
 
 def _unsigned(dial: SearchedDial) -> SearchedDial:
-    """The dial in either sense."""
+    """Return the dial with bounds of the magnitude of its speed."""
     ends = sorted(map(abs, (dial.minimum, dial.maximum)))
     minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
     return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
@@ -165,57 +166,60 @@ def _with_dial(problem: ReconstructionProblem, at: int, dial: SearchedDial) -> R
     return replace(problem, dials=(*problem.dials[:at], dial, *problem.dials[at + 1 :]))
 
 
-def _but(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[SearchedDial, ...]:
+def _without_dial(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[SearchedDial, ...]:
     return tuple(dial for dial in dials if dial != left_out)
 
 
-# Why nothing explains the evidence: dials that fail alone, and the single things whose doubt would mend it.
+# Reasons why nothing explains the evidence: dials that fail without the others, and single changes that would help.
 
 
 MISREAD = 3
-"""By how many teeth a count is taken to be read wrongly, either way."""
+"""Maximum difference between a tooth count as read and the true count."""
 
 
 @dataclass(frozen=True, slots=True)
 class LoneDial(Result):
-    """A dial that is explained alone, by any of the surviving arbors."""
+    """Minimum number of added wheels that explain one dial without the others."""
 
     dial: str
-    """Its name."""
+    """Name of the dial."""
     fewest: int | None
-    """The fewest added wheels that explain it; None if none up to the most that may be added."""
+    """Minimum number of added wheels that explain the dial; None if the permitted number does not suffice."""
     refused: str | None = None
-    """Why it could not be asked."""
+    """Reason why the dial could not be searched."""
 
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Why there is no explanation."""
+    """Reasons why a question has no explanation."""
 
     dials: tuple[LoneDial, ...]
-    """Each dial alone."""
+    """Results for each dial without the others."""
     doubts: tuple[ChangedCount, ...]
-    """Single things that would leave an explanation if they were otherwise, the cheapest first."""
+    """Single changes that would leave an explanation, those with the fewest added wheels first."""
     requested: int
-    """How many were tried."""
+    """Number of changes that were tried."""
     refused: tuple[str, ...]
-    """Those that could not be asked."""
+    """Changes that could not be searched."""
 
 
 def explain_missing(
     problem: ReconstructionProblem, execution: Execution | None = None, search: Search = find_reconstructions
 ) -> MissingExplanation:
-    """Why a question has no answer; `search` stands at the top of a module."""
-    dials = tuple(_alone(problem, at, search) for at in range(len(problem.dials)))
-    changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread(problem)]
+    """Search for the reasons why a question has no explanation.
+
+    `search` must be a function at module level, because it is sent to other processes.
+    """
+    dials = tuple(_lone_dial(problem, at, search) for at in range(len(problem.dials)))
+    changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread_counts(problem)]
     counts = tuple(changed_counts(changed, execution, search))
     cheap = sorted((one for one in counts if one.total), key=lambda one: one.fewest or 0)
     refused = tuple(one.change for one in counts if one.refused is not None)
     return MissingExplanation(dials, tuple(cheap), len(changed), refused)
 
 
-def _alone(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
-    """One dial without the others; survivors that do not lead to it are left out."""
+def _lone_dial(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
+    """Search one dial without the others; surviving arbors that do not lead to it may be unused."""
     dial = problem.dials[at]
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
     for wheels in range(problem.additions.wheels + 1):
@@ -228,8 +232,8 @@ def _alone(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
     return LoneDial(dial.name, None)
 
 
-def _misread(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Every count of a surviving wheel read otherwise, small changes before great ones."""
+def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
+    """Yield a changed question for each other count of a surviving wheel, small differences first."""
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:
             counts = {count for count, _ in wheel.counts}

@@ -1,4 +1,4 @@
-"""Translation of declared evidence into a question; what cannot be asked is refused by name."""
+"""Translation of declared evidence into a typed question. Unsupported declarations are refused with their place."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem, first_problems
 from geartrain.kinematics.judged_outputs import goal_of
+from geartrain.numerics.results import Shown
 from geartrain.search.reconstruct.link_roles import (
     BaseLink,
     Joined,
@@ -37,7 +38,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 from geartrain.train import Output, Teeth, Train, Wheel
 from geartrain.train.reconstruction import NEW_ARBOR, AddedParts
 
-# The speeds that a pointer may have, by all that is declared of its output.
+# Range of the speed of a pointer, from all declarations of its output.
 
 
 Limits = tuple[Fraction, Fraction]
@@ -45,35 +46,39 @@ Limits = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True)
 class PointerBounds:
-    """Least and greatest speed, or magnitude where the sense is not known; and what is declared but bounds nothing."""
+    """Minimum and maximum speed of a pointer, and declared facts that do not bound it.
+
+    The bounds are bounds of the magnitude if `signed` is false.
+    """
 
     limits: Limits
     signed: bool
     unused: tuple[str, ...] = ()
 
     def allow(self, speed: Fraction) -> bool:
-        """Whether a speed is within them."""
+        """Return whether a speed is within the bounds."""
         return self.limits[0] <= (speed if self.signed else abs(speed)) <= self.limits[1]
 
 
 def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Bounds of an output of evidence, seen from the base; with a free sense those of its magnitude.
+    """Return the bounds of the speed of an output relative to the base; with `free_sense` bounds of its magnitude.
 
-    Raises `DeclarationError` where there is no one range of speeds.
+    Raise `DeclarationError` if the speed is not one range.
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     if output.relative_to not in (None, evidence.frame, base.name):
-        what = f"'{name}' is seen from '{output.relative_to}', which is not taken up by a reconstruction yet"
+        what = f"the speed of '{name}' is relative to '{output.relative_to}'"
         carrier = "" if base.name == evidence.frame else f" or the carrier '{base.name}'"
-        why = f"a pointer of a reconstruction is seen from the frame{carrier}"
-        raise DeclarationError(Problem(what, why, f"give its speed against the frame{carrier}", place))
+        why = f"a reconstruction supports only speeds relative to the frame{carrier}"
+        raise DeclarationError(Problem(what, why, f"give its speed relative to the frame{carrier}", place))
     if output.of == evidence.frame:
-        raise DeclarationError(Problem(f"'{name}' is on the frame, which does not turn", "", "correct `of`", place))
+        what = f"the pointer '{name}' is on the frame"
+        raise DeclarationError(Problem(what, "the frame does not turn", "correct `of`", place))
     found = _bounds(evidence, name, free_sense)
     found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
-        what = f"'{name}' turns as the frame does, and so the frame itself would show it"
-        fix = "name its arbor with `of`, or say `of: new` if that is lost"
+        what = f"'{name}' has the speed of the frame, so that the frame itself would show it"
+        fix = "name its arbor in `of`, or give `of: new` if its arbor is lost"
         raise DeclarationError(Problem(what, "its arbor is not known", fix, place))
     return found
 
@@ -85,7 +90,7 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
     if not known:
         why = "it has no `expect`, and no target with a tolerance"
         fix = "add for example `expect: -5/19`, or `tolerance: 1/446` to a target"
-        raise DeclarationError(Problem(f"how fast '{name}' turns is not known", why, fix, place))
+        raise DeclarationError(Problem(f"the speed of '{name}' is not known", why, fix, place))
     signed = [limits for limits, has_sign in known if has_sign and not free_sense]
     plain = [_magnitudes(limits) if has_sign else limits for limits, has_sign in known if not has_sign or free_sense]
     if not signed:
@@ -97,19 +102,19 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
 
 
 def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
-    """Bounds for a base that turns so fast."""
+    """Convert bounds relative to the frame to bounds relative to a base that turns at a given speed."""
     if not turning:
         return bounds
     if not bounds.signed:
-        what = f"the sense of '{name}' is not known, and it is seen from the frame"
-        why = "then it has two speeds, as seen from the carrier"
-        raise DeclarationError(Problem(what, why, "give the sense, or its speed `relative_to` the carrier", place))
+        what = f"the sense of '{name}' is not known, and its speed is relative to the frame"
+        why = "it would have two possible speeds relative to the carrier"
+        raise DeclarationError(Problem(what, why, "give its sense, or its speed with `relative_to` the carrier", place))
     minimum, maximum = bounds.limits
     return replace(bounds, limits=(minimum - turning, maximum - turning))
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """What is said of a speed, and whether with its sign."""
+    """Yield the declared ranges of a speed, and whether each has a sign."""
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)
@@ -132,7 +137,7 @@ def _unused_targets(name: str, output: Output) -> tuple[str, ...]:
         if target.tolerance is None and (target.speed is None or output.expect is not None)
     ]
     if output.published is not None:
-        lines.append(f"what is published of '{name}': `expect` and targets with a tolerance are taken")
+        lines.append(f"`published` of '{name}': only `expect` and targets with a tolerance are used")
     return tuple(lines)
 
 
@@ -145,12 +150,14 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
     minimum, maximum = max(low for low, _ in ranges), min(high for _, high in ranges)
     if minimum > maximum:
         why = "no speed is within `expect` and all targets with a tolerance"
-        raise DeclarationError(Problem(f"what is said of '{name}' contradicts itself", why, "correct one", place))
+        raise DeclarationError(
+            Problem(f"the declared speeds of '{name}' contradict each other", why, "correct one of them", place)
+        )
     return minimum, maximum
 
 
 def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) -> Limits:
-    """Speeds within limits whose magnitude is within limits too."""
+    """Intersect a range of speeds with a range of magnitudes."""
     low, high = magnitude
     if limits[0] >= 0:
         return _common([limits, (low, high)], name, place)
@@ -158,20 +165,20 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, -low)], name, place)
     if low <= 0:
         return _common([limits, (-high, high)], name, place)
-    why = "one part of the evidence gives its sense, and one that does not leaves two ranges of speed"
-    raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target", place))
+    why = "claims with a sense allow both signs, and a claim on the magnitude leaves one range of each sign"
+    raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target only", place))
 
 
-_NOT_TAKEN_UP = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
-"""Keys of a train that change what turns, or need arbors that a candidate may not have."""
+_UNSUPPORTED = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
+"""Keys of a train that a reconstruction does not support, because they change speeds or name arbors."""
 
 _MOST_COUNTS = 10_000
-"""That one wheel may have."""
+"""Maximum number of possible tooth counts of one wheel."""
 
 
 @dataclass(frozen=True)
-class EvidenceQuestion:
-    """The question that evidence asks.
+class EvidenceQuestion(Shown):
+    """Typed question of declared evidence, with its base and the unused declarations.
 
     See Also
     --------
@@ -179,13 +186,13 @@ class EvidenceQuestion:
     """
 
     problem: ReconstructionProblem
-    """The typed question."""
+    """Typed question."""
     base: BaseLink
-    """What bears the arbors; speeds of the problem are seen from it."""
+    """Link that carries the arbors. Speeds of the problem are relative to it."""
     joined: Joined
-    """Links that given couplings join, by the arbor that stands for them."""
+    """Arbor -> links that given couplings join to it."""
     unused: tuple[str, ...]
-    """What is declared and plays no part in the answer, a line each."""
+    """Declarations that do not affect the answer, one line each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
@@ -194,11 +201,11 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Parameters
     ----------
     evidence : Train
-        A declaration with `reconstruct`.
+        Declaration with `reconstruct`.
     wheels : int, optional
-        The maximum number of added wheels, instead of what the evidence says.
+        Maximum number of added wheels. It replaces the number in the evidence.
     idlers : bool
-        Whether a driven wheel may drive, also where the evidence does not say so.
+        True if a driven wheel may also drive, even if the evidence does not allow it.
 
     Returns
     -------
@@ -207,7 +214,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Raises
     ------
     DeclarationError
-        With the place of everything that is not taken up yet, or gives no question.
+        For every declaration that is unsupported or does not define a question, with its place.
 
     Examples
     --------
@@ -218,14 +225,15 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     """
     requested = evidence.reconstruct
     assert requested is not None, "no evidence"
-    found = [*_not_taken_up(evidence), *coupling_problems(evidence), *_wheels(evidence)]
+    found = [*_unsupported(evidence), *coupling_problems(evidence), *_wheels(evidence)]
     unclear = list(base_problems(evidence))
     base = None if unclear else find_base(evidence)
     found += unclear
     if wheels and requested.add.teeth is None:
-        fix = "add for example `teeth: [12, 225]`"
+        fix = "give `add` for example `teeth: [12, 225]`"
         place = evidence.place("reconstruct")
-        found.append(Problem("wheels are to be added whose counts have no bounds", "", fix, place))
+        why = "the search needs their minimum and maximum"
+        found.append(Problem("the tooth counts of added wheels have no limits", why, fix, place))
     bounds = {}
     for name in evidence.outputs:
         try:
@@ -235,7 +243,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
             found += error.problems
     if not evidence.outputs:
         fix = "add `outputs:`, each with `expect` or a target with its tolerance"
-        found.append(Problem("nothing is known of any pointer", "a train explains what pointers show", fix))
+        found.append(Problem("the evidence has no outputs", "a reconstruction explains the speeds of pointers", fix))
     if found or base is None:
         raise DeclarationError(first_problems(found))
     places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
@@ -266,26 +274,27 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
 
 
 def _additions(add: AddedParts, wheels: int | None) -> Additions:
-    minimum, maximum = add.teeth or (1, 1)  # where none are added, it does not matter
+    minimum, maximum = add.teeth or (1, 1)  # the limits do not matter if nothing is added
     return Additions(add.wheels if wheels is None else wheels, minimum, maximum, add.arbors, add.on)
 
 
 def _arbor(evidence: Train, link: str) -> SurvivingArbor:
-    wheels = evidence.links[link].wheels if link in evidence.links else {}  # a frame need not be listed
+    # the frame need not be listed among the links
+    wheels = evidence.links[link].wheels if link in evidence.links else {}
     return SurvivingArbor(
         link, tuple(SurvivingWheel(name, _counts(wheel), wheel.internal) for name, wheel in wheels.items())
     )
 
 
 def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
-    """Arbors that are declared on one axis, or on axes of one place."""
+    """Yield pairs of arbors that are declared on one axis, or on axes with equal positions."""
     on_axis: dict[str, set[str]] = {}
     for joint in evidence.revolutes:
         on_axis.setdefault(joint.axis, set()).update(joint.pair)
     if base.name != evidence.frame:
         on_axis.setdefault(carrier_axis(evidence, base.name) or "", set()).add(base.source)
     for links in on_axis.values():
-        # what bears the others is on none; with a carrier, the frame is where the train begins there
+        # the base is on no axis; on a carrier the frame is the first arbor of the train
         links -= {base.name, evidence.frame} - {base.source}
         yield from map(frozenset, combinations(sorted(links), 2))
     for one, other in combinations(geometry.arbors, 2):
@@ -294,7 +303,7 @@ def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> It
 
 
 def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
-    """The counts that a wheel may have, with weights whose sum is 1."""
+    """Return the possible tooth counts of a wheel, with weights that sum to 1."""
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return ((teeth, Fraction(1)),)
@@ -305,24 +314,27 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
     return tuple(chances.items())
 
 
-# what cannot be asked
+# declarations that are not supported
 
 
-def _not_taken_up(evidence: Train) -> Iterator[Problem]:
-    for key in _NOT_TAKEN_UP:
+def _unsupported(evidence: Train) -> Iterator[Problem]:
+    for key in _UNSUPPORTED:
         if getattr(evidence, key):
-            yield _later(evidence, f"`{key}` is not taken up by a reconstruction yet", key)
+            yield _unsupported_problem(evidence, f"`{key}` is not supported in a reconstruction", key)
     if evidence.crank is not None and evidence.crank not in evidence.inputs:
-        yield _later(evidence, "a crank that is not the input is not taken up by a reconstruction yet", "crank")
+        yield _unsupported_problem(
+            evidence, "a crank that is not the input is not supported in a reconstruction", "crank"
+        )
     for label, axis in evidence.axes.items():
         if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
-            yield _later(evidence, "axes that are not parallel are not taken up by a reconstruction yet", "axes", label)
+            yield _unsupported_problem(
+                evidence, "axes that are not parallel are not supported in a reconstruction", "axes", label
+            )
 
 
-def _later(evidence: Train, what: str, *loc: str | int) -> Problem:
-    return Problem(
-        what, "it would change which trains are found", "leave it out to ask without it", evidence.place(*loc)
-    )
+def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem:
+    why = "ignoring it could change the trains that are found"
+    return Problem(what, why, "remove it, to search without it", evidence.place(*loc))
 
 
 def _wheels(evidence: Train) -> Iterator[Problem]:
@@ -330,8 +342,8 @@ def _wheels(evidence: Train) -> Iterator[Problem]:
         for name, wheel in part.wheels.items():
             place = ("links", link, "wheels", name)
             if wheel.kind != "spur":
-                what = f"'{name}' is a {wheel.kind} wheel, which is not taken up by a reconstruction yet"
-                yield _later(evidence, what, *place)
+                what = f"'{name}' is a {wheel.kind} wheel, which is not supported in a reconstruction"
+                yield _unsupported_problem(evidence, what, *place)
             yield from _teeth(evidence, wheel, place)
 
 
@@ -341,15 +353,17 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
         return
     for count in (teeth.range[1] - teeth.range[0] + 1 if teeth.range else 0, len(teeth.searched)):
         if count > _MOST_COUNTS:
-            what = f"{count} counts are too many for one wheel"
-            yield Problem(what, f"{_MOST_COUNTS} are the most", "narrow the range", evidence.place(*place, "teeth"))
+            what = f"a wheel has {count} possible counts"
+            yield Problem(
+                what, f"at most {_MOST_COUNTS} can be searched", "narrow the range", evidence.place(*place, "teeth")
+            )
     if why := teeth.fault_of_weights:
         fix = "give weights of 0 or more, at least one of them above 0"
-        yield Problem("the weights of a count are no weights", why, fix, evidence.place(*place, "teeth", "weights"))
+        yield Problem("the weights of a tooth count are invalid", why, fix, evidence.place(*place, "teeth", "weights"))
 
 
 def _unused(evidence: Train) -> Iterator[str]:
-    """Evidence that is declared and plays no part yet."""
+    """Yield one line for each declaration that the search does not use."""
     yield from unweighed_geometry(evidence)
     for gear in evidence.gears:
         if gear.driver is not None:

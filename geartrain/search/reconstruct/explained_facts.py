@@ -1,8 +1,8 @@
-"""Findings on candidates beyond their counts: marginals of single facts, the fact of greatest entropy, the family tree.
+"""Facts derived from all candidates: marginal weights of single facts, the fact of maximum entropy, the family tree.
 
-A fact has one answer in each candidate: whether two wheels mesh, what drives an arbor, the count of a wheel. Its
-marginal is the weight of each answer; looking it up is expected to tell the entropy of these weights, as the candidate
-decides the answer.
+A fact has one answer in each candidate: whether two wheels mesh, which wheel drives an arbor, the tooth count of a
+wheel. Its marginals are the weights of its answers. The candidate determines the answer, so the expected information
+of an observation is the entropy of these weights.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from geartrain.search.weighted_alternatives import entropy
 from geartrain.train import Train
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]
-"""What a fact is about.
+"""Kinds of facts.
 
 mesh     one wheel drives another, `e4 > f1`
-pair     two surviving wheels mesh, whichever drives
-driver   by which arbor a surviving one is driven
-pointer  on which arbor the pointer of a dial is
-count    the count of a surviving wheel that is in doubt
-added    the count of an added wheel, by its name
-needed   a wheel of this count is added
+pair     two surviving wheels mesh, in either direction
+driver   arbor that drives a surviving arbor
+pointer  arbor of the pointer of a dial
+count    tooth count of a surviving wheel with uncertain count
+added    tooth count of a named added wheel
+needed   a wheel of this tooth count is added
 used     a surviving wheel meshes
 """
 
@@ -44,98 +44,98 @@ _KINDS: tuple[FactKind, ...] = get_args(FactKind)
 AN_ADDED_ARBOR = "an added arbor"
 YES, NO, NONE, OUTSIDE, UNUSED = "yes", "no", "none", "not in the train", "not used"
 _ELSE: dict[FactKind, str] = {"driver": OUTSIDE, "pointer": OUTSIDE, "count": UNUSED, "added": NONE}
-"""The answer of a candidate that says nothing of a fact; `NO` of the other kinds."""
+"""Answer of a candidate without an entry for a fact; `NO` for the other kinds."""
 
 LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer")
-"""Facts that may be found out by looking at what survives, or at what still turns up."""
+"""Kinds of facts that an examination of surviving or new fragments can establish."""
 
 _MOST_FACTS = 200
-"""That are looked through for facts that divide the candidates in the same way."""
+"""Maximum number of facts that are compared for equal partitions of the candidates."""
 
 
 class Fact(NamedTuple):
-    """A question with one answer in each candidate."""
+    """Question with one answer in each candidate."""
 
     kind: FactKind
-    """What is asked."""
+    """Kind of the fact."""
     subject: str
-    """Of which wheel, arbor or output."""
+    """Wheels, arbor, dial or tooth count of the fact."""
 
 
 @dataclass(frozen=True, slots=True)
 class FactAnswer(Result):
-    """One answer to a fact."""
+    """One answer to a fact, with its weight."""
 
     KEYS = ("answer", Key("weight", "share", float), "mechanisms")
 
     answer: str
-    """A name, a count, `yes` or `no`."""
+    """Name, tooth count, `yes` or `no`."""
     share: Fraction
-    """Share of the weight of the candidates that give it."""
+    """Share of the weight of the candidates with this answer, 0 to 1."""
     mechanisms: int
-    """How many candidates give it."""
+    """Number of candidates with this answer."""
 
 
 @dataclass(frozen=True, slots=True)
 class FactMarginal(Result):
-    """What the candidates say of one fact."""
+    """Marginal distribution of the answers to one fact."""
 
     KEYS = ("kind", "subject", "bits", "answers")
 
     kind: FactKind
-    """What the fact is about."""
+    """Kind of the fact."""
     subject: str
-    """Wheels, an arbor, a dial or a count."""
+    """Wheels, arbor, dial or tooth count of the fact."""
     answers: tuple[FactAnswer, ...]
-    """The one of the greatest weight first."""
+    """Answers in descending order of weight."""
 
     @property
     def bits(self) -> float:
-        """What an answer is expected to tell [bit]."""
+        """Entropy of the answers [bit], which is the expected information of an observation."""
         return entropy(float(answer.share) for answer in self.answers)
 
     @property
     def trains(self) -> int:
-        """How many candidates there are."""
+        """Number of candidates."""
         return sum(answer.mechanisms for answer in self.answers)
 
     def share(self, answer: str) -> Fraction:
-        """The weight of an answer."""
+        """Return the share of the weight of one answer."""
         return next((one.share for one in self.answers if one.answer == answer), Fraction(0))
 
 
 @dataclass(frozen=True, slots=True)
 class NextFact(Result):
-    """A fact to look for."""
+    """Fact to observe next, with other facts that give the same information."""
 
     KEYS = (Key("", "fact"), "same")
 
     fact: FactMarginal
-    """What each answer would leave."""
+    """Marginal distribution of the fact."""
     same: tuple[Fact, ...]
-    """Others that divide the candidates in the same way."""
+    """Other facts that partition the candidates in the same way."""
 
 
 @dataclass(frozen=True)
 class WeighedTrains:
-    """Candidates, the best first, with weights as whole numbers, which add up exactly and fast."""
+    """Candidates in descending order of weight. Integer weights make sums exact and fast."""
 
     trains: tuple[NamedArbor, ...]
     weights: tuple[int, ...]
 
     @classmethod
     def of(cls, trains: Iterable[NamedArbor], weights: Iterable[Fraction | float]) -> WeighedTrains:
-        """Candidates with weights of any sum."""
+        """Convert weights of any sum to proportional integers."""
         return cls(tuple(trains), tuple(whole_multiple([Fraction(weight) for weight in weights])))
 
     @cached_property
     def whole(self) -> int:
-        """The weight of all."""
+        """Sum of all weights."""
         return sum(self.weights)
 
 
 class FactTally:
-    """By fact and answer, the weight and the number of the trains that give it."""
+    """Accumulated weights and numbers of trains, for each answer to each fact."""
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         self.trains = 0
@@ -144,44 +144,46 @@ class FactTally:
         self._wheels = [wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels]
 
     def add_trains(self, weight: Fraction | int, number: int = 1) -> None:
-        """So many more trains, of one weight each."""
+        """Add `number` trains of one weight each to the totals."""
         self._whole += weight * number
         self.trains += number
 
     def add(self, fact: Fact, answer: str, weight: Fraction | int, number: int = 1) -> None:
-        """So many of them give an answer; none gives two to one fact."""
+        """Add `number` trains to an answer. Each train has one answer to a fact."""
         answers = self._found.setdefault(fact, {})
         before = answers.get(answer, (Fraction(0), 0))
         answers[answer] = before[0] + weight * number, before[1] + number
 
     def facts(self) -> Iterator[Fact]:
-        """All of them, without wheels that all trains use, but with those that none uses."""
+        """Yield all facts, including unused wheels, but without wheels that every train uses."""
         used = {wheel: Fact("used", wheel) for wheel in self._wheels}
-        everywhere = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
-        yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in everywhere)
+        used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
+        yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
 
     def marginal(self, fact: Fact) -> FactMarginal:
-        """What the trains say of a fact."""
+        """Return the marginal distribution of a fact."""
         found = self._found.get(fact, {})
         answers = [FactAnswer(answer, weight / self._whole, number) for answer, (weight, number) in found.items()]
         left = self.trains - sum(answer.mechanisms for answer in answers)
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
             answers.append(FactAnswer(_ELSE.get(fact.kind, NO), rest, left))
-        answers.sort(key=lambda one: (-one.share, _natural(one.answer)))
+        answers.sort(key=lambda one: (-one.share, _answer_order(one.answer)))
         return FactMarginal(fact.kind, fact.subject, tuple(answers))
 
 
 class ExplainedFacts:
-    """What trains say of every fact, and which facts divide them alike.
+    """Marginals of all facts, and groups of facts that partition the trains in the same way.
 
     Parameters
     ----------
     weighed : WeighedTrains
-        All of them, or the best.
+        All trains, or the best.
     problem : ReconstructionProblem
+        Typed question.
     tally : FactTally, optional
-        The sums over all, where they are known; facts divide alike if they do so in `weighed`, with equal sums.
+        Sums over all trains, if known. Facts are then equivalent if they partition `weighed` in the same way and have
+        equal sums.
     """
 
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
@@ -197,12 +199,14 @@ class ExplainedFacts:
         self._tally = own if tally is None else tally
 
     def marginals(self) -> tuple[FactMarginal, ...]:
-        """Of every fact but `pair`, those of a kind together; what is in all trains first, then by weight."""
+        """Return the marginal of every fact except `pair`, by kind and in descending order of weight."""
         found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
-        return tuple(sorted(found, key=lambda one: (_KINDS.index(one.kind), -_affirmed(one), _natural(one.subject))))
+        return tuple(
+            sorted(found, key=lambda one: (_KINDS.index(one.kind), -_yes_weight(one), _answer_order(one.subject)))
+        )
 
     def next_facts(self) -> tuple[NextFact, ...]:
-        """Facts that would divide the trains, the most telling first."""
+        """Return facts that partition the trains, in descending order of their entropy."""
         requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
         requested = [one for one in requested if len(one.answers) > 1]
         order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
@@ -215,18 +219,21 @@ class ExplainedFacts:
         )
 
     def _parts(self, one: FactMarginal) -> Hashable:
-        """The parts into which a fact divides the trains that are listed, and how many trains of all each part has."""
+        """Return the partition of the listed trains by a fact, with the sums over all trains of each set."""
         fact = Fact(one.kind, one.subject)
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
         rest = frozenset(range(len(self._weighed.trains))).difference(*parts)
         found = frozenset([*parts, *([rest] if rest else [])])
-        if len(found) < len(one.answers):  # those that are listed do not show how it divides all
+        if len(found) < len(one.answers):  # the listed trains do not show the whole partition
             return fact
         return found, frozenset((answer.share, answer.mechanisms) for answer in one.answers)
 
 
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
-    """All that a candidate says, no fact twice; of the counts in doubt, and of pointers whose place is not known."""
+    """Yield all facts of a candidate with their answers, each fact once.
+
+    Tooth counts are facts only for wheels in `doubtful`, pointers only for dials in `lost`.
+    """
     wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
     for arbor in train.arbors():
         for dial in lost.intersection(arbor.dials):
@@ -250,12 +257,12 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
 
 
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
-    """Dials whose place is not known."""
+    """Return the names of dials whose place is not known."""
     return {dial.name for dial in problem.dials if dial.place is None}
 
 
 def uncertain_wheels(problem: ReconstructionProblem) -> set[str]:
-    """Surviving wheels that may have several counts."""
+    """Return the names of surviving wheels with uncertain tooth counts."""
     return {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
 
 
@@ -263,43 +270,43 @@ def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
     return (problem.input, *problem.arbors)
 
 
-def _affirmed(fact: FactMarginal) -> Fraction:
-    """The weight of yes, or of the likeliest answer where there is no yes and no."""
+def _yes_weight(fact: FactMarginal) -> Fraction:
+    """Return the weight of yes, or of the most probable answer of a fact without yes and no."""
     return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
 
 
-def _natural(answer: str) -> tuple[int, str]:
-    """Counts by size, then words."""
+def _answer_order(answer: str) -> tuple[int, str]:
+    """Return a sorting key that orders tooth counts by size, before words."""
     return (int(answer), "") if answer.isdigit() else (1 << 62, answer)
 
 
-# What all trains of a question say of single facts: weights and numbers, summed exactly without listing a train.
+# Marginals of facts over all trains of a question: exact sums of weights and numbers, without enumeration of trains.
 
 
 MOST_SUMMED = 20_000_000
-"""Trains up to which sums over choices of counts are fast."""
+"""Maximum number of trains for which sums over choices of tooth counts are fast."""
 
 
 def sum_facts(
     weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, dials: Sequence[str]
 ) -> FactTally:
-    """What the trains of topologies say, each topology with the weight of one of its trains."""
+    """Sum the facts of all trains of topologies, each given with the weight of one of its trains."""
     trains, sums = TopologyTrains(problem, dials), FactTally(problem)
     lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
     for topology, weight in weighed:
         parts = [part for part in trains.parts(topology) if part.choices and part.orders.total]
         number = sum(part.choices * part.orders.total for part in parts)
         sums.add_trains(weight, number)
-        for fact, answer in _everywhere(topology, lost, doubtful):
+        for fact, answer in _topology_facts(topology, lost, doubtful):
             sums.add(fact, answer, weight, number)
         for part in parts:
-            for fact, answer, own in _told(part, trains):
+            for fact, answer, own in _part_facts(part, trains):
                 sums.add(fact, answer, weight, own)
     return sums
 
 
-def _everywhere(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
-    """What holds in each train of a topology."""
+def _topology_facts(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
+    """Yield facts that are true of every train of a topology."""
     for branching in topology.branchings:
         for dial in lost.intersection(branching.here):
             yield Fact("pointer", dial), branching.name or AN_ADDED_ARBOR
@@ -310,20 +317,20 @@ def _everywhere(topology: Topology, lost: set[str], doubtful: set[str]) -> Itera
             yield Fact("count", wheel.name), str(wheel.teeth)
 
 
-def _told(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
-    """What holds in some trains of a part, and in how many."""
-    for told, orders in part.orders.marginals.items():
-        if isinstance(told, NamedMesh):
-            for fact, answer in _of_mesh(told):
+def _part_facts(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
+    """Yield facts that are true of some trains of a part, with the number of these trains."""
+    for fact_key, orders in part.orders.marginals.items():
+        if isinstance(fact_key, NamedMesh):
+            for fact, answer in _mesh_facts(fact_key):
                 yield fact, answer, int(orders) * part.choices
-        elif isinstance(told, AddedPlace):
-            for count, choices in trains.counts.of_kind(part.open, told.kind).items():
-                yield Fact("added", told.name), str(count), int(orders) * choices
+        elif isinstance(fact_key, AddedPlace):
+            for count, choices in trains.counts.of_kind(part.open, fact_key.kind).items():
+                yield Fact("added", fact_key.name), str(count), int(orders) * choices
     for count, choices in trains.counts.with_any(part.open).items():
         yield Fact("needed", str(count)), YES, int(part.orders.total) * choices
 
 
-def _of_mesh(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
+def _mesh_facts(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
     driving, wheel, arbor = mesh
     assert arbor.driven is not None
     yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
@@ -333,59 +340,59 @@ def _of_mesh(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
         yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
 
 
-# ----------------------------------------------------------------------------------------------------- the family tree
+# ------------------------------------------------------------------------------------------------------ the family tree
 
 
-# Candidates as a family tree: a trie over their meshes, from the input along the path to each pointer in turn.
-# Counts part candidates last: a branch is a structure, and the trains at its end differ by their counts alone.
+# Family tree of the candidates: a trie over their meshes, from the input along the path to each pointer in turn.
+# Branches are topologies; the trains at the end of a branch differ only in their tooth counts.
 
 
 @dataclass(frozen=True, slots=True)
 class FamilyTrain(Result):
-    """A candidate at the end of a branch."""
+    """Candidate at the end of a branch of the family tree."""
 
     KEYS = ("rank", Key("weight", "share", float), "counts")
 
     rank: int
-    """From 1 on."""
+    """Rank by weight, from 1."""
     share: Fraction
-    """Share of the weight of all candidates in the tree."""
+    """Share of the weight of all candidates in the tree, 0 to 1."""
     counts: dict[str, int]
-    """Of added wheels, then of surviving ones in whose count the candidates differ."""
+    """Tooth counts of added wheels, then of surviving wheels whose counts differ among the candidates."""
 
 
 @dataclass(frozen=True, slots=True)
 class FamilyBranch(Result):
-    """A stretch of meshes that a family of candidates has in common."""
+    """Consecutive meshes that all candidates of a branch have in common."""
 
     KEYS = ("parent", "meshes", Key("weight", "share", float), "mechanisms", "trains")
 
     parent: int | None
-    """Place in the tree of the branch from which it goes on; None for the stem."""
+    """Index of the parent branch; None for the root."""
     meshes: tuple[str, ...]
-    """The driving wheel first; in brackets the pointers of the arbor that is driven."""
+    """Meshes as "driving > driven", with the pointers of the driven arbor in parentheses."""
     share: Fraction
-    """Share of the weight of all candidates in the tree."""
+    """Share of the weight of all candidates in the tree, 0 to 1."""
     mechanisms: int
-    """How many candidates it holds."""
+    """Number of candidates in the branch."""
     trains: tuple[FamilyTrain, ...]
-    """Candidates that end here, the best first."""
+    """Candidates that end here, in descending order of weight."""
 
 
 def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tuple[FamilyBranch, ...]:
-    """The tree, each branch before those that go on from it, and heavy ones before light ones.
+    """Build the family tree in depth-first order, branches in descending order of weight.
 
-    doubtful   names of surviving wheels whose counts are told too
+    doubtful   names of surviving wheels whose tooth counts are included
     """
     root = _Node()
     for rank, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True), 1):
         root.add(train, weight, FamilyTrain(rank, Fraction(weight, weighed.whole), _counts(train, doubtful)))
-    return tuple(_flat(root)) if weighed.trains else ()
+    return tuple(_branches(root)) if weighed.trains else ()
 
 
 @dataclass
 class _Node:
-    """A mesh of the trie, with all that goes on from it."""
+    """Node of the trie: a mesh with the subtree of the meshes that follow it."""
 
     weight: int = 0
     mechanisms: int = 0
@@ -405,8 +412,8 @@ class _Node:
         self.mechanisms += 1
 
 
-def _flat(root: _Node) -> Iterator[FamilyBranch]:
-    """Branches in their order; meshes that all of a family share are one."""
+def _branches(root: _Node) -> Iterator[FamilyBranch]:
+    """Yield the branches in depth-first order; a sequence of meshes without alternatives is one branch."""
     waiting: list[tuple[int | None, list[str], _Node]] = [(None, [], root)]
     number = 0
     while waiting:
@@ -423,14 +430,14 @@ def _flat(root: _Node) -> Iterator[FamilyBranch]:
 
 def _steps(train: NamedArbor) -> Iterator[str]:
     if train.dials:
-        yield _shown(train)
+        yield _pointers_text(train)
     for _, wheel, arbor in train.meshes():
         assert arbor.driven is not None
-        yield f"{wheel.name} > {arbor.driven.name}{_shown(arbor) and f' {_shown(arbor)}'}"
+        yield f"{wheel.name} > {arbor.driven.name}{_pointers_text(arbor) and f' {_pointers_text(arbor)}'}"
 
 
-def _shown(arbor: NamedArbor) -> str:
-    """The pointers of an arbor, in brackets."""
+def _pointers_text(arbor: NamedArbor) -> str:
+    """Return the pointers of an arbor in parentheses."""
     return f"({', '.join(arbor.dials)})" if arbor.dials else ""
 
 
@@ -441,29 +448,29 @@ def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
     return {name: counts[name] for name in names}
 
 
-# -------------------------------------------------------------------------------------------------------- all findings
+# --------------------------------------------------------------------------------------------------------- all findings
 
 
 @dataclass(frozen=True, slots=True)
 class CandidateFindings(Result):
-    """What is told beyond counts."""
+    """Facts derived from the candidates, besides their numbers."""
 
     listed: int = 0
-    """How many candidates the family tree holds."""
+    """Number of candidates in the family tree."""
     share: float = 0.0
-    """Their share of the weight of all explanations, as far as that is known."""
+    """Share of the weight of all explanations that the family tree covers, 0 to 1."""
     of_all: bool = False
-    """Whether facts are told of all trains, and not of those in the family tree alone."""
+    """True if the facts cover all trains, False if only the trains of the family tree."""
     marginals: tuple[FactMarginal, ...] = ()
-    """What the trains say of every fact."""
+    """Marginal distribution of every fact."""
     next_facts: tuple[NextFact, ...] = ()
-    """What to look for, the most telling first."""
+    """Facts to observe next, in descending order of their entropy."""
     family: tuple[FamilyBranch, ...] = ()
-    """The family tree of candidates; shares are of their weight."""
+    """Family tree of the candidates. Shares are shares of their weight."""
     assumptions: tuple[ChangedCount, ...] = ()
-    """The counts without each hard fact, where that was asked."""
+    """Counts without each hard fact, if requested."""
     missing: MissingExplanation | None = None
-    """Why there is none."""
+    """Reasons why nothing explains the evidence; None if something does."""
 
 
 NO_FINDINGS = CandidateFindings()
@@ -475,7 +482,10 @@ def find_facts(
     found: Reconstructions,
     assumptions: tuple[ChangedCount, ...] = (),
 ) -> CandidateFindings:
-    """Marginals and facts to look for, of all trains where they can be summed, and the family tree of the listed."""
+    """Compute marginals, next facts and the family tree of the listed candidates.
+
+    Marginals and next facts cover all trains if these can be summed.
+    """
     candidates = found.candidates
     if not candidates:
         return CandidateFindings(assumptions=assumptions)

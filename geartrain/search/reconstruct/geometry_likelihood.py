@@ -1,11 +1,13 @@
-"""Likelihood of a candidate by measured modules, radii and places of axes: a float, 0 if it is impossible.
+"""Likelihood of a candidate by measured modules, radii and positions of axes: a float, 0 if it is impossible.
 
-Every mesh of two measured wheels weighs exp(-(e/s)^2 / 2), e the logarithm of the quotient of their modules. A wheel
-that was not measured has the module that suits those around it best. So misfits add up like springs: from a wheel whose
-module is known a mesh pulls with stiffness 1, from one that is itself held by stiffness k it pulls with k/(1 + k). A
-measured radius with an error is such a spring, too: it holds its wheel with stiffness (s*radius/error)^2.
-A mesh of two axes with places weighs exp(-(f/s')^2 / 2), f the logarithm of the sum of pitch radii over their distance.
-Misfits of modules and of distances count as independent.
+Every mesh of two measured wheels contributes exp(-(e/s)^2 / 2), where e is the logarithm of the ratio of their modules
+and s its standard deviation. A wheel that was not measured has the module that fits the adjacent wheels best. Misfits
+therefore combine like springs: a mesh with a wheel of known module has stiffness 1, and a mesh with a wheel that is
+itself supported with stiffness k has stiffness k/(1 + k). A measured radius with an error also acts as a spring of
+stiffness (s*radius/error)^2.
+
+A mesh of two axes with known positions contributes exp(-(f/s')^2 / 2), where f is the logarithm of the sum of the pitch
+radii over the distance of the axes. Misfits of modules and of distances are treated as independent.
 """
 
 from __future__ import annotations
@@ -20,28 +22,28 @@ from typing import NamedTuple
 
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, SurvivingGeometry
 
-# Whether arbors without a known place can stand where their meshes need them, between arbors that have one. Between
-# two placed arbors every chain of arbors without a place is a polygon: its sides are the distance of the two and
-# those of the meshes, each within bounds. It can be closed in the plane if and only if no side must be longer than
-# all others may be together. Each chain is looked at alone: where three meet, more may be impossible than is found
-# here.
+# Feasibility of the positions of arbors without known position, between arbors with known positions. A chain of such
+# arbors between two known ones is a polygon, whose sides are the distance of the two and the axis distances of the
+# meshes, each within bounds. The polygon can be closed in the plane if and only if no side must be longer than the sum
+# of the maxima of the others. Each chain is tested separately, so this condition is necessary but not sufficient where
+# three chains meet.
 
 
 Sides = tuple[tuple[float, float], ...]
-"""Bounds of the distances of a chain of meshes."""
+"""Minimum and maximum axis distance of each mesh of a chain [mm]."""
 
 _Chain = tuple[str, Sides]
-"""The placed arbor where it ends, and its sides."""
-_ROUNDING = 1e-9  # of a length: what floats may be off
+"""Arbor with a known position at which a chain ends, and the axis distances of its meshes."""
+_ROUNDING = 1e-9  # relative rounding error of a length
 
 
 def chains_close(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
-    """Whether every chain between placed arbors can be closed; True where distances are not bounded."""
+    """Return whether every chain between arbors of known position can be closed; True if distances are not bounded."""
     return geometry.reach is None or _chains(arbor, geometry) is not None
 
 
 def can_close(distance: float, sides: Sides) -> bool:
-    """Whether a polygon can be closed of one side of a length and others within bounds."""
+    """Return whether a polygon can be closed with one side of a given length and the others within bounds [mm]."""
     slack = _ROUNDING * (distance + sum(low for low, _ in sides))
     lengths = ((distance, distance), *sides)
     return all(
@@ -51,7 +53,7 @@ def can_close(distance: float, sides: Sides) -> bool:
 
 
 def _chains(arbor: Arbor, geometry: SurvivingGeometry) -> list[_Chain] | None:
-    """Chains from an arbor down to placed ones; None if one between two placed arbors cannot be closed."""
+    """Return the chains from an arbor down to arbors of known position, or None if one of them cannot be closed."""
     by_child: list[list[_Chain]] = []
     for wheel, child in arbor.driven_arbors():
         below = _chains(child, geometry)
@@ -81,42 +83,42 @@ def _side(wheel: PlacedWheel, child: Arbor, geometry: SurvivingGeometry) -> tupl
     return (0.0, math.inf) if bounds is None else (float(bounds[0]), float(bounds[1]))
 
 
-# Dynamic programming over bit masks: whether the wheels of a candidate can be stacked in layers so that no wheel
-# goes through an arbor. Wheels that mesh are in one layer. A wheel whose pitch circle holds the axis of another
-# arbor must lie above or below all wheels of that arbor: the stretch between them is the arbor itself. Layers are
-# put on each other from below; what may come next depends on which are there already, not on their order, so every
-# set of layers is looked at once. Bearings and what runs out to a dial are not looked at, nor arbors without a
-# place; arbors on one axis pass through each other.
+# Dynamic programming over subsets (bit masks): can the wheels of a candidate be stacked in layers so that no wheel
+# intersects an arbor? Wheels that mesh are in one layer. A wheel whose pitch circle contains the axis of another arbor
+# must be above or below all wheels of that arbor, because the arbor extends between them. Layers are stacked from
+# below. The permitted next layers depend only on the set of layers already stacked, not on their order, so each set is
+# visited once. Bearings, extensions of arbors to dials, and arbors without a known position are ignored; arbors on one
+# axis may be nested.
 
 
 _MOST_LAYERS = 16
-"""Beyond them nothing is said: the number of sets doubles with each."""
+"""Maximum number of layers that are checked. The number of subsets doubles with each layer."""
 _Member = tuple[str | None, Fraction]
-"""Arbor of a wheel, and the least pitch radius that it may have."""
+"""Arbor of a wheel, and the minimum pitch radius of the wheel [mm]."""
 _Layer = tuple[_Member, ...]
-"""Wheels that mesh, the driving one first."""
+"""Wheels that mesh with each other, the driving wheel first."""
 
 
 def layers_exist(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
-    """Whether an order of layers exists; True where nothing bounds distances."""
+    """Return whether the wheels can be stacked in layers; True if distances are not bounded."""
     if geometry.reach is None:
         return True
     layers = list(_layers(arbor, geometry))
-    # wheels that mesh reach each other, which is looked at elsewhere, and so overlap no more than may be misfit
+    # wheels that mesh are tested elsewhere, and overlap only within the permitted misfit
     if any(_overlap(one, other, geometry) for layer in layers for one, other in combinations(layer, 2)):
         return False
     of_arbor = {name: _layers_of(name, layers) for layer in layers for name, _ in layer if name in geometry.places}
     blocked = [
-        tuple(own for name, own in of_arbor.items() if any(_holds(wheel, name, geometry) for wheel in layer))
+        tuple(own for name, own in of_arbor.items() if any(_contains_axis(wheel, name, geometry) for wheel in layer))
         for layer in layers
     ]
     return len(layers) > _MOST_LAYERS or order_exists(blocked)
 
 
 def order_exists(blocked: Sequence[Sequence[frozenset[int]]]) -> bool:
-    """Whether layers can be put on each other.
+    """Return whether the layers can be stacked in some order.
 
-    blocked   for every layer, sets of layers of which none is below it or all are, itself left out
+    blocked   for every layer, sets of other layers that must be all below it or all above it
     """
     every = frozenset(range(len(blocked)))
 
@@ -139,7 +141,7 @@ def _layers(arbor: Arbor, geometry: SurvivingGeometry) -> Iterator[_Layer]:
 
 
 def _layers_below(arbor: Arbor, geometry: SurvivingGeometry) -> Iterator[_Layer]:
-    """Layers of what an arbor drives, but for those of its driven wheel itself."""
+    """Yield the layers of the subtree of an arbor, except those of its driven wheel."""
     yield from _layers(arbor, geometry)
     for child in arbor.passes:
         yield from _layers_below(child, geometry)
@@ -165,26 +167,26 @@ def _layers_of(name: str | None, layers: Sequence[_Layer]) -> frozenset[int]:
     return frozenset(at for at, layer in enumerate(layers) if any(arbor == name for arbor, _ in layer))
 
 
-def _holds(wheel: _Member, name: str | None, geometry: SurvivingGeometry) -> bool:
-    """Whether the axis of an arbor goes through a wheel."""
-    return _nearer(wheel[0], name, wheel[1], geometry)
+def _contains_axis(wheel: _Member, name: str | None, geometry: SurvivingGeometry) -> bool:
+    """Return whether the axis of an arbor passes through a wheel."""
+    return _is_nearer(wheel[0], name, wheel[1], geometry)
 
 
 def _overlap(one: _Member, other: _Member, geometry: SurvivingGeometry) -> bool:
-    return _nearer(one[0], other[0], one[1] + other[1], geometry)
+    return _is_nearer(one[0], other[0], one[1] + other[1], geometry)
 
 
-def _nearer(one: str | None, other: str | None, length: Fraction, geometry: SurvivingGeometry) -> bool:
-    """Whether two axes are nearer than a length, beyond what may be misfit, and not the same."""
+def _is_nearer(one: str | None, other: str | None, length: Fraction, geometry: SurvivingGeometry) -> bool:
+    """Return whether two different axes are closer than a length [mm] minus the permitted misfit."""
     square = geometry.square_distance(one, other)
     assert geometry.reach is not None
     return square is not None and 0 < square < max(Fraction(0), length - geometry.reach) ** 2
 
 
 def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
-    """Weight of what was measured, up to a factor that all candidates share; 0 if the candidate is impossible.
+    """Return the likelihood of the measurements up to a common factor; 0 if the candidate is impossible.
 
-    arbor   the candidate from its input on
+    arbor   input arbor of the candidate
     """
     if not (geometry.wheels or geometry.arbors):
         return 1.0
@@ -198,9 +200,9 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
     return math.exp(max(-(modules + distances) / 2, _MINIMUM))
 
 
-_MINIMUM = -700.0  # its exponential is still above 0, which alone says impossible
+_MINIMUM = -700.0  # exp(-700) is still positive; only an impossible candidate has likelihood 0
 _End = tuple[str | None, tuple[str | None, int]]
-"""Arbor, and name and count of a wheel on it."""
+"""Arbor, and name and tooth count of a wheel on it."""
 
 
 class _Mesh(NamedTuple):
@@ -220,14 +222,14 @@ def _size(wheel: PlacedWheel) -> tuple[str | None, int]:
 
 
 def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
-    """Square of the logarithm of the sum of pitch radii over the distance; 0 where one of them is not known."""
+    """Return the squared logarithm of the sum of pitch radii over the axis distance; 0 if one of them is not known."""
     square = geometry.square_distance(mesh.driving[0], mesh.driven[0])
     whole = geometry.radii_sum(mesh.driving[1], mesh.driven[1])
     return 0.0 if square is None or whole is None else math.log(whole**2 / square) ** 2 / 4
 
 
 class _Pull(NamedTuple):
-    """How a part of the train holds the logarithm of a module: stiffness * (x - centre)^2 + misfit at least."""
+    """Misfit of a part of a train: stiffness * (x - centre)^2 + misfit, x the logarithm of a module."""
 
     stiffness: float
     centre: float
@@ -236,19 +238,19 @@ class _Pull(NamedTuple):
 
 @dataclass(frozen=True)
 class _Modules:
-    """Least sum of squared misfits of modules."""
+    """Minimum sum of squared misfits of modules, by elimination of the unknown modules from the leaves up."""
 
     geometry: SurvivingGeometry
 
     def misfit(self, arbor: Arbor) -> float:
-        """Of all meshes from an arbor on."""
-        # wheels that a driven wheel drives belong to the mesh in which it is driven, and are counted there
-        own = sum(self._around(wheel, children).misfit for wheel, children in arbor.drives)
+        """Return the minimum misfit of all meshes in the subtree of an arbor."""
+        # wheels driven by an idler share the mesh in which it is driven, and are counted there
+        own = sum(self._misfit_of_wheel(wheel, children).misfit for wheel, children in arbor.drives)
         return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 
-    def _around(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
-        """What a wheel is held by: its own measure, else the wheels that it drives."""
-        pulls = [self._through_mesh(child) for child in children]
+    def _misfit_of_wheel(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
+        """Return the misfit as a function of the module of a wheel, from its own and its driven wheels."""
+        pulls = [self._misfit_through_mesh(child) for child in children]
         module = self.geometry.module_of(_size(wheel))
         stiffness = 0.0 if module is None else self._stiffness(module * wheel.teeth / 2)
         if module is not None and stiffness < math.inf:
@@ -263,13 +265,13 @@ class _Modules:
         return _Pull(stiffness, centre, misfit)
 
     def _stiffness(self, radius: Fraction) -> float:
-        """How a measured pitch radius holds its module, beside a mesh."""
+        """Return the stiffness of a measured pitch radius, relative to a mesh."""
         error = self.geometry.radius
         return math.inf if error is None else float(self.geometry.module * radius / error) ** 2
 
-    def _through_mesh(self, child: Arbor) -> _Pull:
-        """What a wheel is held by through its mesh with a wheel that it drives."""
+    def _misfit_through_mesh(self, child: Arbor) -> _Pull:
+        """Return the misfit as a function of the module of a wheel, from a mesh with a wheel that it drives."""
         assert child.driven is not None
-        held = self._around(child.driven, child.passes)
+        held = self._misfit_of_wheel(child.driven, child.passes)
         stiffness = 1.0 if held.stiffness == math.inf else held.stiffness / (1 + held.stiffness)
         return _Pull(stiffness, held.centre, held.misfit)

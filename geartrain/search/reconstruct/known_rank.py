@@ -1,4 +1,4 @@
-"""Rank of a known train among all that explain the evidence, or the rules that it breaks."""
+"""Rank of a known train among all explanations of the evidence, or the rules that it breaks."""
 
 from __future__ import annotations
 
@@ -29,97 +29,102 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, Reconstru
 from geartrain.search.reconstruct.reconstruction_search import (
     Reconstructions,
     is_all_listed,
-    mechanism,
     prior,
     rank_of,
+    train_key,
     weight_ranks,
 )
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
-# Which facts single one train out among all that explain the evidence: each alone, and the smallest sets of them.
+# Facts that distinguish one train from all other explanations: single facts, and the smallest sets of facts.
 
 
 MAXIMUM, MINIMUM = "maximum", "minimum"
-"""Kinds of facts beside those that are looked for: how many teeth an added wheel has at most, and at least."""
+"""Kinds of facts on the maximum and the minimum tooth count of the added wheels of a train."""
 _KINDS = (*LOOKED_FOR, MAXIMUM, MINIMUM)
 _Subject = tuple[str, str]
 _MOST_TOGETHER = 3
-"""Facts that are tried together at most."""
+"""Maximum number of facts in a set."""
 _MOST_TRAINS = 2000
-"""Trains among which one is singled out."""
+"""Maximum number of trains from which one is distinguished."""
 
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """A fact that holds in a train and not in all."""
+    """Distinguishing fact: it is true of one train and not of all."""
 
     kind: str
-    """What it is about: of the kinds of `Fact` those that are looked for, or `MAXIMUM` or `MINIMUM`."""
+    """Kind of the fact: one of `LOOKED_FOR`, or `MAXIMUM` or `MINIMUM`."""
     subject: str
-    """Of what it is; nothing for `MAXIMUM` and `MINIMUM`."""
+    """Wheels, arbor or dial of the fact; empty for `MAXIMUM` and `MINIMUM`."""
     answer: str
-    """What the train says."""
+    """Value of the fact in the train."""
     mechanisms: int
-    """How many trains say so, itself among them."""
+    """Number of trains with this value, including the train itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class TellingFacts(Result):
-    """What singles a train out."""
+    """Facts that distinguish one train from all other explanations."""
 
     facts: tuple[TellingFact, ...]
-    """All of them, those that leave the fewest trains first."""
+    """All distinguishing facts, those of the fewest trains first."""
     sets: tuple[tuple[TellingFact, ...], ...]
-    """The smallest sets that leave the train alone, all of one size; of facts that leave the same trains the first
-    stands for all. None if no three do."""
+    """Smallest sets of facts that only this train satisfies, all of one size of at most three.
+
+    Facts that are true of the same trains are represented by the first of them.
+    """
 
 
 def find_telling_facts(
     evidence: Train, problem: ReconstructionProblem, found: Reconstructions, candidate: Arbor
 ) -> TellingFacts | None:
-    """What singles one of all explanations out; None where they are not all listed, or too many.
+    """Find facts that distinguish one explanation from all others.
+
+    Return None if not all explanations are listed, or if they are too many.
 
     Parameters
     ----------
     evidence : Train
+        Declared evidence.
     problem : ReconstructionProblem
-        What the evidence asks.
+        Typed question of the evidence.
     found : Reconstructions
-        All that explains it.
+        All explanations of the question.
     candidate : Arbor
-        One of them.
+        One of the explanations.
     """
     if not is_all_listed(found) or not 1 < len(found.candidates) <= _MOST_TRAINS:
         return None
-    wanted = mechanism(candidate)
-    which = next(at for at, one in enumerate(found.candidates) if mechanism(one.arbor) == wanted)
+    wanted = train_key(candidate)
+    which = next(at for at, one in enumerate(found.candidates) if train_key(one.arbor) == wanted)
     trains = [named_candidate(evidence, one.arbor) for one in found.candidates]
     return single_out(trains, which, uncertain_wheels(problem), lost_pointers(problem))
 
 
 def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], lost: set[str]) -> TellingFacts:
-    """What singles one of some trains out.
+    """Find facts that distinguish one train from the others of a list.
 
-    which     its place among them
-    doubtful  surviving wheels whose counts are in doubt
+    which     index of the train
+    doubtful  surviving wheels with uncertain tooth counts
     lost      dials whose place is not known
     """
-    said = [dict(_said(train, doubtful, lost)) for train in trains]
+    said = [dict(_observable_facts(train, doubtful, lost)) for train in trains]
     left: dict[TellingFact, frozenset[int]] = {}
     for fact, answer in said[which].items():
-        alike = frozenset(_alike(said, fact, answer))
+        alike = frozenset(_trains_with(said, fact, answer))
         if len(alike) < len(trains):
             left[TellingFact(*fact, answer, len(alike))] = alike
     facts = sorted(left, key=lambda one: (one.mechanisms, _KINDS.index(one.kind), one.subject))
     first: dict[frozenset[int], TellingFact] = {}
     for each in facts:
         first.setdefault(left[each], each)
-    return TellingFacts(tuple(facts), tuple(_smallest(first, which)))
+    return TellingFacts(tuple(facts), tuple(_smallest_sets(first, which)))
 
 
-def _said(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[_Subject, str]]:
-    """What a train says of what may be found out; and how large its added wheels are."""
+def _observable_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[_Subject, str]]:
+    """Yield the observable facts of a train, and the maximum and minimum tooth count of its added wheels."""
     for fact, answer in train_facts(train, doubtful, lost):
         if fact.kind in LOOKED_FOR:
             yield (fact.kind, fact.subject), answer
@@ -129,8 +134,8 @@ def _said(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tup
         yield (MINIMUM, ""), str(min(added))
 
 
-def _alike(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
-    """Trains of which a fact holds; of a bound, those that keep it."""
+def _trains_with(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
+    """Yield the indices of trains for which a fact is true; a limit is true if a train respects it."""
     for at, one in enumerate(said):
         own = one.get(fact)
         if fact[0] == MAXIMUM:
@@ -143,8 +148,8 @@ def _alike(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) 
             yield at
 
 
-def _smallest(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterable[tuple[TellingFact, ...]]:
-    """The smallest sets of facts that leave a train alone."""
+def _smallest_sets(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterable[tuple[TellingFact, ...]]:
+    """Return the smallest sets of facts that only the given train satisfies."""
     for number in range(1, _MOST_TOGETHER + 1):
         found = [
             tuple(first[each] for each in some)
@@ -158,90 +163,91 @@ def _smallest(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterab
 
 @dataclass(frozen=True, slots=True)
 class TrainPlace(Result):
-    """Where an explanation stands among all."""
+    """Rank and weight of one explanation among all."""
 
     KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
 
     ranks: tuple[int, int]
-    """First and last rank by weight that it may have, for some weigh the same."""
+    """First and last rank by weight. They differ if several trains have the same weight."""
     trains: int
-    """How many explanations there are."""
+    """Number of explanations."""
     ranks_alike: tuple[int, int]
-    """The same among those with as many added wheels."""
+    """First and last rank among explanations with the same number of added wheels."""
     trains_alike: int
-    """How many these are."""
+    """Number of explanations with the same number of added wheels."""
     weight: float
-    """Its share of the weight of all."""
+    """Share of the weight of all explanations, 0 to 1."""
     dearer: Fraction
-    """By what factor the best weighs more; 1 for the best."""
+    """Weight of the best explanation over the weight of this one, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class AdmittingQuestion(Result):
-    """A changed question that a train explains."""
+    """Changed question for which a train is an explanation."""
 
     changes: tuple[str, ...]
-    """What is otherwise in it."""
+    """Descriptions of the changes."""
     wheels: dict[str, int]
-    """Wheels that the train adds in it, with their counts."""
+    """Names of the wheels that the train adds -> tooth counts."""
     arbors: int
-    """Arbors that it adds."""
+    """Number of arbors that the train adds."""
     requested: int
-    """Up to how many added wheels it was asked: as many as the train adds, if so many may be."""
+    """Maximum number of added wheels of the search: as many as the train adds, if permitted."""
     mechanisms: tuple[int, ...]
-    """Trains with just 0, 1, 2, ... added wheels that explain it."""
+    """Numbers of explanations with exactly 0, 1, 2, ... added wheels."""
     place: TrainPlace | None
-    """Where the train stands; None where it adds more wheels than were asked."""
+    """Rank of the train; None if it adds more wheels than were searched."""
     refused: str | None = None
-    """Why it could not be asked, or was not."""
+    """Reason why the question could not be searched, or was not."""
 
 
 @dataclass(frozen=True, slots=True)
 class KnownRank(Result):
-    """What a known train costs in a question."""
+    """Rank of a known train in a question, or the rules that it breaks."""
 
     train: str
-    """Its name."""
+    """Name of the train."""
     wheels: dict[str, int]
-    """Wheels that it adds, by their names in it, with their counts."""
+    """Names in the train of the wheels that it adds -> tooth counts."""
     arbors: int
-    """Arbors that it adds."""
+    """Number of arbors that the train adds."""
     broken: tuple[BrokenRule, ...]
-    """The rules that it breaks; none where it is an explanation."""
+    """Rules that the train breaks; empty if it is an explanation."""
     notes: tuple[str, ...] = ()
-    """What of the train plays no part."""
+    """Features of the train that are not used."""
     place: TrainPlace | None = None
-    """Where it stands; None where it breaks rules, or adds more wheels than may be added."""
+    """Rank of the train; None if it breaks rules or adds more wheels than permitted."""
     admitted: tuple[AdmittingQuestion, ...] = ()
-    """What it costs in questions without these rules: with its dials as it has them, and without those whose speed
-    is not the given one."""
+    """Ranks in questions without the broken rules: with the dial speeds of the train, then without these dials."""
     telling: TellingFacts | None = None
-    """What singles it out, where all explanations are listed."""
+    """Facts that distinguish the train, if all explanations are listed."""
 
 
 @dataclass(frozen=True)
 class RankedQuestion:
-    """A question among whose explanations trains are ranked."""
+    """Question with all its explanations, in which known trains are ranked."""
 
     evidence: Train
-    """What is known, and what it asks; arbors turn in the frame."""
+    """Declared evidence; its arbors turn in the frame."""
     problem: ReconstructionProblem
-    """What is known, and what it asks; arbors turn in the frame."""
+    """Typed question of the evidence."""
     found: Reconstructions
-    """All that explains it."""
+    """All explanations of the question."""
     search: Search
-    """What finds all that explains a changed question, with which a train is ranked that breaks rules."""
+    """Search for all explanations of a changed question. It ranks a train that breaks rules."""
 
 
 def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, str] | None = None) -> KnownRank:
-    """What a train costs in a question.
+    """Rank a known train among the explanations of a question.
 
     Parameters
     ----------
     train : Train
+        Known train.
     question : RankedQuestion
+        Question with all its explanations.
     same : mapping of str to str, optional
-        Names of the train by which the question calls something otherwise; see `find_known_train`.
+        Names of the train -> names of the question; see `find_known_train`.
     """
     problem, found = question.problem, question.found
     known = find_known_train(train, problem, same)
@@ -255,9 +261,11 @@ def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, 
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
-    """Where an explanation stands among all; None if it adds more wheels than may be added, or that was not finished.
+    """Return the rank and weight of one explanation among all.
 
-    Where trains weigh as their structure, the numbers of trains of each weight tell it, and no train need be listed.
+    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the
+    weight depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is
+    listed.
     """
     added = candidate.added_wheels
     counts = {count.added: count.mechanisms for count in found.counts}
@@ -280,7 +288,7 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
 
 
 def _listed_place(candidate: Arbor, found: Reconstructions) -> TrainPlace | None:
-    """The same where each train is weighed by itself, and all are listed."""
+    """Return the rank and weight of an explanation if all explanations are weighed one by one and listed."""
     ranks = rank_of(candidate, found)
     if ranks is None:
         return None
@@ -300,13 +308,13 @@ def _listed_place(candidate: Arbor, found: Reconstructions) -> TrainPlace | None
 def _all_admitted(
     train: Train, problem: ReconstructionProblem, search: Search, same: Mapping[str, str]
 ) -> Iterator[AdmittingQuestion]:
-    """Questions that take a train, each in one way."""
-    told = set[tuple[str, ...]]()
+    """Yield changed questions that admit a train, with its rank in each."""
+    known_changes = set[tuple[str, ...]]()
     for without_dials in (False, True):
         changes, changed, known = _changed(train, problem, same, without_dials)
-        if known is None or changes in told:
+        if known is None or changes in known_changes:
             continue
-        told.add(changes)
+        known_changes.add(changes)
         own = known.arbor.added_wheels
         requested = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
         said = changes, dict(known.added), known.arbor.added_arbors, requested.additions.wheels
@@ -322,9 +330,9 @@ def _all_admitted(
 def _changed(
     train: Train, problem: ReconstructionProblem, same: Mapping[str, str], without_dials: bool
 ) -> tuple[tuple[str, ...], ReconstructionProblem, KnownTrain | None]:
-    """What changes a question so that a train breaks no rule, the question, and the train in it; None if nothing does.
+    """Return the changes by which a train breaks no rule, the changed question, and the train as read in it; or None.
 
-    The train is read again after each round, for without a dial less of it is asked for, and less of what survives.
+    The train is read again after each round, because without a dial the question needs fewer of its arbors and wheels.
     """
     changes: dict[str, None] = {}
     known = find_known_train(train, problem, same)

@@ -1,13 +1,13 @@
-"""Backtracking over dials: one path for every dial, so that all of them may be the paths of one train.
+"""Backtracking search for one path for every dial, such that all of them are paths of one train.
 
-A join on hashed quotients finds pairs of paths, bit masks tell what they share, and the length of the shortest tour of
-the dials is the lower bound by which branches are pruned.
+A hash join on quotients finds pairs of paths, bit masks represent shared arbors and wheels, and the length of the
+shortest tour of the dials is the lower bound that prunes branches.
 
-How far two ends of a train are apart is the number of added wheels on one of the two paths alone; from the input it is
-the number on the path. All ends cannot be far from each other, for on a tour around the tree each added wheel is passed
-twice. So the search begins with a path that is short, or with two that are near each other, whose quotients are looked
-up; then only such paths of the other dials stay as go together with all that are chosen, and the dial that has the
-fewest is next. Complete: every choice begins in one of these ways.
+The distance of two dials is the number of added wheels on exactly one of their paths; the distance of a dial from the
+input is the number on its path. A tour around the tree passes each added wheel twice, so not all distances can be
+large. The search therefore begins with a short path, or with two paths at a small distance, whose quotients are looked
+up in a table. Then only paths of the other dials remain that are compatible with all chosen ones, and the dial with
+the fewest paths is next. The search is complete, because every choice begins in one of these ways.
 """
 
 from __future__ import annotations
@@ -27,32 +27,32 @@ from geartrain.search.reconstruct.quotient_keys import QuotientKeys
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
 
-# Tours of the ends of a train: from the input past the dials and back, each added wheel is passed twice.
+# Tours of the ends of a train, from the input past the dials and back: each added wheel is passed twice.
 
 
 EndPair = tuple[str, str]
-"""Two ends by name, sorted."""
+"""Names of two ends of paths, sorted. An end is a dial or the input."""
 
 
 def end_pair(one: str, other: str) -> EndPair:
-    """Two ends as a pair."""
+    """Return two ends as a sorted pair."""
     return (one, other) if one < other else (other, one)
 
 
 def distances(ends: Sequence[str], far: Mapping[EndPair, int]) -> tuple[int, ...]:
-    """How far each end is from each, row by row; 0 where that is not known."""
+    """Return the distance matrix of the ends, row by row, with 0 for unknown distances."""
     return tuple(far.get(end_pair(one, two), 0) for one in ends for two in ends)
 
 
 @lru_cache(maxsize=1 << 16)
 def shortest_tour(number: int, far: tuple[int, ...]) -> int:
-    """The least length of a tour from the first end past all others and back."""
+    """Return the minimum length of a closed tour through all ends, from their distance matrix."""
     return min(far[one * number + two] + rest for one, two, rest in tours_with_one_more(number, far))
 
 
 @lru_cache(maxsize=1 << 16)
 def tours_with_one_more(number: int, far: tuple[int, ...]) -> tuple[tuple[int, int, int], ...]:
-    """By two ends between which one more may stand on a tour: the least length of the rest."""
+    """Return the minimum length of the rest of a tour for each pair of ends between which one more end is inserted."""
     orders, first, pairs = _orders(number)
     lengths = np.array(far, dtype=np.int64)[orders].sum(axis=1)
     minimum = np.minimum.reduceat(lengths, first)
@@ -61,9 +61,10 @@ def tours_with_one_more(number: int, far: tuple[int, ...]) -> tuple[tuple[int, i
 
 @lru_cache(maxsize=16)
 def _orders(number: int) -> tuple[NDArray[np.int64], NDArray[np.int64], tuple[tuple[int, int], ...]]:
-    """Orders of ends, one of each two that are the reverse of each other, those between the same two ends together.
+    """Return all orders of ends up to reversal, grouped by their first and last end.
 
-    By order, its steps as places in a table of distances; where those between two ends begin; and these two ends.
+    The result has the steps of each order as indices into a distance matrix, the start of each group, and the first and
+    last end of each group.
     """
     orders = [order for order in permutations(range(number)) if order[0] <= order[-1]]
     orders.sort(key=lambda order: (order[0], order[-1]))
@@ -74,23 +75,23 @@ def _orders(number: int) -> tuple[NDArray[np.int64], NDArray[np.int64], tuple[tu
     return whole[:, :-1] * number + whole[:, 1:], first, pairs
 
 
-# What of the paths in a list is compared with a path to another dial, in columns: fast for many paths at once.
+# Columns of a path list that are compared with a path to another dial, as arrays for speed.
 
 
 _NEVER = 100
-"""Wheels apart, of paths that differ by a prime that no wheel has."""
+"""Distance of two paths that differ by a prime larger than every tooth count."""
 
 
 class PathColumns:
-    """The paths of a list, by arbor.
+    """Columns of a path list for fast comparison of many paths with a path to another dial.
 
-    powers           by large prime and row: its power in what the added wheels must make
-    codes            by arbor and row: the way through it, 0 where there is none
-    driven, driver   by arbor and row: number of the wheel that is driven with its count, and of the one that drives by
-                     its name; 0 where there is none
-    ends             by row: bit of the surviving arbor that shows the dial
-    passes_added     by row: whether an added wheel is an idler on it
-    used             by row: bits of surviving arbors, then of wheels, that are used
+    powers         large prime -> its power in the quotient of the added wheels, for each row
+    codes          code of the pass, 0 if the arbor is avoided; (arbors, rows)
+    driven         number of the driven wheel with its count, 0 if absent; (arbors, rows)
+    driver         number of the driving wheel by name, 0 if absent; (arbors, rows)
+    ends           bit of the surviving arbor that shows the dial, for each row
+    passes_added   True if the path has an added idler
+    used           bit mask of the used surviving arbors, then wheels, for each row
     """
 
     def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
@@ -117,15 +118,15 @@ class PathColumns:
                 self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)
 
     def fit(self, rows: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
-        """Which paths may stand in one tree with a path to another dial, or each with one of several.
+        """Test which paths can be in one tree with a path to another dial, or each with one of several paths.
 
-        Only the arbor at which they part may be left by different wheels, and none is reached by different ones. A
-        wheel has one count. Where they part at the input they share no arbor.
+        Two paths may leave only the arbor at which they separate by different wheels, and enter every shared arbor by
+        the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)
         mine, theirs = self.paths.arbors[rows], other.paths.arbors[row]
-        for cluster in self._clusters:  # all paths to it lead through the arbor that is above all others of it
+        for cluster in self._clusters:  # all paths to a component pass through its topmost arbor
             good &= (both & cluster != 0) | (mine & cluster == 0) | (theirs & cluster == 0)
         parted = np.zeros(len(rows), dtype=np.int8)
         one = isinstance(row, int)
@@ -143,7 +144,7 @@ class PathColumns:
         return good & (parted <= 1)
 
     def differing_primes(self, rows: Rows, other: PathColumns, row: int) -> NDArray[np.int8]:
-        """How many wheels with a large prime each path and one to another dial have apart from each other, at least."""
+        """Return a lower bound of the number of wheels with a large prime that only one of two paths has."""
         found = np.zeros(len(rows), dtype=np.int16)
         for prime in self.powers.keys() | other.powers.keys():
             own = self.powers[prime][rows] if prime in self.powers else np.int8(0)
@@ -153,7 +154,7 @@ class PathColumns:
         return np.minimum(found, _NEVER).astype(np.int8)
 
     def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
-        """Which paths keep to the rule that one which ends at an arbor of the other is a part of it."""
+        """Test which paths satisfy the rule that a path which ends at an arbor of the other is a part of it."""
         mine, theirs = self.paths, other.paths
         ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
         compounds = mine.compounds[rows] - theirs.compounds[row]
@@ -164,7 +165,7 @@ class PathColumns:
 
 
 def all_to_use(problem: ReconstructionProblem) -> int:
-    """Bits of surviving arbors and wheels that must be used, as in `PathColumns.used`."""
+    """Return the bit mask of surviving arbors and wheels that must be used, as in `PathColumns.used`."""
     if problem.use == "some":
         return 0
     arbors = (1 << len(problem.arbors)) - 1
@@ -183,28 +184,28 @@ def _bits(each: ArborPass, number: dict[str, int]) -> int:
 
 
 Choice = dict[str, int]
-"""By dial, the row of its list."""
+"""Dial -> row of its path list."""
 
 _INPUT = ""
-"""The end from which all paths start."""
+"""Name of the input as an end of all paths."""
 _NEAR = 2
-"""Added wheels up to which all quotients are listed."""
+"""Maximum number of added wheels whose quotients are all tabulated."""
 _SHORT = 2
-"""A path with so many added wheels fewer than there are is short; if none is, few paths go together."""
+"""Number of added wheels that a short path has fewer than the train. Without a short path, few paths are compatible."""
 _MOST_ENDS = 6
-"""Dials whose tours are tried, in all orders; of more, some."""
+"""Maximum number of dials in tours, which are tried in all orders. Further dials are ignored."""
 _PIECE = 1 << 21
-"""Keys that are looked up at once."""
+"""Number of keys that are looked up at once."""
 _MOST_PAIRS = 1 << 22
-"""Pairs of paths to two dials up to which all are held against each other."""
+"""Maximum number of pairs of paths to two dials that are all compared in advance."""
 _EVEN_SHARES = 50
-"""Paths from which on a part of the search may take every so manieth."""
+"""Minimum number of paths that are distributed in turn over the parts of a search."""
 
 
 class PathChoice:
-    """All choices of one path a dial, from the lists of the dials.
+    """Enumeration of all compatible choices of one path per dial.
 
-    lists   by dial
+    lists   dial -> list of its paths
     """
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], keys: QuotientKeys) -> None:
@@ -214,13 +215,13 @@ class PathChoice:
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
-        """All choices for trains with just so many added wheels; of several parts one."""
+        """Yield all choices for trains with exactly `added` added wheels; only those of part `part` of `parts`."""
         self._added = added
         whole = {
-            dial: _Near(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
+            dial: _Compatible(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
             for dial, rows in self._with_partners(added).items()
         }
-        share = _Share(part, parts)
+        share = _RoundRobin(part, parts)
         if len(whole) == 1:
             ((dial, near),) = whole.items()
             near = near.kept(np.int64(self._must) & ~self._columns[dial].used[near.rows] == 0)
@@ -233,7 +234,7 @@ class PathChoice:
 
     @cache  # noqa: B019 -- lives as long as the lists
     def _with_partners(self, added: int) -> dict[str, Rows]:
-        """The paths that have partners among those to each other dial, by the quotients of two alone."""
+        """Return the paths of each dial whose quotient is compatible with some path of each other dial."""
         found = {
             dial: [np.flatnonzero(paths.wheels == wheels) for wheels in range(added + 1)]
             for dial, paths in self.lists.items()
@@ -246,7 +247,7 @@ class PathChoice:
     def _partners(
         self, one: str, groups: list[Rows], other: str, others: list[Rows], added: int
     ) -> tuple[list[Rows], list[Rows]]:
-        """The same for two dials, by number of added wheels."""
+        """Return the paths of two dials that have compatible partners, grouped by their number of added wheels."""
         some, more = ([np.zeros(len(rows), dtype=bool) for rows in each] for each in (groups, others))
         for own, another in product(range(added + 1), repeat=2):
             far = 2 * added - own - another + self._idlers
@@ -259,10 +260,10 @@ class PathChoice:
             [rows[good] for rows, good in zip(others, more, strict=True)],
         )
 
-    # with what it begins
+    # first choices
 
-    def _from_short(self, most: int, lists: dict[str, _Near], share: _Share) -> Iterator[Choice]:
-        """All choices with a path that has so few added wheels, by the one that has the fewest."""
+    def _from_short(self, most: int, lists: dict[str, _Compatible], share: _RoundRobin) -> Iterator[Choice]:
+        """Yield all choices with a path of at most `most` added wheels, beginning with the path of the fewest."""
         for wheels in range(most + 1):
             for at, (dial, near) in enumerate(lists.items()):
                 others = {
@@ -274,10 +275,10 @@ class PathChoice:
                 own = share if len(rows) >= _EVEN_SHARES else None
                 for row in rows:
                     if own is None or own.is_own():
-                        yield from self._with(dial, row, _Chosen(), others, {}, None if own else share)
+                        yield from self._extended(dial, row, _Chosen(), others, {}, None if own else share)
 
-    def _from_near(self, most: int, lists: dict[str, _Near], share: _Share) -> Iterator[Choice]:
-        """All choices whose paths all have more added wheels, by two that are near each other if there are any."""
+    def _from_near(self, most: int, lists: dict[str, _Compatible], share: _RoundRobin) -> Iterator[Choice]:
+        """Yield all choices without a short path, beginning with two paths at a small distance if there are any."""
         pairs = list(combinations(lists, 2))
         ends = (_INPUT, *lists)
         for far in range(2):
@@ -294,38 +295,38 @@ class PathChoice:
             others = {other: near for other, near in lists.items() if other != dial}
             for row in lists[dial].rows.tolist():
                 if share.is_own():
-                    yield from self._with(dial, row, _Chosen(), others, minimum, None)
+                    yield from self._extended(dial, row, _Chosen(), others, minimum, None)
 
     def _from_pair(
-        self, one: str, other: str, far: int, lists: dict[str, _Near], minimum: Mapping[EndPair, int]
+        self, one: str, other: str, far: int, lists: dict[str, _Compatible], minimum: Mapping[EndPair, int]
     ) -> Iterator[Choice]:
         rest = {dial: near for dial, near in lists.items() if dial not in (one, other)}
-        for row, partners in self._joined(one, lists[one].rows, other, lists[other].rows, far):
-            near = _Near(partners, {_INPUT: self.lists[other].wheels[partners].astype(np.int8)})
+        for row, partners in self._join(one, lists[one].rows, other, lists[other].rows, far):
+            near = _Compatible(partners, {_INPUT: self.lists[other].wheels[partners].astype(np.int8)})
             near = self._fitting(one, row, other, near, _Chosen(), {})
             near = near.kept(near.far[one] == far)
             if len(near.rows):
-                yield from self._with(one, row, _Chosen(), {other: near, **rest}, minimum, None, {other: near})
+                yield from self._extended(one, row, _Chosen(), {other: near, **rest}, minimum, None, {other: near})
 
-    # choice after choice
+    # further choices
 
-    def _with(
+    def _extended(
         self,
         dial: str,
         row: int,
         chosen: _Chosen,
-        lists: Mapping[str, _Near],
+        lists: Mapping[str, _Compatible],
         minimum: Mapping[EndPair, int],
-        share: _Share | None,
-        known: Mapping[str, _Near] = MappingProxyType({}),
+        share: _RoundRobin | None,
+        known: Mapping[str, _Compatible] = MappingProxyType({}),
     ) -> Iterator[Choice]:
-        """All choices with one path more.
+        """Yield all choices that extend the chosen paths by one more.
 
-        minimum   by pair of dials, how far they must be apart: what is nearer was tried
-        known   lists of dials in which only paths that go with the new one are left already
+        minimum   pair of dials -> minimum distance; smaller distances were searched before
+        known     dials -> lists that are already restricted to paths compatible with the new one
         """
         paths = {**chosen.paths, dial: row}
-        kept: dict[str, _Near] = dict(known)
+        kept: dict[str, _Compatible] = dict(known)
         for other in sorted(lists, key=lambda each: len(lists[each].rows)):
             if other not in kept:
                 kept[other] = self._fitting(dial, row, other, lists[other], chosen, minimum)
@@ -347,13 +348,13 @@ class PathChoice:
                 own = {end_pair(end, following): int(each[at]) for end, each in near.far.items()}
                 own |= {end_pair(_INPUT, dial): int(self.lists[dial].wheels[row])}
                 after = _Chosen(paths, {**chosen.far, **own})
-                yield from self._with(following, next_row, after, kept, minimum, None)
+                yield from self._extended(following, next_row, after, kept, minimum, None)
 
     def _fitting(
-        self, dial: str, row: int, other: str, near: _Near, chosen: _Chosen, minimum: Mapping[EndPair, int]
-    ) -> _Near:
-        """The paths of another dial that go with one more that is chosen."""
-        known = self._with_one(dial, row, other) if self._are_few(dial, other) else None
+        self, dial: str, row: int, other: str, near: _Compatible, chosen: _Chosen, minimum: Mapping[EndPair, int]
+    ) -> _Compatible:
+        """Return the paths of another dial that are compatible with one more chosen path."""
+        known = self._compared(dial, row, other) if self._are_few(dial, other) else None
         fits = self._columns[other].fit(near.rows, self._columns[dial], row) if known is None else known[0][near.rows]
         near = near.kept(fits)
         for path in chosen.paths.items():
@@ -366,17 +367,17 @@ class PathChoice:
         return near.kept(good & (near.far[dial] >= requested) if requested else good)
 
     def _are_few(self, dial: str, other: str) -> bool:
-        """Whether each path to a dial may be held against all paths to another, once and for all."""
+        """Return whether all pairs of paths to two dials may be compared in advance."""
         return len(self.lists[dial]) * len(self.lists[other]) <= _MOST_PAIRS
 
     @cache  # noqa: B019 -- lives as long as the lists
-    def _with_one(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
-        """By path to another dial, whether it goes with one that is chosen, and how far it is from that at least."""
+    def _compared(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
+        """Return the compatibility and minimum distance of all paths to another dial with a chosen path."""
         every = np.arange(len(self.lists[other]))
         return self._columns[other].fit(every, self._columns[dial], row), self._apart(dial, row, other, every)
 
-    def _joined(self, one: str, rows: Rows, other: str, others: Rows, far: int) -> Iterator[tuple[int, Rows]]:
-        """Each of some rows with those of others that go with it and are no farther from it, if there are any."""
+    def _join(self, one: str, rows: Rows, other: str, others: Rows, far: int) -> Iterator[tuple[int, Rows]]:
+        """Yield each row of one dial with the compatible rows of another within a distance, by a hash join."""
         first, second = self.lists[one], self.lists[other]
         table = self.keys.few(far + self._idlers)
         if table is None or not (first.dial.is_exact and second.dial.is_exact):
@@ -387,17 +388,17 @@ class PathChoice:
         piece = max(1, _PIECE // len(table))
         for start in range(0, len(rows), piece):
             own = rows[start : start + piece]
-            at, to = _equal(keys, np.add.outer(first.wanted[own], table).ravel())
+            at, to = _equal_pairs(keys, np.add.outer(first.wanted[own], table).ravel())
             at, to = own[at // len(table)], others[order[to]]
             fits = self._columns[other].fit(to, self._columns[one], at)
             at, to = at[fits], to[fits]
             bounds = np.flatnonzero(np.diff(at, prepend=-1, append=-1))
             yield from ((int(at[low]), to[low:high]) for low, high in pairwise(bounds.tolist()))
 
-    # how ends go together
+    # compatibility of ends
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> NDArray[np.bool_]:
-        """Which paths part from two others as branches of a tree do: of three, two part first, and together."""
+        """Test which paths form a tree with two others: of three paths, two separate from the third together."""
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
         third = self.lists[dial].arbors[rows]
         in_all = first & second & third
@@ -405,7 +406,7 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _apart(self, end: str, row: int, dial: str, rows: Rows) -> NDArray[np.int8]:
-        """How far some paths are from a chosen one, at least."""
+        """Return a lower bound of the distance of each path from a chosen one."""
         first, second = self.lists[end], self.lists[dial]
         own, wheels = int(first.wheels[row]), second.wheels[rows]
         if first.dial.is_exact and second.dial.is_exact:
@@ -417,66 +418,66 @@ class PathChoice:
             (low, high), (minimum, maximum) = first.bounds, second.bounds
             with np.errstate(divide="ignore"):
                 fewest = second.ranges.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
-        # wheels that are shared are on both
+        # shared wheels are on both paths, so the distance has the parity of the sum
         far = fewest + (wheels + own - fewest) % 2
-        if self._idlers:  # where two paths part at an added wheel that one passes, its count matters to the other alone
+        if self._idlers:  # the count of an added idler at which paths separate affects only one of them
             passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
         return np.asarray(far, dtype=np.int8)
 
-    def _closes(self, ends: Sequence[str], far: Mapping[EndPair, int], near: _Near) -> NDArray[np.bool_]:
-        """For which paths a tour of some ends and theirs is short enough."""
+    def _closes(self, ends: Sequence[str], far: Mapping[EndPair, int], near: _Compatible) -> NDArray[np.bool_]:
+        """Test for which paths a tour of some ends and their own end is short enough."""
         good = np.zeros(len(near.rows), dtype=bool)
         for one, two, rest in tours_with_one_more(len(ends), distances(ends, far)):
             good |= near.far[ends[one]].astype(np.int16) + near.far[ends[two]] + rest <= 2 * self._added
         return good
 
     def _may_close(self, ends: Sequence[str], far: Mapping[EndPair, int]) -> bool:
-        """Whether a tour of some ends may be short enough."""
+        """Return whether a tour of some ends may be short enough."""
         ends = ends[: _MOST_ENDS + 1]
         return shortest_tour(len(ends), distances(ends, far)) <= 2 * self._added
 
-    # what must be used
+    # surviving wheels that must be used
 
     def _missing(self, paths: Mapping[str, int]) -> int:
-        """Bits of what must be used and is on none of some paths."""
+        """Return the bit mask of what must be used and is on none of the paths."""
         used = (int(self._columns[dial].used[row]) for dial, row in paths.items())
         return self._must & ~reduce(or_, used, 0)
 
-    def _reach(self, dial: str, near: _Near) -> int:
+    def _reach(self, dial: str, near: _Compatible) -> int:
         return int(np.bitwise_or.reduce(self._columns[dial].used[near.rows]))
 
 
 @dataclass(frozen=True)
 class _Chosen:
-    """Paths that are chosen, by dial, and how far two ends are apart at least."""
+    """Chosen path of each dial, and lower bounds of the distances of two ends."""
 
     paths: Mapping[str, int] = field(default_factory=dict)
     far: Mapping[EndPair, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
-class _Near:
-    """Paths to a dial that go with all that are chosen; by end, how far from it each is at least."""
+class _Compatible:
+    """Paths to a dial that are compatible with all chosen ones, with lower bounds of their distance from each end."""
 
     rows: Rows
     far: Mapping[str, NDArray[np.int8]]
 
-    def kept(self, good: NDArray[np.bool_]) -> _Near:
-        """Some of them."""
-        return _Near(self.rows[good], {end: each[good] for end, each in self.far.items()})
+    def kept(self, good: NDArray[np.bool_]) -> _Compatible:
+        """Return the selected rows of all arrays."""
+        return _Compatible(self.rows[good], {end: each[good] for end, each in self.far.items()})
 
-    def also(self, end: str, far: NDArray[np.int8]) -> _Near:
-        """With one end more."""
-        return _Near(self.rows, {**self.far, end: far})
+    def also(self, end: str, far: NDArray[np.int8]) -> _Compatible:
+        """Add the distances from one more end."""
+        return _Compatible(self.rows, {**self.far, end: far})
 
-    def beyond(self, minimum: Mapping[str, int]) -> _Near:
-        """Those that are so far from some ends."""
+    def beyond(self, minimum: Mapping[str, int]) -> _Compatible:
+        """Select the paths that have at least the given distances from some ends."""
         return self.kept(reduce(np.logical_and, (self.far[end] >= number for end, number in minimum.items())))
 
 
-def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
-    """Where among wanted ones, and where among sorted keys, equal ones stand; all pairs, by the wanted ones."""
+def _equal_pairs(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
+    """Return all pairs of indices of equal entries of `wanted` and of the sorted `keys`, by the first index."""
     start, end = np.searchsorted(keys, wanted), np.searchsorted(keys, wanted, side="right")
     number = end - start
     at = np.repeat(np.arange(len(wanted)), number)
@@ -484,14 +485,14 @@ def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, 
     return at, first + np.arange(len(at))
 
 
-class _Share:
-    """Deals out what is counted: every so manieth is one's own."""
+class _RoundRobin:
+    """Round-robin distribution of numbered items over the parts of a search."""
 
     def __init__(self, part: int, parts: int) -> None:
         self.part, self.parts = part, parts
         self._number = -1
 
     def is_own(self) -> bool:
-        """Whether the next one is."""
+        """Return whether the next item belongs to this part."""
         self._number += 1
         return self._number % self.parts == self.part

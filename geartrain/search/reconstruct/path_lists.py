@@ -1,8 +1,8 @@
-"""Enumeration of paths: all surviving arbors and wheels that a path from the input to one dial may use.
+"""Enumeration of all paths from the input to one dial through surviving arbors and wheels.
 
-Most have no answer: what is left of a dial's speed when the surviving wheels on a path are taken out must be a quotient
-of few added counts. So few paths remain, whichever trains they then belong to, and a search over trains goes only where
-every dial still has one.
+Most paths are impossible, because the speed of the dial divided by the ratio of the surviving wheels must be a quotient
+of few added tooth counts. Few paths remain, and the search for trains visits only branches in which every dial still
+has a path.
 """
 
 from __future__ import annotations
@@ -28,18 +28,21 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 )
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, arbor_passes
 
-# Meshes that were seen, as what they leave of the ways of a path through arbors. Arbors that seen meshes hold
-# together are a cluster, a part of the tree: one of them is above all others of it, which is the input where that
-# is among them. Of two wheels in mesh one drives the other, and its arbor is the parent. A path has the parents of
-# all its arbors. So the arbors of a cluster that are on it stand in a row, and it leads over their meshes.
+# Restrictions of the passes of a path by known meshes. A connected component of arbors under known meshes is a subtree:
+# one arbor is above all others of it, and it is the input if that belongs to the component. One of two meshing wheels
+# drives the other, and its arbor is the parent. A path contains the parents of all its arbors, so the arbors of a
+# component on it are consecutive, and the path uses their known meshes.
 
 
 _Fits = NDArray[np.bool_]
-"""By way through an arbor, from 1 on, and way through another: whether they go together; 0 where there is none."""
+"""Compatibility matrix of the passes of two arbors, with codes from 1; code 0 means that the path avoids the arbor."""
 
 
 def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
-    """Arbors by number, the input at 0, that seen meshes hold together; each but the first has a mate before it."""
+    """Return the connected components of arbors under the known meshes, as indices with the input at 0.
+
+    Each arbor except the first of a component meshes with an earlier one.
+    """
     mates: dict[int, list[int]] = {}
     for first, _, second, _ in _meshes(problem):
         mates.setdefault(first, []).append(second)
@@ -55,24 +58,24 @@ def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]
 
 
 def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str]]:
-    """Each mesh that was seen, as two arbors by number with their wheels."""
+    """Yield each known mesh as (arbor index, wheel, arbor index, wheel)."""
     owner = {wheel.name: at for at, arbor in enumerate((problem.input, *problem.arbors)) for wheel in arbor.wheels}
     for one, other in sorted(map(sorted, problem.meshes)):
         yield owner[one], one, owner[other], other
 
 
 class SeenMeshes:
-    """Which ways of a path through arbors go together.
+    """Compatibility of the passes of a path through different arbors, from the known meshes.
 
     Parameters
     ----------
     passes : sequence
-        By arbor the ways through it, the input first.
+        Passes of each arbor, the input first.
 
     Attributes
     ----------
     order : tuple of int
-        The arbors, those of one cluster after each other, and those with many ways first.
+        Indices of the arbors. Arbors of one component are adjacent, and components with many passes come first.
     """
 
     def __init__(self, problem: ReconstructionProblem, passes: Sequence[Sequence[ArborPass]]) -> None:
@@ -88,71 +91,71 @@ class SeenMeshes:
             first, one, second, other = mesh if place[mesh[0]] < place[mesh[2]] else (*mesh[2:], *mesh[:2])
             below = next(0 in cluster for cluster in clusters if first in cluster)
             fits = [
-                [_go_together(mine, one, theirs, other, problem.idlers, below) for mine in (None, *passes[first])]
+                [_are_compatible(mine, one, theirs, other, problem.idlers, below) for mine in (None, *passes[first])]
                 for theirs in (None, *passes[second])
             ]
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
     def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> NDArray[np.bool_] | None:
-        """Which of some paths through the arbors before may take a way through one more; None where all may."""
+        """Return a mask of the paths that may take a given pass of one more arbor, or None if all may."""
         if not self._fits[at]:
             return None
         found = np.ones(len(codes), dtype=bool)
         for other, fits in self._fits[at]:
             found &= fits[code][codes[:, other]]
-            if code:  # in a row: where its mate is not on the path, no other of the cluster is
+            if code:  # consecutive: if its mate is not on the path, no other arbor of the component is
                 found &= (codes[:, other] > 0) | ~(codes[:, list(self._before[at])] > 0).any(axis=1)
         return found
 
 
-def _go_together(
+def _are_compatible(
     mine: ArborPass | None, one: str, theirs: ArborPass | None, other: str, idlers: bool, below: bool
 ) -> bool:
-    """Whether a path may have these ways through two arbors whose wheels `one` and `other` mesh.
+    """Return whether a path may have these passes of two arbors whose wheels `one` and `other` mesh.
 
-    below   whether the second arbor must be driven by the first
+    below   True if the first arbor must drive the second
     """
     if mine is None or theirs is None:
         there, wheel = (mine, one) if theirs is None else (theirs, other)
-        return there is None or (not (below and mine is None) and (idlers or not _is(there.driven, wheel)))
-    if _is(mine.driver, one) and _is(theirs.driven, other):
+        return there is None or (not (below and mine is None) and (idlers or not _is_named(there.driven, wheel)))
+    if _is_named(mine.driver, one) and _is_named(theirs.driven, other):
         return True
-    return not below and _is(theirs.driver, other) and _is(mine.driven, one)
+    return not below and _is_named(theirs.driver, other) and _is_named(mine.driven, one)
 
 
-def _is(wheel: PlacedWheel | None, name: str) -> bool:
+def _is_named(wheel: PlacedWheel | None, name: str) -> bool:
     return wheel is not None and wheel.name == name
 
 
-# Paths through more and more surviving arbors, millions at a time, as columns of arrays.
+# Partial paths through surviving arbors as columns of arrays, millions at a time.
 
 
 @dataclass(frozen=True)
 class PathGrowth:
-    """Paths through some of the arbors, a row each."""
+    """Partial paths through some of the arbors, one per row."""
 
     codes: NDArray[np.uint16]
-    """By arbor, which way through it is taken, from 1 on; 0 where none is."""
+    """Code of the pass of each arbor, from 1; 0 if the path avoids the arbor."""
     keys: NDArray[np.uint64]
-    """Of what is left to be added: its key, and the powers of large primes in it."""
+    """Hash key of the quotient that the added wheels must have."""
     powers: NDArray[np.int8]
-    """Of what is left to be added: its key, and the powers of large primes in it."""
+    """Powers of large primes in the quotient that the added wheels must have."""
     drivers: NDArray[np.int8]
-    """Added wheels beside surviving ones that drive, and that are driven."""
+    """Number of added driving wheels on surviving arbors."""
     driven: NDArray[np.int8]
-    """Added wheels beside surviving ones that drive, and that are driven."""
+    """Number of added driven wheels on surviving arbors."""
     added: NDArray[np.int8]
-    """Added wheels, idlers counted too, and surviving wheels that are passed by."""
+    """Number of added wheels, including idlers."""
     idle: NDArray[np.int8]
-    """Added wheels, idlers counted too, and surviving wheels that are passed by."""
+    """Number of surviving wheels on the path that it does not use."""
     need: NDArray[np.int8]
-    """Added wheels that must have a large prime which no later arbor has."""
+    """Number of added wheels that must contain a large prime, because no later arbor does."""
     ended: NDArray[np.bool_]
-    """Whether the path ends at one of the arbors."""
+    """True if the path ends at one of the arbors."""
 
     @staticmethod
     def start(arbors: int, key: int, powers: NDArray[np.int8]) -> PathGrowth:
-        """One path, through nothing yet."""
+        """Return the single path through no arbor."""
         none = np.zeros(1, dtype=np.int8)
         return PathGrowth(
             np.zeros((1, arbors), dtype=np.uint16),
@@ -163,17 +166,17 @@ class PathGrowth:
         )
 
     def columns(self) -> tuple[NDArray[Any], ...]:
-        """All of it, a row each."""
+        """Return all arrays, each with one row per path."""
         numbers = self.drivers, self.driven, self.added, self.idle, self.need
         return self.codes, self.keys, self.powers, *numbers, self.ended
 
     @staticmethod
     def joined(parts: list[PathGrowth]) -> PathGrowth:
-        """All paths of some."""
+        """Join the paths of several parts into one set of arrays."""
         return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
 
     def kept(self, rows: NDArray[np.bool_] | np.bool_ | slice) -> PathGrowth:
-        """Some of the paths."""
+        """Return the selected rows of all arrays."""
         return PathGrowth(*(column[rows] for column in self.columns()))
 
     def along(
@@ -184,11 +187,11 @@ class PathGrowth:
         powers: NDArray[np.int8],
         limits: tuple[int, int | None],
     ) -> PathGrowth:
-        """The paths that may go through one arbor more, or past it, with the added wheels that they need then.
+        """Return the paths that may take a pass of one more arbor, or avoid it, with updated `need`.
 
-        closing   columns of large primes that no later arbor has
-        lost      by column, whether no added wheel has the prime
-        limits    how many wheels may be added, and how many may be passed by
+        closing   columns of large primes that no later arbor contains
+        lost      mask of the columns whose prime is larger than the maximum tooth count
+        limits    maximum number of added wheels, and of unused surviving wheels
         """
         wheels, debts = limits
         need = self.need.copy()
@@ -206,7 +209,7 @@ class PathGrowth:
         return replace(self, need=need).kept(good)
 
     def through(self, at: int, code: int, each: ArborPass, key: np.uint64, powers: NDArray[np.int8]) -> PathGrowth:
-        """The same paths, through one arbor more; none of them has ended where the arbor would end it."""
+        """Return the paths extended by a pass of one more arbor. Paths that have ended must already be excluded."""
         codes = self.codes.copy()
         codes[:, at] = code
         return PathGrowth(
@@ -224,39 +227,40 @@ class PathGrowth:
 
 Rows = NDArray[np.int64]
 WayThrough = tuple[PlacedWheel | None, PlacedWheel | None]
-"""The wheel by which a path comes into a surviving arbor and the one by which it goes on, as of `ArborPass`."""
+"""Driven and driving wheel by which a path passes through a surviving arbor, as in `ArborPass`."""
 _MOST_PATHS = 1_000_000_000
-"""Paths that are looked at on the way to those that are possible: minutes."""
+"""Maximum number of partial paths that are examined, which takes minutes."""
 _PIECE = 1 << 19
-"""Paths that are grown at once."""
+"""Number of partial paths that are extended at once."""
 
 
 @dataclass(frozen=True)
 class AddedArbors:
-    """Added arbors on a path: `compounds` with a driven and a driving wheel, `idlers` with one wheel that is both."""
+    """Numbers of added arbors on a path: `compounds` have two wheels, `idlers` one that is driven and drives."""
 
     compounds: int
     idlers: int
 
     @property
     def wheels(self) -> int:
-        """Number of their wheels."""
+        """Number of wheels of the added arbors."""
         return 2 * self.compounds + self.idlers
 
 
 class PathList:
-    """Paths to a dial, one a row.
+    """Possible paths to a dial, one per row of the arrays.
 
-    along   by surviving arbor the only way through it that is listed, and no other arbors; None for all paths
+    along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
 
-    codes                by row and arbor, the input first: which of `passes` is taken, from 1 on; 0 where none is
-    arbors               by row: bit i - 1 for each surviving arbor i on the path
-    idle                 by row: the same for those where surviving wheels are passed by that must mesh
-    ends_new             by row: whether the dial's arbor is added
-    compounds, idlers    by row: number of added arbors before the last
-    wheels, new          by row: number of added wheels and of added arbors
-    wanted               by row: key of the quotient that the added wheels must have, where it must be exact
-    powers               by row and large prime, the columns of `primes`: its power in that quotient
+    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided;
+                         (rows, arbors)
+    arbors               bit mask of the surviving arbors on the path, bit i - 1 for arbor i
+    idle                 bit mask of the arbors with unused surviving wheels that must mesh
+    ends_new             True if the arbor of the dial is added
+    compounds, idlers    numbers of added arbors before the last
+    wheels, new          numbers of added wheels and of added arbors
+    wanted               hash key of the quotient of the added wheels, if the dial is exact
+    powers               power of each large prime of `primes` in that quotient; (rows, primes)
     """
 
     def __init__(
@@ -290,7 +294,7 @@ class PathList:
         self._driven = [np.array([-1, *_numbered_wheels(passes)]) for passes in self.passes]
 
     def driven_at(self, rows: Rows) -> NDArray[np.int64]:
-        """By row and arbor, a number of the wheel that is driven, with its count; -1 where the path is elsewhere."""
+        """Return a number of the driven wheel and its count for each row and arbor; -1 if the path avoids the arbor."""
         codes = self.codes[rows]
         found = np.empty(codes.shape, dtype=np.int64)
         for at, driven in enumerate(self._driven):
@@ -310,7 +314,7 @@ class PathList:
     def _passes(self, at: int) -> Iterator[ArborPass]:
         problem = self.problem
         arbor = (problem.input, *problem.arbors)[at]
-        # those that end come last: so the others have the same codes in the lists of all dials
+        # passes that end come last, so that the others have the same codes in the lists of all dials
         for each in sorted(arbor_passes(arbor, problem), key=lambda each: each.driver is None):
             if each.driver is None and self.dial.place not in (None, arbor.name):
                 continue
@@ -318,12 +322,12 @@ class PathList:
                 continue
             yield each
 
-    # growth, arbor by arbor
+    # extension by one arbor at a time
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
-        """Paths through all arbors for which some plan is possible, and by path and plan whether it is."""
+        """Return the paths through all arbors, and a matrix of the plans of added arbors that are possible for each."""
         growth = PathGrowth.start(len(self.passes), self._wanted_key, self._wanted_powers)
-        self._looked_at = 0
+        self._examined = 0
         found = []
         for piece in self._grown(growth, self._seen.order):
             if self.dial.place not in (None, NEW):
@@ -337,7 +341,7 @@ class PathList:
         return PathGrowth.joined([piece for piece, _ in found]), np.concatenate([possible for _, possible in found])
 
     def _grown(self, growth: PathGrowth, order: tuple[int, ...]) -> Iterator[PathGrowth]:
-        """Paths through some more arbors, in pieces that fit into memory."""
+        """Yield the paths extended through further arbors, in blocks that fit into memory."""
         if not order:
             yield growth
             return
@@ -349,7 +353,7 @@ class PathList:
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
     def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
-        """Paths through one arbor more, or past it; `closing` are columns of primes that no later arbor has."""
+        """Return the paths extended by one arbor or avoiding it; primes in `closing` have no later arbor."""
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
         parts = []
@@ -358,36 +362,36 @@ class PathList:
                 continue
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
-            self._looked_at += len(own.codes)
+            self._examined += len(own.codes)
             if each is None:
                 parts.append(own.along(closing, self._lost, None, np.zeros(len(self.primes), dtype=np.int8), limits))
             else:
                 key, powers = self._step(each)
                 parts.append(own.along(closing, self._lost, each, powers, limits).through(at, code, each, key, powers))
-        if self._looked_at > _MOST_PATHS:
-            what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
+        if self._examined > _MOST_PATHS:
+            what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be examined"
             raise QuestionError(too_wide(self.problem, what))
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _is_listed(self, at: int, each: ArborPass | None) -> bool:
-        """Whether a way through an arbor, or none, is one of those that are listed."""
+        """Return whether a pass of an arbor, or avoiding it, is permitted by `along`."""
         if self._along is None:
             return True
         arbor = (self.problem.input, *self.problem.arbors)[at]
         return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
 
     def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:
-        """By how much a pass changes the key, and the powers of large primes, of what is left to be added."""
+        """Return the changes that a pass makes to the hash key and to the powers of large primes."""
         if each.idler:
             return np.uint64(0), np.zeros(len(self.primes), dtype=np.int8)
-        ratio = Fraction(_sure(each.driven), _sure(each.driver))
+        ratio = Fraction(_known_count(each.driven), _known_count(each.driver))
         return np.uint64(self.keys.key(ratio)), self._powers(ratio)
 
-    # primes of which an added wheel holds one at most
+    # large primes: an added tooth count contains at most one of them
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Primes of which an added wheel has one at most, and none beside it; none where the dial has a tolerance."""
+        """Large primes: an added tooth count contains at most one of them. Empty if the dial has a tolerance."""
         if not self.dial.is_exact:
             return ()
         minimum = self.problem.additions.maximum
@@ -399,7 +403,7 @@ class PathList:
 
     @cache  # noqa: B019 -- lives as long as the list
     def _primes_of(self, at: int) -> frozenset[int]:
-        counts = {_sure(wheel) for each in self.passes[at] for wheel in (each.driven, each.driver)}
+        counts = {_known_count(wheel) for each in self.passes[at] for wheel in (each.driven, each.driver)}
         return frozenset(prime for count in counts for prime, _ in prime_powers(count))
 
     def _powers(self, ratio: Fraction) -> NDArray[np.int8]:
@@ -408,12 +412,12 @@ class PathList:
 
     @cached_property
     def _lost(self) -> NDArray[np.bool_]:
-        """Which primes no added wheel has."""
+        """Mask of the primes that are larger than the maximum tooth count."""
         return np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
 
     @cached_property
     def _wanted(self) -> Fraction:
-        """Magnitude of the dial's speed over that of the input, the least where it has a tolerance."""
+        """Magnitude of the speed of the dial over that of the input; its minimum if the dial has a tolerance."""
         minimum = self.dial.minimum
         return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
 
@@ -425,10 +429,10 @@ class PathList:
     def _wanted_powers(self) -> NDArray[np.int8]:
         return self._powers(self._wanted)
 
-    # which added arbors may be on a path
+    # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
-        """By path and plan, whether the plan may be the added arbors on the path."""
+        """Return a matrix of whether each plan of added arbors is possible on each path."""
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, plan in enumerate(plans):
@@ -442,7 +446,7 @@ class PathList:
         return found
 
     def _ring_meshes(self, codes: NDArray[np.uint16]) -> NDArray[np.int64]:
-        """By path, number of its meshes with a ring: these do not reverse the sense. A ring meshes no ring."""
+        """Count the meshes with a ring on each path. They do not reverse the sense of rotation."""
         found = np.zeros(len(codes), dtype=np.int64)
         if self.problem.rings:
             for at, passes in enumerate(self.passes):
@@ -450,11 +454,11 @@ class PathList:
         return found
 
     def _may_turn(self, turned: bool) -> bool:
-        """Whether the dial may turn the other way than the input, or the same way."""
+        """Return whether the dial may turn opposite to the input (`turned`), or in the same sense."""
         return self._magnitudes(turned)[1] > 0
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
-        """Least and greatest magnitude of the dial's speed if it turns so; the greatest is 0 where it must not."""
+        """Return the minimum and maximum speed magnitude of the dial in one sense; maximum 0 if it is excluded."""
         low, high = self.dial.minimum, self.dial.maximum
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
             low, high = -high, -low
@@ -474,38 +478,43 @@ class PathList:
                 found[rows] = self.ranges.may_hold(self._bounds(growth.codes[rows], turned[rows]), drivers, driven)
         return found
 
-    # a path's speed
+    # speed of a path
 
     @cached_property
     def bounds(self) -> Bounds:
-        """By row, least and greatest quotient that the added wheels on a path may have, up to rounding."""
+        """Minimum and maximum quotient of the added wheels on each path, up to rounding."""
         return self._bounds(self.codes, self._turned(self.codes, self.new))
 
     def _bounds(self, codes: NDArray[np.uint16], turned: NDArray[np.bool_]) -> Bounds:
         known = np.full(len(codes), float(abs(self.problem.input_speed)))
         for at, passes in enumerate(self.passes):
-            ratios = [1.0, *(1.0 if one.idler else _sure(one.driver) / _sure(one.driven) for one in passes)]
+            ratios = [
+                1.0,
+                *(1.0 if one.idler else _known_count(one.driver) / _known_count(one.driven) for one in passes),
+            ]
             known *= np.array(ratios)[codes[:, at]]
         (low, high), (turned_low, turned_high) = self._magnitudes(False), self._magnitudes(True)
         minimum = np.where(turned, float(turned_low), float(low))
         return minimum / known, np.where(turned, float(turned_high), float(high)) / known
 
     def known_ratio(self, row: int) -> Fraction:
-        """Product of the surviving wheels that drive over that of those that are driven, on a path."""
+        """Return the product of surviving driving counts over surviving driven counts on a path."""
         taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
         taken = [each for each in taken if not each.idler]
-        return Fraction(prod(_sure(each.driver) for each in taken), prod(_sure(each.driven) for each in taken))
+        return Fraction(
+            prod(_known_count(each.driver) for each in taken), prod(_known_count(each.driven) for each in taken)
+        )
 
     def turns(self, row: int) -> bool:
-        """Whether a path's dial turns the other way than the input."""
+        """Return whether the dial of a path turns opposite to the input."""
         return bool(self._turned(self.codes[row : row + 1], self.new[row : row + 1])[0])
 
     def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """The same for each of some paths, with their numbers of added arbors."""
+        """Test which dials turn opposite to the input, for paths with given numbers of added arbors."""
         return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
-        """Least and greatest quotient that the added wheels on a path may have."""
+        """Return the minimum and maximum quotient of the added wheels on a path."""
         known = abs(self.known_ratio(row) * self.problem.input_speed)
         low, high = self._magnitudes(self.turns(row))
         return low / known, high / known
@@ -518,14 +527,14 @@ def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
 
 
 def _numbered_wheels(passes: tuple[ArborPass, ...]) -> Iterator[int]:
-    """By pass, a number of its driven wheel that is the same in the lists of all dials."""
+    """Yield a number of the driven wheel of each pass, which is the same in the lists of all dials."""
     numbers = dict.fromkeys(each.driven for each in passes)
     known = {wheel: number for number, wheel in enumerate(sorted(numbers, key=repr))}
     for each in passes:
         yield known[each.driven]
 
 
-def _sure(wheel: object) -> int:
-    """The count of a surviving wheel on a path; 1 for an added one, and for none."""
+def _known_count(wheel: object) -> int:
+    """Return the tooth count of a surviving wheel; 1 for an added wheel and for None."""
     teeth = getattr(wheel, "teeth", 1)
     return teeth if wheel is not None and wheel != ADDED else 1

@@ -1,7 +1,7 @@
-"""Enumeration of topologies by recursion: every one with one given path a dial, each once.
+"""Recursive enumeration of all topologies that have one given path for each dial, each topology once.
 
-Where two paths have surviving arbors in common, these are above their branching. So what is open is little: how many
-added arbors stand on each chain, at which of them paths part, and how added driving wheels are shared.
+Surviving arbors that two paths share are above their branching. The remaining choices are the number of added arbors on
+each chain, the added arbors at which paths separate, and the shared added driving wheels.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ from geartrain.search.reconstruct.path_lists import PathList
 from geartrain.search.reconstruct.reconstruction_problem import PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Dials, Topology
 
-# How an arbor at which paths part shares out its dials: which it shows, and which each of its wheels leads to.
+# Partitions of the dials of a branching: which dials it shows, and to which its wheels lead.
 
 
 HERE = "="
 IDLER = "~"
 BESIDE = "+"
-"""Ways on from an arbor, beside the names of its surviving wheels: its own dial, its driven wheel, an added one."""
+"""Exits of an arbor besides its surviving wheels: its own dial, its driven wheel, an added wheel."""
 
 Block = tuple[str, Dials]
-"""A way on from an arbor, and the dials to which it leads."""
+"""Exit of an arbor, and the dials to which it leads."""
 
 
-def way_on(each: ArborPass) -> str:
-    """The way on that a path takes from an arbor."""
+def exit_of(each: ArborPass) -> str:
+    """Return the exit by which a path leaves an arbor."""
     if each.driver is None:
         return HERE
     if each.idler:
@@ -37,12 +37,14 @@ def way_on(each: ArborPass) -> str:
     return BESIDE if each.driver.name is None else each.driver.name
 
 
-def shared_out(
+def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Each way in which an arbor shows some of the dials and leads to the others; by added wheels to blocks of them.
+    """Yield each partition of dials into those that an arbor shows and those to which each of its wheels leads.
 
-    arbors   by dial bits of the surviving arbors on its path: dials with one in common stay together
+    Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
+
+    arbors   dial -> bit mask of the surviving arbors on its path; dials with a common arbor stay in one block
     """
     for chosen in product(*(ways[dial] for dial in dials)):
         by_way: dict[str, list[str]] = {}
@@ -54,16 +56,16 @@ def shared_out(
 
 
 def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
-    """Each way to part dials into blocks with no surviving arbor in common, the first of them in the first block."""
+    """Yield each partition of dials into blocks without common surviving arbors, the first dial in the first block."""
     place = {dial: at for at, dial in enumerate(dials)}
-    for blocks in _parted(_together(dials, arbors)):
+    for blocks in _set_partitions(_connected_dials(dials, arbors)):
         yield tuple(
             tuple(sorted((dial for group in block for dial in group), key=place.__getitem__)) for block in blocks
         )
 
 
-def _together(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
-    """Dials in groups, by what they and others between them have in common."""
+def _connected_dials(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
+    """Group dials into connected components, where dials with a common surviving arbor are connected."""
     groups: list[tuple[int, Dials]] = []
     for dial in dials:
         joined = [group for group in groups if group[0] & arbors[dial]]
@@ -74,14 +76,14 @@ def _together(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
     return tuple(sorted((group for _, group in groups), key=lambda group: min(map(first, group))))
 
 
-def _parted(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
+def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
     if not groups:
         yield ()
         return
     for size in range(len(groups)):
         for others in combinations(groups[1:], size):
             rest = tuple(group for group in groups[1:] if group not in others)
-            for blocks in _parted(rest):
+            for blocks in _set_partitions(rest):
                 yield ((groups[0], *others), *blocks)
 
 
@@ -90,24 +92,24 @@ _ENDLESS = 1 << 20
 
 
 class DialPath(NamedTuple):
-    """A dial's path, and what of it is still below."""
+    """Remaining part of the path to a dial."""
 
     arbors: int
-    """Surviving ones, a bit each."""
+    """Bit mask of the surviving arbors."""
     passes: Mapping[int, ArborPass]
-    """By surviving arbor that it has, the input first, the way through it."""
+    """Index of a surviving arbor, 0 for the input -> wheels by which the path passes through it."""
     compounds: int
-    """Added arbors before the last."""
+    """Number of added arbors with two wheels before the last arbor."""
     idlers: int
-    """Added arbors before the last."""
+    """Number of added arbors with an idler before the last arbor."""
     wheels: int
-    """Added wheels."""
+    """Number of added wheels."""
     ends_new: bool
-    """Whether its last arbor is added."""
+    """True if the last arbor is added."""
 
     @property
     def is_at_end(self) -> bool:
-        """Whether nothing but an added last arbor is below."""
+        """True if no arbor is left except possibly an added last arbor."""
         return not (self.arbors or self.compounds or self.idlers)
 
     @property
@@ -117,17 +119,17 @@ class DialPath(NamedTuple):
 
 
 Paths = dict[str, DialPath]
-"""By dial, sorted by name."""
+"""Dials, sorted by name -> their paths."""
 
 
-class _Left(NamedTuple):
-    """Added wheels that must still be used, and added arbors that still may be."""
+class _Budget(NamedTuple):
+    """Number of added wheels still to be used, and number of added arbors still permitted."""
 
     wheels: int
     new: int
 
-    def without(self, wheels: int, new: int = 0) -> _Left:
-        return _Left(self.wheels - wheels, self.new - new)
+    def without(self, wheels: int, new: int = 0) -> _Budget:
+        return _Budget(self.wheels - wheels, self.new - new)
 
     @property
     def is_possible(self) -> bool:
@@ -135,9 +137,9 @@ class _Left(NamedTuple):
 
 
 class PathTrees:
-    """Topologies from paths.
+    """Enumeration of the topologies that have given paths.
 
-    lists   by dial, sorted by its name
+    lists   dials, sorted by name -> lists of their paths
     """
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList]) -> None:
@@ -146,15 +148,15 @@ class PathTrees:
         self._new = _ENDLESS if problem.additions.arbors is None else problem.additions.arbors
 
     def topologies(self, choice: Mapping[str, int], added: int) -> Iterator[Topology]:
-        """All with just so many added wheels and these rows of the lists."""
+        """Yield all topologies with exactly `added` added wheels and the chosen rows of the path lists."""
         roots = self.roots({dial: self._path(dial, choice[dial]) for dial in self.lists}, added)
         if roots:
             wanted = tuple((dial, self.lists[dial].wanted_quotients(choice[dial])) for dial in self.lists)
             yield from (Topology(root, wanted) for root in roots)
 
     def roots(self, paths: Paths, added: int) -> list[Branching]:
-        """The input arbor of each tree that has these paths and just so many added wheels."""
-        return [root for root, left in self._branching(0, paths, _Left(added, self._new)) if not left.wheels]
+        """Return the input arbor of each tree that has these paths and exactly `added` added wheels."""
+        return [root for root, left in self._branching(0, paths, _Budget(added, self._new)) if not left.wheels]
 
     def _path(self, dial: str, row: int) -> DialPath:
         paths = self.lists[dial]
@@ -164,30 +166,30 @@ class PathTrees:
         arbors, compounds, idlers, wheels = (int(each[row]) for each in figures)
         return DialPath(arbors, passes, compounds, idlers, wheels, bool(paths.ends_new[row]))
 
-    # what hangs from a driving wheel
+    # subtrees of a driving wheel
 
-    def _forest(self, paths: Paths, left: _Left, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
-        """Chains that share out some dials; those that have an arbor in common stay together."""
+    def _forest(self, paths: Paths, left: _Budget, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
+        """Yield sets of chains that lead to some dials; dials with a common surviving arbor share a chain."""
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= minimum:
-                yield from self._chains([_some(paths, block) for block in blocks], left)
+                yield from self._chains([_restricted(paths, block) for block in blocks], left)
 
-    def _chains(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
-        """Chains to the dials of each block; what the later ones need at least is kept for them."""
+    def _chains(self, blocks: Sequence[Paths], left: _Budget) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
+        """Yield one chain for each block of dials, reserving the added wheels that later blocks need."""
         if not blocks:
             yield (), left
             return
-        kept = sum(map(_need, blocks[1:]))
+        kept = sum(map(_needed_wheels, blocks[1:]))
         for chain, after in self._chain(blocks[0], left.without(kept)):
             for others, end in self._chains(blocks[1:], after.without(-kept)):
                 yield (chain, *others), end
 
-    def _chain(self, paths: Paths, left: _Left) -> Iterator[tuple[Chain, _Left]]:
-        if _need(paths) > left.wheels:
+    def _chain(self, paths: Paths, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
+        if _needed_wheels(paths) > left.wheels:
             return
         if len(paths) == 1:
             ((dial, path),) = paths.items()
-            yield from self._leg(dial, path, left)
+            yield from self._single_chain(dial, path, left)
             return
         found = self._common(paths)
         if found is None:
@@ -203,19 +205,21 @@ class PathTrees:
                 continue
             below = _below(paths, through, compounds, idlers)
             if end is not None:
-                yield from self._ended(
+                yield from self._with_ends(
                     tuple(paths), paths, through, compounds, idlers, self._branching(end, below, after)
                 )
                 continue
             if through or compounds or idlers:
                 forests = self._forest(below, after, 2)
-                yield from self._ended(tuple(paths), paths, through, compounds, idlers, forests)
-            yield from self._ended(tuple(paths), paths, through, compounds, idlers, self._new_branching(below, after))
+                yield from self._with_ends(tuple(paths), paths, through, compounds, idlers, forests)
+            yield from self._with_ends(
+                tuple(paths), paths, through, compounds, idlers, self._new_branching(below, after)
+            )
         if end is None:
-            yield from self._parted_by_added(paths, through, left)
+            yield from self._split_by_added(paths, through, left)
 
-    def _parted_by_added(self, paths: Paths, through: tuple[int, ...], left: _Left) -> Iterator[tuple[Chain, _Left]]:
-        """Chains that end at a surviving arbor which all leave by added wheels, by several ones."""
+    def _split_by_added(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
+        """Yield chains that end at a surviving arbor which all paths leave by several added wheels."""
         for end in through:
             if paths_first(paths).passes[end].driver != ADDED or paths_first(paths).passes[end].idler:
                 continue
@@ -228,24 +232,27 @@ class PathTrees:
                 after = left.without(added + 2 * compounds + idlers, compounds + idlers)
                 if after.is_possible:
                     branchings = self._branching(end, _below(paths, others, compounds, idlers), after)
-                    yield from self._ended(tuple(paths), paths, others, compounds, idlers, branchings)
+                    yield from self._with_ends(tuple(paths), paths, others, compounds, idlers, branchings)
 
-    def _ended(
+    def _with_ends(
         self,
         dials: Dials,
         paths: Paths,
         through: tuple[int, ...],
         compounds: int,
         idlers: int,
-        ends: Iterator[tuple[Branching, _Left]] | Iterator[tuple[tuple[Chain, ...], _Left]],
-    ) -> Iterator[tuple[Chain, _Left]]:
+        ends: Iterator[tuple[Branching, _Budget]] | Iterator[tuple[tuple[Chain, ...], _Budget]],
+    ) -> Iterator[tuple[Chain, _Budget]]:
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
         for end, after in ends:
             yield Chain(dials, named, compounds, idlers, end), after
 
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
-        """Surviving arbors that all paths pass in the same way, and the one where they part; None if that cannot be."""
+        """Return the surviving arbors that all paths pass in the same way, and the arbor at which they separate.
+
+        The second entry is None without such an arbor. The result is None if paths separate at more than one arbor.
+        """
         through, ends = [], []
         for at in _arbors(reduce(and_, (path.arbors for path in paths.values()))):
             passes = {path.passes[at] for path in paths.values()}
@@ -255,8 +262,8 @@ class PathTrees:
                 through.append(at)
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
-    def _leg(self, dial: str, path: DialPath, left: _Left) -> Iterator[tuple[Chain, _Left]]:
-        """The only chain that leads to one dial alone."""
+    def _single_chain(self, dial: str, path: DialPath, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
+        """Yield the only chain that leads to a single dial."""
         after = left.without(path.wheels, path.new)
         if not after.is_possible:
             return
@@ -270,32 +277,34 @@ class PathTrees:
         if path.ends_new or end.name is not None:
             yield Chain((dial,), tuple(through), path.compounds, path.idlers, end), after
 
-    # arbors at which paths end or part
+    # arbors at which paths end or separate
 
-    def _branching(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
-        """A surviving arbor that shows some of the dials, or leads to them by several wheels; or the input arbor."""
+    def _branching(self, at: int, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
+        """Yield branchings at a surviving arbor that shows dials or has several exits, or at the input arbor."""
         first = paths_first(paths).passes[at]
-        ways = {dial: (way_on(path.passes[at]),) for dial, path in paths.items()}
+        ways = {dial: (exit_of(path.passes[at]),) for dial, path in paths.items()}
         paid = int(first.driven == ADDED)
         bit = 1 << (at - 1) if at else 0
         below = {
             dial: path._replace(arbors=path.arbors & ~bit, wheels=path.wheels - path.passes[at].added)
             for dial, path in paths.items()
         }
-        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(below)):
+        for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(below)):
             if at and not here and len(blocks) < 2:
                 continue
             if all(below[dial].is_at_end and not below[dial].ends_new for dial in here):
                 drivers = [None if way == IDLER else paths[dials[0]].passes[at].driver for way, dials in blocks]
-                yield from self._hung(self.names[at], first.driven, here, blocks, drivers, below, left.without(paid))
+                yield from self._with_subtrees(
+                    self.names[at], first.driven, here, blocks, drivers, below, left.without(paid)
+                )
 
-    def _new_branching(self, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
-        """An added arbor that shows some of the dials, or leads to them by several wheels."""
+    def _new_branching(self, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
+        """Yield branchings at an added arbor that shows dials or has several exits."""
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):
             return
-        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(paths)):
+        for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(paths)):
             if not here and len(blocks) < 2:
                 continue
             below = dict(paths)
@@ -308,9 +317,9 @@ class PathTrees:
                         else path._replace(compounds=path.compounds - 1, wheels=path.wheels - 2)
                     )
             drivers = [None if way == IDLER else ADDED for way, _ in blocks]
-            yield from self._hung(None, ADDED, here, blocks, drivers, below, after)
+            yield from self._with_subtrees(None, ADDED, here, blocks, drivers, below, after)
 
-    def _hung(
+    def _with_subtrees(
         self,
         name: str | None,
         driven: PlacedWheel | None,
@@ -318,25 +327,25 @@ class PathTrees:
         blocks: Sequence[Block],
         drivers: Sequence[PlacedWheel | None],
         paths: Paths,
-        left: _Left,
-    ) -> Iterator[tuple[Branching, _Left]]:
-        """An arbor with what hangs from each of its wheels."""
-        if not _are_parted([dials for _, dials in blocks], paths):
+        left: _Budget,
+    ) -> Iterator[tuple[Branching, _Budget]]:
+        """Yield a branching with each set of chains that its wheels can drive."""
+        if not _are_disjoint([dials for _, dials in blocks], paths):
             return
         after = left.without(sum(way == BESIDE for way, _ in blocks))
-        for drives, end in self._drives([_some(paths, dials) for _, dials in blocks], drivers, after):
+        for drives, end in self._drives([_restricted(paths, dials) for _, dials in blocks], drivers, after):
             driving = tuple((wheel, chains) for wheel, chains in drives if wheel is not None)
             passes = tuple(chain for wheel, chains in drives if wheel is None for chain in chains)
             yield Branching(name, driven, here, driving, passes), end
 
     def _drives(
-        self, blocks: Sequence[Paths], drivers: Sequence[PlacedWheel | None], left: _Left
-    ) -> Iterator[tuple[tuple[_Drive, ...], _Left]]:
+        self, blocks: Sequence[Paths], drivers: Sequence[PlacedWheel | None], left: _Budget
+    ) -> Iterator[tuple[tuple[_Drive, ...], _Budget]]:
         if not blocks:
             yield (), left
             return
-        kept = sum(map(_need, blocks[1:]))
-        if kept + _need(blocks[0]) > left.wheels:
+        kept = sum(map(_needed_wheels, blocks[1:]))
+        if kept + _needed_wheels(blocks[0]) > left.wheels:
             return
         for chains, after in self._forest(blocks[0], left.without(kept)):
             for drives, end in self._drives(blocks[1:], drivers[1:], after.without(-kept)):
@@ -344,11 +353,11 @@ class PathTrees:
 
 
 def paths_first(paths: Paths) -> DialPath:
-    """Any of some paths, for what all of them have."""
+    """Return any of the paths, to read properties that all of them share."""
     return next(iter(paths.values()))
 
 
-def _some(paths: Paths, dials: Dials) -> Paths:
+def _restricted(paths: Paths, dials: Dials) -> Paths:
     return {dial: paths[dial] for dial in dials}
 
 
@@ -356,19 +365,19 @@ def _own_arbors(paths: Paths) -> dict[str, int]:
     return {dial: path.arbors for dial, path in paths.items()}
 
 
-def _need(paths: Paths) -> int:
-    """Added wheels that are needed at least."""
+def _needed_wheels(paths: Paths) -> int:
+    """Return the minimum number of added wheels of a tree with these paths."""
     return max(path.wheels for path in paths.values())
 
 
-def _are_parted(blocks: Sequence[Dials], paths: Paths) -> bool:
-    """Whether dials of different blocks have no surviving arbor in common."""
+def _are_disjoint(blocks: Sequence[Dials], paths: Paths) -> bool:
+    """Return whether dials of different blocks have no surviving arbor in common."""
     masks = [reduce(lambda bits, dial: bits | paths[dial].arbors, block, 0) for block in blocks]
     return not any(one & other for one, other in combinations(masks, 2))
 
 
 def _below(paths: Paths, through: tuple[int, ...], compounds: int, idlers: int) -> Paths:
-    """What is left of paths after a chain."""
+    """Return the remaining parts of paths after a chain."""
     bits = sum(1 << (at - 1) for at in through)
     added = sum(paths_first(paths).passes[at].added for at in through) + 2 * compounds + idlers
     return {
@@ -392,7 +401,7 @@ def _ways_from_added(path: DialPath) -> Iterator[str]:
 
 
 def _arbors(bits: int) -> Iterator[int]:
-    """Numbers of surviving arbors, a bit each."""
+    """Yield the indices of the bits that are set, from 1."""
     at = 1
     while bits:
         if bits & 1:

@@ -1,8 +1,8 @@
-"""Additive hashing of positive rationals: sets of millions of quotients are looked up at once in sorted tables.
+"""Additive hashing of positive rationals, so that millions of quotients are looked up at once in sorted tables.
 
-The key of a number is the sum of fixed random 64-bit words, one for each of its primes, modulo 2^64. Equal numbers have
-equal keys. Two different ones have the same key with a chance of 2^-64; then a part of a train is looked into that
-explains nothing, so that no answer depends on it.
+The key of a number is the sum of fixed random 64-bit words, one for each of its prime factors, modulo 2^64. Equal
+numbers have equal keys. Different numbers have equal keys with probability 2^-64. Such a collision only lets the search
+explore a branch without solutions, so no result depends on it.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ Keys = NDArray[np.uint64]
 
 _WHOLE = 1 << 64
 _LONGEST = 3_000_000
-"""Quotients in a table; where there would be more, every number is taken for one."""
+"""Maximum number of quotients in a table. Larger tables are not built, and every number is then accepted."""
 
 
 _SCARCE = 500
-"""Keys for which a table of quotients of three wheels is not worth being made."""
+"""Number of keys below which a table of quotients of three wheels costs more than a direct test."""
 _FEW = 2
-"""Added wheels whose quotients are all listed."""
+"""Maximum number of added wheels whose quotients are all tabulated."""
 
 
 class QuotientKeys:
-    """Keys of numbers, and of all quotients of products of added wheels' counts.
+    """Hash keys of numbers, and lookup tables of the keys of all quotients of products of added tooth counts.
 
-    least, greatest   counts of an added wheel
+    minimum, maximum   range of the tooth count of an added wheel
     """
 
     def __init__(self, minimum: int, maximum: int) -> None:
@@ -42,7 +42,7 @@ class QuotientKeys:
         self._tables: dict[tuple[int, int], Keys | None] = {(0, 0): np.zeros(1, dtype=np.uint64)}
 
     def key(self, number: Fraction | int) -> int:
-        """The key of a positive number."""
+        """Return the hash key of a positive number."""
         ratio = Fraction(number)
         found = 0
         for part, sign in ((ratio.numerator, 1), (ratio.denominator, -1)):
@@ -55,14 +55,14 @@ class QuotientKeys:
         return self._words[prime]
 
     def may_be_quotients(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """Which keys are those of quotients of so many drivers over so many driven wheels; never wrongly False."""
+        """Test which keys belong to quotients of `drivers` over `driven` added counts, without false negatives."""
         if drivers + driven == 3 and (drivers, driven) not in self._tables and len(keys) < _SCARCE:
             return self._one_by_one(keys, drivers, driven)
         table = self._table(drivers, driven)
         return np.ones(keys.shape, dtype=bool) if table is None else _are_in(table, keys)
 
     def _one_by_one(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """The same, by trying each count of one wheel: quicker for few keys than a long table."""
+        """Test the keys by trying each count of one wheel, which is faster than a long table if there are few keys."""
         fewer = self._table(drivers - (drivers > driven), driven - (driven >= drivers))
         if fewer is None:
             return np.ones(keys.shape, dtype=bool)
@@ -70,19 +70,19 @@ class QuotientKeys:
         return np.asarray(_are_in(fewer, np.subtract.outer(keys, counts)).any(axis=-1))
 
     def need_few(self, keys: Keys, wheels: int) -> NDArray[np.bool_]:
-        """Which keys are those of quotients that so many added wheels or fewer make; never wrongly False."""
+        """Test which keys belong to quotients of at most `wheels` added counts, without false negatives."""
         few = self.few(wheels) if wheels <= _FEW else None
         return np.ones(keys.shape, dtype=bool) if few is None else _are_in(few, keys)
 
     def fewest(self, keys: Keys, most: int) -> NDArray[np.int8]:
-        """How few added wheels make each quotient: `most` + 1 where more are needed; never too many."""
+        """Return a lower bound, at most `most` + 1, of the number of added wheels for each quotient."""
         found = np.full(keys.shape, most + 1, dtype=np.int8)
         for wheels in range(most, -1, -1):
             found[self.need_few(keys, wheels)] = wheels
         return found
 
     def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Which keys have a partner among others to which their quotient needs so many added wheels or fewer."""
+        """Test which keys of each array have a partner whose quotient needs at most `wheels` added wheels."""
         if wheels < 0 or not len(keys) or not len(others):
             return np.zeros(keys.shape, dtype=bool), np.zeros(others.shape, dtype=bool)
         few = self.few(wheels) if wheels <= _FEW else None
@@ -95,11 +95,11 @@ class QuotientKeys:
         if len(keys) > len(others):
             more, some = self.agreeing(others, keys, wheels)
             return some, more
-        reached = np.add.outer(keys, few)  # with a quotient its inverse is one
+        reached = np.add.outer(keys, few)  # the set of quotients is closed under inversion
         return np.asarray(_are_in(_unique(others), reached).any(axis=1)), _are_in(_unique(reached), others)
 
     def few(self, wheels: int) -> Keys | None:
-        """Keys of all quotients of so many wheels or fewer; None where there are too many."""
+        """Return the sorted keys of all quotients of at most `wheels` added counts, or None if too many."""
         if wheels not in self._fewer:
             tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
             known = [table for table in tables if table is not None]
@@ -125,7 +125,7 @@ class QuotientKeys:
 
 
 def _unique(keys: Keys) -> Keys:
-    """Each key once, sorted: by hashes, as NumPy does, it takes ten times as long."""
+    """Return the sorted distinct keys. Sorting is ten times faster than the hash table of `numpy.unique`."""
     found = np.sort(keys, axis=None)
     return np.asarray(found[np.append(True, found[1:] != found[:-1])]) if len(found) else found
 
@@ -140,7 +140,10 @@ def _are_in(table: Keys, keys: Keys) -> NDArray[np.bool_]:
 
 @lru_cache(maxsize=1 << 16)
 def prime_powers(number: int) -> tuple[tuple[int, int], ...]:
-    """Primes of a number from 1 on with their powers; what no prime below 10 000 divides is taken for one prime."""
+    """Factor a positive integer by trial division into pairs (prime, power).
+
+    A remainder without a prime factor below 10 000 is treated as prime.
+    """
     found, prime = [], 2
     while prime * prime <= number and prime < 10_000:
         power = 0
@@ -155,39 +158,39 @@ def prime_powers(number: int) -> tuple[tuple[int, int], ...]:
     return tuple(found)
 
 
-# Quotients of few added wheels within bounds: what dials with a tolerance leave to be added, for many at once.
+# Quotients of few added wheels within bounds, for many paths to dials with a tolerance at once.
 
 
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
-"""Least and greatest of quotients, an entry each."""
+"""Arrays of the minimum and the maximum of each quotient."""
 
 _LISTED = 2
-"""Added wheels up to which all quotients are listed."""
+"""Maximum number of added wheels whose quotients are all tabulated."""
 _WIDEST = 2000
-"""Counts of an added wheel up to which quotients of two are."""
-_ROUNDING = 1e-12  # of a quotient: what floats may be off
+"""Maximum number of possible tooth counts for which the quotients of two wheels are tabulated."""
+_ROUNDING = 1e-12  # relative rounding error of a quotient
 
 
 class QuotientRanges:
-    """All quotients of products of added wheels' counts, as floats.
+    """Sorted tables of all quotients of products of added tooth counts, as floats.
 
-    least, greatest   counts of an added wheel
+    minimum, maximum   range of the tooth count of an added wheel
     """
 
     def __init__(self, minimum: int, maximum: int) -> None:
         self.counts = minimum, maximum
 
     def may_hold(self, bounds: Bounds, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """Which bounds hold a quotient of so many drivers over so many driven wheels; never wrongly False."""
+        """Test which bounds contain a quotient of `drivers` over `driven` added counts, without false negatives."""
         if not self._is_listed(drivers + driven):
             return np.ones(bounds[0].shape, dtype=bool)
-        return _are_held(quotient_table(drivers, driven, self.counts).values, bounds)
+        return _contain_quotient(quotient_table(drivers, driven, self.counts).values, bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
-        """How few added wheels make a quotient within each bounds: 3 where more than 2 are needed; never too many."""
+        """Return a lower bound, at most 3, of the number of added wheels with a quotient within each bounds."""
         found = np.full(bounds[0].shape, _LISTED + 1, dtype=np.int8)
         for wheels in range(_LISTED, -1, -1):
-            held = _are_held(self._few(wheels), bounds) if self._is_listed(wheels) else np.True_
+            held = _contain_quotient(self._few(wheels), bounds) if self._is_listed(wheels) else np.True_
             found = np.where(held, np.int8(wheels), found)
         return found
 
@@ -200,7 +203,7 @@ class QuotientRanges:
         return np.unique(np.concatenate([quotient_table(*kind, self.counts).values for kind in kinds]))
 
 
-def _are_held(table: NDArray[np.float64], bounds: Bounds) -> NDArray[np.bool_]:
+def _contain_quotient(table: NDArray[np.float64], bounds: Bounds) -> NDArray[np.bool_]:
     low, high = bounds
     first = np.searchsorted(table, low * (1 - _ROUNDING))
     return np.asarray(np.searchsorted(table, high * (1 + _ROUNDING), side="right") > first)

@@ -1,4 +1,4 @@
-"""A reconstruction in one call: from declared evidence, or a train without some arbors, to all that is known of it."""
+"""Complete reconstruction in one call, from declared evidence or from a train without some of its arbors."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Shown
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.candidate_rules import check_same, find_known_train
 from geartrain.search.reconstruct.dropped_facts import (
@@ -28,6 +28,7 @@ from geartrain.search.reconstruct.reconstruction_search import (
     ExplanationCount,
     Reconstructions,
     draw_candidates,
+    explanations_text,
     find_reconstructions,
     rank_of,
 )
@@ -36,14 +37,14 @@ from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, 
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
 
-_ALL = 1_000_000
-_LOOKED_AT = 2000
-"""Candidates whose meshes and counts are compared, also where fewer are listed."""
+_MOST_LISTED = 1_000_000
+_MINIMUM_COMPARED = 2000
+"""Minimum number of candidates whose meshes and counts are compared, even if fewer are listed."""
 
 
 @dataclass(frozen=True, slots=True)
-class ReconstructionRequest:
-    """What is requested of a reconstruction.
+class ReconstructionRequest(Shown):
+    """Input of `reconstruct`: evidence, limits and options.
 
     See Also
     --------
@@ -51,68 +52,75 @@ class ReconstructionRequest:
     """
 
     evidence: Train
-    """A declaration with `reconstruct`; with `lost` a complete train."""
+    """Declaration with the block `reconstruct`, or a complete train if `lost` is given."""
     lost: tuple[str, ...] = ()
-    """Arbors of the train that are taken as lost."""
+    """Arbors of the train that are treated as lost."""
     source: str | None = None
-    """With `lost`: the link at which the part of the train begins; default the first part that has the arbors."""
+    """Link at which the part of the train begins (with `lost`). The default is the first part that has the arbors."""
     seen: bool = False
-    """With `lost`: whether the meshes of surviving wheels are known, and no more arbors are added than are lost."""
+    """True if the meshes of surviving wheels are known, and no more arbors may be added than are lost (with `lost`)."""
     wheels: int | None = None
-    """How many wheels may be added; default what the evidence says."""
+    """Maximum number of added wheels. The default is the number in the evidence."""
     idlers: bool = False
-    """Whether a driven wheel may drive."""
+    """True if a driven wheel may also drive."""
     best: int | None = 20
-    """How many trains are listed; None for all of them."""
+    """Number of trains to list, or None for all of them."""
     counts_only: bool = False
-    """Whether trains are counted only, and none is listed."""
+    """True if trains are counted but not listed."""
     per: Literal["mechanism", "class"] = "mechanism"
-    """What has a weight of its own: every train, or every class of equal ratios."""
+    """Unit of the prior: one weight for every train, or one for every equivalence class of equal ratios."""
     sample: int = 0
-    """Number of trains drawn at random by their weight."""
+    """Number of trains drawn at random in proportion to their weight."""
     seed: int = 1
-    """Seed of all random drawing."""
+    """Random seed."""
     assumptions: bool = False
-    """Whether each hard fact is dropped in turn, and the trains are counted again."""
+    """True if the trains are counted again without each hard fact in turn."""
     known: tuple[Train, ...] = ()
-    """Trains that are ranked among the explanations."""
+    """Known trains whose ranks among the explanations are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
-    """Wheels and outputs of these trains, with their names in the evidence."""
+    """Names of wheels and outputs of the known trains -> their names in the evidence."""
 
 
 class ReconstructionRun:
-    """How the long parts of a reconstruction are run: in this process, and to the end.
+    """Callbacks and executors of the long parts of a reconstruction.
 
-    A command overrides this to show progress, to keep journals, and to let a part be stopped.
+    The default runs every part in this process and to its end. The command overrides the methods to show progress, to
+    write journals, and to let the user interrupt a part.
     """
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Called before anything is searched."""
+        """Accept the question before the search begins."""
 
     def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Called when the cost of the search is known."""
+        """Accept the expected cost of the search."""
 
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> AbstractContextManager[Execution]:
-        """How the search is executed."""
+        """Return a context manager that provides the executor of the search."""
         return nullcontext(Execution())
 
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> AbstractContextManager[Execution]:
-        """How changed questions are counted. A manager that suppresses an interruption keeps what was `counted`."""
+        """Return a context manager that provides the executor of the counts of changed questions.
+
+        If the manager suppresses an interruption, the results in `counted` are kept.
+        """
         return nullcontext(Execution())
 
     def searched(self, complete: bool) -> None:
-        """Called when all is searched."""
+        """Accept the end of all searches, and whether they are complete."""
 
     def part(self, what: str) -> AbstractContextManager[Execution]:
-        """How another part is executed; a manager that suppresses an interruption leaves it out."""
+        """Return a context manager that provides the executor of another part.
+
+        If the manager suppresses an interruption, the part is omitted from the answer.
+        """
         return nullcontext(Execution())
 
 
 @dataclass(frozen=True, slots=True)
 class RankedTrain(Result):
-    """One of the best explanations.
+    """One train of the list of best or sampled explanations.
 
     See Also
     --------
@@ -122,29 +130,31 @@ class RankedTrain(Result):
     KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
 
     rank: int
-    """Place among those that are listed, from 1 on."""
+    """Position in the list, from 1."""
     ranks: tuple[int, int]
-    """First and last rank by weight that it may have, for some weigh the same."""
+    """First and last rank by weight. They differ if several trains have the same weight."""
     added: int
-    """Added wheels."""
+    """Number of added wheels."""
     weight: float
-    """Share of the weight of all explanations."""
+    """Posterior weight, as a share of the weight of all explanations, 0 to 1."""
     wheels: dict[str, int]
-    """Added wheels with their counts."""
+    """Names of the added wheels -> tooth counts."""
     doubtful: dict[str, int]
-    """Surviving wheels that have a range of counts, with the one that they have here."""
+    """Names of surviving wheels with uncertain tooth counts -> their counts in this train."""
     meshes: tuple[str, ...]
-    """Every mesh, the driving wheel first."""
+    """All meshes as "driving > driven"."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReconstructionAnswer(Result):
-    """The answer to a request.
+    """Result of `reconstruct`: counts, best trains, facts that they share, and ranks of known trains.
 
     See Also
     --------
     reconstruct : gives it.
     """
+
+    PAGE = "search.reconstruct.reconstruction_report:describe_reconstruction"
 
     KEYS = (
         "name",
@@ -161,56 +171,61 @@ class ReconstructionAnswer(Result):
     )
 
     name: str
-    """Of the evidence."""
+    """Name of the evidence."""
     problem: ReconstructionProblem
-    """The typed question."""
+    """Typed question of the search."""
     counts: tuple[ExplanationCount, ...]
-    """Explanations by number of added wheels."""
+    """Numbers of explanations, one entry per number of added wheels."""
     complete: bool
-    """Whether all were looked at."""
+    """True if the search covered all candidates."""
     unused: tuple[str, ...]
-    """What is declared and plays no part."""
+    """Declared evidence that the search does not use, one line each."""
     best: tuple[RankedTrain, ...]
-    """The best, as many as were requested."""
+    """Best explanations in order of weight, as many as were requested."""
     original: tuple[int, int] | None = None
-    """First and last rank by weight of the train of which arbors were left out, for some may weigh the same."""
+    """First and last rank by weight of the original train, if arbors of a train are lost."""
     findings: CandidateFindings = NO_FINDINGS
-    """What is found beyond counts."""
+    """Facts derived from the explanations: common facts, most informative facts, family tree."""
     base: BaseLink | None = None
-    """What bears the arbors, where that is a carrier."""
+    """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
-    """Links that given couplings join, by the arbor that stands for them."""
+    """Arbor of the question -> links that given couplings join to it."""
     expected: ExpectedCost | None = None
-    """What the search was expected to cost before it began."""
+    """Cost of the search as estimated before it began."""
     drawn: tuple[RankedTrain, ...] = ()
-    """Trains drawn at random, as many as were requested; `rank` counts them."""
+    """Randomly drawn trains, as many as were requested. Their field `rank` is the number of the draw."""
     known: tuple[KnownRank, ...] = ()
-    """What given trains cost in the question."""
+    """Ranks and costs of the known trains."""
     evidence: Train | None = None
-    """The evidence that was asked of; with lost arbors what is left of the train."""
+    """Evidence of the question. If arbors of a train are lost, it is the evidence that remains."""
     candidates: tuple[Candidate, ...] = ()
-    """Those of `best`."""
+    """Candidates that correspond to the entries of `best`."""
+
+    def _summary(self) -> str:
+        return f"{self.name}: {explanations_text(self.counts)}, {len(self.best)} listed" + (
+            "" if self.complete else ", incomplete"
+        )
 
     @property
     def requested(self) -> RequestedQuestion:
-        """What is asked."""
+        """Size of the question."""
         return RequestedQuestion.of(self.problem)
 
     @property
     def total(self) -> int:
-        """Mechanisms in all."""
+        """Total number of explanations."""
         return sum(count.mechanisms for count in self.counts)
 
 
 def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = None) -> ReconstructionAnswer:
-    """Find every train that explains the evidence, count them, and list the best.
+    """Find every train that explains the evidence, count the trains, and list the best.
 
     Parameters
     ----------
     request : ReconstructionRequest
-        The evidence, and what is asked of it.
+        Evidence, limits and options.
     run : ReconstructionRun, optional
-        How the long parts are run; default one after the other in this process.
+        Executors of the long parts. By default they run one after the other in this process.
 
     Returns
     -------
@@ -219,7 +234,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     Raises
     ------
     QuestionError
-        If the evidence cannot be asked so, or the search would not end.
+        If the evidence does not support the request, or the search would be too long.
 
     Examples
     --------
@@ -229,14 +244,16 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     (2, {'new_metonic1': 53})
     """
     run = run or ReconstructionRun()
-    evidence, original = _of_train(request) if request.lost else (request.evidence, None)
+    evidence, original = _lost_train(request) if request.lost else (request.evidence, None)
     question = evidence_question(evidence, request.wheels, request.idlers)
     _check_known(request, question)
     problem = question.problem
     run.begin(problem)
     expected = expect_cost(problem)
     run.expect(problem, expected)
-    listing = 0 if request.counts_only else _ALL if request.best is None else max(request.best, _LOOKED_AT)
+    listing = (
+        0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
+    )
     with run.search(problem, expected) as execution:
         found = find_reconstructions(problem, execution, listing, request.per)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
@@ -263,24 +280,24 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     )
 
 
-def _of_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
-    """Evidence of a train whose arbors are lost, and the train itself as a candidate."""
+def _lost_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
+    """Return the evidence that remains of a train without its lost arbors, and the train as a candidate."""
     tree = find_spur_tree(request.evidence, request.lost, request.source)
     return lost_evidence(tree, request.lost, request.seen), tree.arbor(lost_arbors(tree, request.lost))
 
 
 def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> None:
-    """Raise `QuestionError` for known trains that cannot be ranked, before anything is searched."""
+    """Raise `QuestionError` for known trains that cannot be ranked. It is called before the search."""
     if request.known and question.base.is_carrier:
-        what = "trains are not ranked where arbors turn on a carrier"
-        raise QuestionError(Problem(what, "a known train is read on fixed axes", "leave --rank out"))
+        what = "known trains cannot be ranked if arbors turn on a carrier"
+        raise QuestionError(Problem(what, "known trains are read with fixed axes", "omit --rank"))
     check_same(request.same, request.known, question.problem)
     for train in request.known:
         find_known_train(train, question.problem, request.same)
 
 
 def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tuple[ChangedCount, ...]:
-    """The counts without each hard fact; only the first of them if that is stopped."""
+    """Return the counts without each hard fact; after an interruption only those that are complete."""
     changed = without_each_fact(problem)
     counted: list[ChangedCount] = []
     with run.assume(problem, changed, counted) as execution:
@@ -296,21 +313,21 @@ def _ranks_of_known(
     found: Reconstructions,
     run: ReconstructionRun,
 ) -> tuple[KnownRank, ...]:
-    """What each known train costs; one that is stopped is left out."""
+    """Rank each known train, and omit those whose ranking is interrupted."""
     ranked: list[KnownRank] = []
     for train in request.known:
-        with run.part(f"what {train.name} costs") as execution:
+        with run.part(f"rank of {train.name}") as execution:
             question = RankedQuestion(evidence, problem, found, _whole_search(execution))
             ranked.append(rank_known_train(train, question, request.same))
     return tuple(ranked)
 
 
 def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Reconstructions]:
-    """A search that ends with all explanations, or not at all."""
+    """Return a search that yields all explanations or raises `KeyboardInterrupt`."""
 
     def search(requested: ReconstructionProblem) -> Reconstructions:
         answer = find_reconstructions(requested, execution, listed=0)
-        if not answer.complete:  # the search returns what it has when it is stopped
+        if not answer.complete:  # an interrupted search returns a partial result
             raise KeyboardInterrupt
         return answer
 
@@ -325,12 +342,15 @@ def _findings(
     counts_only: bool,
     run: ReconstructionRun,
 ) -> CandidateFindings:
-    """What is found of the candidates, or why there are none; with `counts_only` assumptions only."""
+    """Return the facts of the candidates, or the reasons why nothing fits.
+
+    With `counts_only` the result has only the counts without each assumption.
+    """
     if counts_only:
         return CandidateFindings(assumptions=dropped)
     if found.complete and not any(count.mechanisms for count in found.counts):
         missing = None
-        with run.part("why nothing fits") as execution:
+        with run.part("reasons why nothing fits") as execution:
             missing = explain_missing(problem, execution)
         return CandidateFindings(assumptions=dropped, missing=missing)
     return find_facts(evidence, problem, found, dropped)

@@ -1,7 +1,7 @@
-"""Typed question of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, what may be added.
+"""Typed question of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, limits of additions.
 
-Speeds are turns per unit of the input arbor, exact, positive in one sense. The input arbor turns at `input_speed`.
-Lengths are millimetres, exact. Axes are parallel, so a place is where an axis crosses the plan.
+Speeds are exact, in turns per unit of the input arbor, and signed. The input arbor turns at `input_speed`. Lengths
+are exact, in millimetres. All axes are parallel, so the place of an arbor is a point in the plan.
 """
 
 from __future__ import annotations
@@ -19,35 +19,34 @@ from typing import Literal
 from geartrain.errors import DeclarationError, Problem
 from geartrain.numerics.exact import plural
 from geartrain.numerics.quantity import Quantity
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Result, Shown
 from geartrain.train import Train
 
 Place = tuple[Fraction, Fraction]
 Bounds = tuple[Fraction, Fraction]
 Size = tuple[str | None, int]
-"""A wheel by its name, None for an added one, and its count of teeth."""
+"""Wheel as a pair of its name (None for an added wheel) and its tooth count."""
 
 NEW = "new"
-"""The place of a dial whose arbor does not survive."""
+"""Value of `SearchedDial.place` for a dial whose arbor does not survive."""
 UNMEASURED_SPREADS = 3
-"""A wheel that was not measured has the module of its mate within so many spreads, where impossible is told from
-improbable."""
+"""Maximum difference of the modules of a measured wheel and an unmeasured mate, in spreads of `module`."""
 _MOST_DOUBTS = 3
 
 
 @dataclass(frozen=True)
 class MeasuredWheel:
-    """A wheel whose module was measured, or its pitch radius."""
+    """Surviving wheel with a measured module or pitch radius."""
 
     name: str
     is_module: bool
     length: Fraction
-    """That length."""
+    """Module or pitch radius [mm]."""
 
 
 @dataclass(frozen=True)
 class PlacedArbor:
-    """A surviving arbor whose axis has a known place."""
+    """Surviving arbor with a known position of its axis [mm]."""
 
     name: str
     place: Place
@@ -55,45 +54,48 @@ class PlacedArbor:
 
 @dataclass(frozen=True)
 class SurvivingGeometry:
-    """What was measured, and how it is weighed."""
+    """Measured modules, radii and positions of axes, and the spreads by which they are weighed."""
 
     wheels: tuple[MeasuredWheel, ...] = ()
     arbors: tuple[PlacedArbor, ...] = ()
     module: Fraction = Fraction(43, 1000)
-    """Spread of the logarithm of the quotient of two modules in mesh."""
+    """Standard deviation of the logarithm of the ratio of the modules of two meshing wheels."""
     distance: Fraction = Fraction(3, 100)
-    """Spread of the logarithm of the sum of pitch radii over the distance of axes."""
+    """Standard deviation of the logarithm of the sum of two pitch radii over the distance of the axes."""
     reach: Fraction | None = None
-    """Greatest difference of those two that is possible; None if any is."""
+    """Maximum possible difference between sum of pitch radii and axis distance [mm]; None if unlimited."""
     radius: Fraction | None = None
-    """Error of every measured pitch radius; None if it is part of the spread of modules."""
+    """Error of every measured pitch radius [mm]; None if it is part of the spread of modules."""
 
     @cached_property
     def places(self) -> Mapping[str | None, Place]:
-        """Places by arbor."""
+        """Names of arbors -> positions of their axes [mm]."""
         return {arbor.name: arbor.place for arbor in self.arbors}
 
     @cached_property
     def measured(self) -> Mapping[str | None, MeasuredWheel]:
-        """What was measured, by wheel."""
+        """Names of wheels -> measured wheels."""
         return {wheel.name: wheel for wheel in self.wheels}
 
     def module_of(self, size: Size) -> Fraction | None:
-        """The module of a wheel; None where it was not measured."""
+        """Return the module of a wheel [mm], or None if it was not measured."""
         wheel = self.measured.get(size[0])
         if wheel is None:
             return None
         return wheel.length if wheel.is_module else 2 * wheel.length / size[1]
 
     def square_distance(self, first: str | None, second: str | None) -> Fraction | None:
-        """Of two axes; None where a place is not known."""
+        """Return the square of the distance of two axes [mm2], or None if a position is not known."""
         if first not in self.places or second not in self.places:
             return None
         (x, y), (u, v) = self.places[first], self.places[second]
         return (x - u) ** 2 + (y - v) ** 2
 
     def radii_sum(self, first: Size, second: Size) -> Fraction | None:
-        """Sum of the pitch radii of wheels in mesh, which share a module; None where neither was measured."""
+        """Return the sum of the pitch radii of two meshing wheels [mm], or None if neither was measured.
+
+        An unmeasured wheel has the module of its mate.
+        """
         module, other = self.module_of(first), self.module_of(second)
         if module is None and other is None:
             return None
@@ -103,7 +105,7 @@ class SurvivingGeometry:
         return (module * first[1] + other * second[1]) / 2
 
     def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
-        """How far apart axes may be whose wheels mesh; None where that is not bounded."""
+        """Return the minimum and maximum axis distance of two meshing wheels [mm], or None if unlimited."""
         own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
         if own is None or mate is None or self.reach is None:
             return None
@@ -111,7 +113,7 @@ class SurvivingGeometry:
         return max(Fraction(0), minimum - self.reach), maximum + self.reach
 
     def module_bounds(self, size: Size, mate: Size) -> Bounds | None:
-        """What the module of a wheel may be beside a mate; None where neither was measured."""
+        """Return the minimum and maximum module of a wheel with a given mate [mm], or None if neither was measured."""
         module = self.module_of(size)
         if module is not None:
             return module, module
@@ -122,7 +124,7 @@ class SurvivingGeometry:
         return module * (1 - spread), module * (1 + spread)
 
     def may_mesh(self, arbor: str | None, wheel: Size, other_arbor: str | None, other: Size) -> bool:
-        """Whether the distance of two axes allows that their wheels mesh, as far as both are known."""
+        """Return whether two wheels can mesh at the distance of their axes; True if it is not known."""
         square, bounds = self.square_distance(arbor, other_arbor), self.distance_bounds(wheel, other)
         if square is None:
             return True
@@ -136,7 +138,7 @@ NO_GEOMETRY = SurvivingGeometry()
 
 @dataclass(frozen=True)
 class SurvivingWheel:
-    """A surviving wheel: its name and the counts that it may have, each with its prior weight.
+    """Surviving wheel with its possible tooth counts and their prior weights.
 
     See Also
     --------
@@ -144,21 +146,21 @@ class SurvivingWheel:
     """
 
     name: str
-    """Of the wheel."""
+    """Name of the wheel."""
     counts: tuple[tuple[int, Fraction], ...]
-    """Teeth and weights, ascending, no count twice, weights positive; one pair where the count is sure."""
+    """Pairs (tooth count, positive weight) in ascending order of distinct counts; one pair if the count is certain."""
     internal: bool = False
-    """Whether it is a ring: its teeth point inwards."""
+    """True for a ring, a wheel with internal teeth."""
 
     @property
     def is_sure(self) -> bool:
-        """Whether there is one count."""
+        """True if the wheel has one possible tooth count."""
         return len(self.counts) == 1
 
 
 @dataclass(frozen=True)
-class SurvivingArbor:
-    """A surviving arbor: wheels that are fixed together.
+class SurvivingArbor(Shown):
+    """Surviving arbor: wheels that are fixed together.
 
     See Also
     --------
@@ -166,14 +168,14 @@ class SurvivingArbor:
     """
 
     name: str
-    """Of the arbor."""
+    """Name of the arbor."""
     wheels: tuple[SurvivingWheel, ...]
-    """Those that are fixed on it."""
+    """Wheels that are fixed on the arbor."""
 
 
 @dataclass(frozen=True)
-class SearchedDial:
-    """A pointer and the speed that it must have.
+class SearchedDial(Shown):
+    """Pointer with the range of its speed and its place.
 
     See Also
     --------
@@ -181,25 +183,25 @@ class SearchedDial:
     """
 
     name: str
-    """Of the pointer."""
+    """Name of the pointer."""
     minimum: Fraction
-    """Least speed [turns per unit of the input]; equal to `maximum` where it must be exact."""
+    """Minimum speed [turns per unit of the input]; equal to `maximum` if the speed is exact."""
     maximum: Fraction
-    """Greatest speed [turns per unit of the input]."""
+    """Maximum speed [turns per unit of the input]."""
     signed: bool = True
-    """Whether the sense is known; if not, bounds are those of the magnitude."""
+    """True if the sense of rotation is known; otherwise the bounds are bounds of the magnitude."""
     place: str | None = None
-    """The surviving arbor that carries it, "new" where that does not survive, or None where it is not known."""
+    """Surviving arbor with the pointer, "new" if its arbor does not survive, or None if it is not known."""
 
     @property
     def is_exact(self) -> bool:
-        """Whether one speed alone will do."""
+        """True if only one speed is accepted."""
         return self.minimum == self.maximum
 
 
 @dataclass(frozen=True)
 class Additions:
-    """What may be added.
+    """Limits of added wheels and arbors.
 
     See Also
     --------
@@ -207,20 +209,20 @@ class Additions:
     """
 
     wheels: int
-    """The maximum number of added wheels."""
+    """Maximum number of added wheels."""
     minimum: int
-    """Least tooth count, inclusive."""
+    """Minimum tooth count of an added wheel."""
     maximum: int
-    """Greatest tooth count, inclusive."""
+    """Maximum tooth count of an added wheel."""
     arbors: int | None = None
-    """The maximum number of added arbors; default any number."""
+    """Maximum number of added arbors; None if it is not limited."""
     on: Literal["any", "new"] = "any"
-    """"any": also beside surviving wheels, where they drive; "new": only on new arbors."""
+    """Arbors for added wheels: "new" for added arbors only, "any" for driving wheels on surviving arbors too."""
 
 
 @dataclass(frozen=True)
 class PriorFactors:
-    """By what factor a candidate is less probable for each added wheel, added arbor and unused surviving wheel.
+    """Factors by which each addition or unused wheel reduces the prior weight of a candidate.
 
     See Also
     --------
@@ -228,16 +230,16 @@ class PriorFactors:
     """
 
     wheel: Fraction = Fraction(10)
-    """Factor for each added wheel, 1 or more."""
+    """Factor for each added wheel, at least 1."""
     arbor: Fraction = Fraction(10)
-    """Factor for each added arbor, 1 or more."""
+    """Factor for each added arbor, at least 1."""
     unused: Fraction = Fraction(100)
-    """Factor for each surviving wheel that is not used, 1 or more."""
+    """Factor for each surviving wheel that is not used, at least 1."""
 
 
 @dataclass(frozen=True)
-class ReconstructionProblem:
-    """The typed question of a reconstruction: surviving arbors, dials and the rules.
+class ReconstructionProblem(Shown):
+    """Typed question of a reconstruction: surviving arbors, dials and rules.
 
     See Also
     --------
@@ -246,13 +248,13 @@ class ReconstructionProblem:
     """
 
     input: SurvivingArbor
-    """The arbor where a train begins."""
+    """Arbor at which the train begins."""
     arbors: tuple[SurvivingArbor, ...]
-    """The other ones."""
+    """Other surviving arbors."""
     dials: tuple[SearchedDial, ...]
-    """The pointers, each with its speed."""
+    """Pointers with their speeds."""
     additions: Additions
-    """What may be added."""
+    """Limits of added wheels and arbors."""
     input_speed: Fraction = Fraction(1)
     """Speed of the input arbor [turns per unit]."""
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
@@ -260,25 +262,25 @@ class ReconstructionProblem:
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
     """Pairs of names of wheels that do not mesh."""
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of names of arbors on one axis: no wheel of one meshes with a wheel of the other, added ones included."""
+    """Pairs of names of arbors on one axis. Wheels of such a pair, including added ones, do not mesh."""
     use: Literal["wheels", "arbors", "some"] = "wheels"
-    """"wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither."""
+    """Use of survivors: "wheels": every wheel meshes; "arbors": every arbor is in the train; "some": neither."""
     idlers: bool = False
-    """Whether a driven wheel may drive."""
+    """True if a driven wheel may also drive."""
     factors: PriorFactors = PriorFactors()
-    """What the prior is made of."""
+    """Factors of the prior."""
     geometry: SurvivingGeometry = NO_GEOMETRY
-    """What was measured; pairs that it keeps apart are in `apart` and `coaxial` already."""
+    """Measurements. Pairs that they exclude are already in `apart` and `coaxial`."""
 
     @cached_property
     def rings(self) -> frozenset[str]:
-        """Names of surviving rings; added wheels are none."""
+        """Names of the surviving rings. Added wheels are never rings."""
         return frozenset(wheel.name for arbor in (self.input, *self.arbors) for wheel in arbor.wheels if wheel.internal)
 
 
 @dataclass(frozen=True)
 class PlacedWheel:
-    """A wheel of a candidate.
+    """Wheel of a candidate.
 
     See Also
     --------
@@ -286,14 +288,14 @@ class PlacedWheel:
     """
 
     name: str | None
-    """Of the surviving wheel; None for an added one."""
+    """Name of the surviving wheel; None for an added wheel."""
     teeth: int
-    """Its count."""
+    """Tooth count."""
 
 
 @dataclass(frozen=True)
-class Arbor:
-    """An arbor of a candidate and all that it drives: the canonical form, in which equal mechanisms are equal.
+class Arbor(Shown):
+    """Arbor of a candidate with the subtree that it drives, in a canonical form: equal trains compare equal.
 
     See Also
     --------
@@ -302,18 +304,18 @@ class Arbor:
     """
 
     name: str | None
-    """Of the surviving arbor; None for an added one."""
+    """Name of the surviving arbor; None for an added arbor."""
     driven: PlacedWheel | None
-    """The wheel that is driven; None for the input arbor."""
+    """Driven wheel of the arbor; None for the input arbor."""
     dials: tuple[str, ...]
-    """Names of the dials that it shows, sorted."""
+    """Names of the dials that the arbor shows, sorted."""
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
-    """Driving wheels with the arbors that each drives, sorted."""
+    """Driving wheels, each with the arbors that it drives, sorted."""
     passes: tuple[Arbor, ...] = ()
-    """Where idlers are allowed: arbors that the driven wheel itself drives, sorted."""
+    """Arbors that the driven wheel itself drives as an idler, sorted."""
 
     def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
-        """Every arbor that it drives, with the wheel that drives it."""
+        """Yield every arbor that this arbor drives, with the driving wheel."""
         for wheel, children in self.drives:
             yield from ((wheel, child) for child in children)
         for child in self.passes:
@@ -321,85 +323,85 @@ class Arbor:
             yield self.driven, child
 
     def arbors(self) -> Iterator[Arbor]:
-        """This one and all below it."""
+        """Yield this arbor and all arbors of its subtree."""
         yield self
         for _, child in self.driven_arbors():
             yield from child.arbors()
 
     def wheels(self) -> Iterator[PlacedWheel]:
-        """Every wheel of the arbors from here on that meshes, once."""
+        """Yield every meshing wheel of the subtree once."""
         for each in self.arbors():
             if each.driven is not None:
                 yield each.driven
             yield from (wheel for wheel, _ in each.drives if wheel.name is None or wheel != each.driven)
 
     def meshes(self) -> Iterator[tuple[Arbor, PlacedWheel, Arbor]]:
-        """Every mesh from here on: the arbor that drives, its wheel, and the arbor that is driven."""
+        """Yield every mesh of the subtree as (driving arbor, driving wheel, driven arbor)."""
         for wheel, child in self.driven_arbors():
             yield self, wheel, child
             yield from child.meshes()
 
     @property
     def added_wheels(self) -> int:
-        """Wheels from here on that are added."""
+        """Number of added wheels in the subtree."""
         return sum(wheel.name is None for wheel in self.wheels())
 
     @property
     def added_arbors(self) -> int:
-        """Arbors from here on that are added."""
+        """Number of added arbors in the subtree."""
         return sum(arbor.name is None for arbor in self.arbors())
 
 
-# --------------------------------------------------------------------------------------------------- how much is asked
+# --------------------------------------------------------------------------------------------------- size of a question
 
 
 @dataclass(frozen=True, slots=True)
 class RequestedQuestion(Result):
-    """What is asked."""
+    """Size of a question of reconstruction."""
 
     arbors: int
-    """Surviving ones, the input included."""
+    """Number of surviving arbors, including the input."""
     wheels: int
-    """Surviving ones."""
+    """Number of surviving wheels."""
     readings: int
-    """Combinations of counts in doubt; 1 where all are sure."""
+    """Number of combinations of uncertain tooth counts; 1 if all are certain."""
     dials: int
-    """Pointers whose speed is known."""
+    """Number of pointers with a known speed."""
     added: int
-    """The most wheels that may be added."""
+    """Maximum number of added wheels."""
     teeth: tuple[int, int]
-    """The least and the greatest count that an added wheel may have."""
+    """Minimum and maximum tooth count of an added wheel."""
 
     @classmethod
     def of(cls, problem: ReconstructionProblem) -> RequestedQuestion:
-        """What a question asks."""
+        """Count the arbors, wheels, readings and dials of a question."""
         arbors, limits = (problem.input, *problem.arbors), problem.additions
         counts = [len(wheel.counts) for arbor in arbors for wheel in arbor.wheels]
         teeth = (limits.minimum, limits.maximum)
         return cls(len(arbors), len(counts), prod(counts), len(problem.dials), limits.wheels, teeth)
 
     def __str__(self) -> str:
-        read = f", their counts in {self.readings} ways" if self.readings > 1 else ""
+        read = f" and {self.readings} combinations of their counts" if self.readings > 1 else ""
         wheels = f"{plural(self.arbors, 'arbor')} with {plural(self.wheels, 'wheel')}{read}"
         minimum, maximum = self.teeth
         added = f"at most {plural(self.added, 'added wheel')} of {minimum} to {maximum} teeth"
-        return f"{wheels}; {plural(self.dials, 'dial')}; {added if self.added else 'nothing added'}"
+        return f"{wheels}; {plural(self.dials, 'dial')}; {added if self.added else 'no added wheels'}"
 
 
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
-    """What to say of a question that is too wide: how much it asks, and how to ask for less."""
+    """Return the message for a question that is too large: its size, and ways to reduce it."""
     wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
     widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_DOUBTS]
     doubts = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
-    ways = [f"narrow counts in doubt ({doubts})"] if doubts else []
+    ways = [f"narrow uncertain tooth counts ({doubts})"] if doubts else []
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
-    ways.append("leave out arbors, or dials with the arbors that lead to them alone")
-    return Problem(what, f"asked are {RequestedQuestion.of(problem)}", "; or ".join(ways))
+    ways.append("leave out arbors, or dials with the arbors that lead only to them")
+    return Problem(what, f"the question has {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
 def question_digest(problem: ReconstructionProblem) -> str:
-    """SHA-256 of a question: its evidence, bounds and rules, the same whatever the order of facts without one."""
+    """Return the SHA-256 digest of a question, which does not depend on the order of unordered facts."""
     return hashlib.sha256(json.dumps(_plain(problem), sort_keys=True).encode("utf-8")).hexdigest()
 
 
@@ -413,13 +415,13 @@ def _plain(value: object) -> object:
     return str(value) if isinstance(value, Fraction) else value
 
 
-# ---------------------------------------------------- geometry: from declared modules, radii and axes to what survives
+# -------------------------------- geometry: conversion of declared modules, radii and axes to measurements of survivors
 
 
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
-    """What was measured, nothing where the evidence does not ask that it be weighed.
+    """Return the measurements of the evidence, or none if it has no block `geometry`.
 
-    Raises `DeclarationError` for a module that is not above 0, and for an arbor with a place where there is a ring.
+    Raise `DeclarationError` for a module that is not above 0, and for an arbor with a position if there is a ring.
     """
     assert evidence.reconstruct is not None, "no evidence"
     requested = evidence.reconstruct.geometry
@@ -437,7 +439,7 @@ def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
 
 
 def unweighed_geometry(evidence: Train) -> Iterator[str]:
-    """What was measured and plays no part, a line each."""
+    """Yield one line for each measurement that the search does not use."""
     assert evidence.reconstruct is not None, "no evidence"
     if evidence.reconstruct.geometry is None:
         for name, (_, wheel) in evidence.wheels.items():
@@ -451,11 +453,11 @@ def unweighed_geometry(evidence: Train) -> Iterator[str]:
 
 
 def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) -> None:
-    """`DeclarationError` if wheels were seen in mesh that their axes keep apart."""
+    """Raise `DeclarationError` if wheels were seen in mesh whose axes are too close or too far apart."""
     for gear in evidence.gears:
         if frozenset(gear.pair) in unreachable:
-            what = f"'{gear.name}' was seen in mesh, and the distance of its axes does not allow it"
-            why = "pitch radii miss it by more than `reach` of `geometry`"
+            what = f"the known mesh '{gear.name}' is impossible at the distance of its axes"
+            why = "the sum of the pitch radii differs from it by more than `reach` of `geometry`"
             place = evidence.place("gears", evidence.gears.index(gear))
             raise DeclarationError([Problem(what, why, "correct a position or a size, or widen `reach`", place)])
 
@@ -466,7 +468,8 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
             continue
         if wheel.module.base <= 0:
             place = evidence.place("links", link, "wheels", name, "module")
-            raise DeclarationError([Problem(f"the module of '{name}' is not above 0", "", "correct it", place)])
+            what = f"the module of '{name}' is not above 0"
+            raise DeclarationError([Problem(what, "a module is a positive length", "correct it", place)])
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 
 
@@ -478,26 +481,26 @@ def _placed(evidence: Train) -> Iterator[PlacedArbor]:
         x, y, _ = map(_millimetres, axis.position)
         for link in joint.pair:
             if link != evidence.frame:
-                _refuse_ring(evidence, link, joint.axis)
+                _check_no_ring(evidence, link, joint.axis)
                 yield PlacedArbor(link, (x, y))
 
 
-def _refuse_ring(evidence: Train, link: str, axis: str) -> None:
+def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
-        what = f"where '{link}' stands is not weighed beside the ring '{ring}' yet"
-        why = "a ring and its mate are as far apart as their radii differ, of which the spread of a sum says little"
-        fix = "leave out the position of its axis, or `geometry`"
+        what = f"the position of '{link}' cannot be weighed in evidence with the ring '{ring}'"
+        why = "the spread `distance` applies to sums of radii, but the axes of a ring and its mate to their difference"
+        fix = "remove the position of its axis, or `geometry`"
         raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 
 
 def _millimetres(length: Quantity) -> Fraction:
-    """Exact; a plain number counts as mm."""
+    """Convert a length to an exact number of millimetres; a plain number is already in mm."""
     return length.base if length.unit is None else length.base * 1000
 
 
 def find_unreachable(arbors: Sequence[SurvivingArbor], geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
-    """Pairs of wheels of different arbors that cannot mesh, whichever of their counts they have."""
+    """Yield pairs of wheels of different arbors that cannot mesh with any of their possible counts."""
     wheels = [(arbor.name, wheel) for arbor in arbors if arbor.name in geometry.places for wheel in arbor.wheels]
     for at, (arbor, wheel) in enumerate(wheels):
         for other_arbor, other in wheels[:at]:

@@ -1,6 +1,6 @@
-"""A reconstruction as a document: what was taken as known, how many trains explain it, and the best of them.
+"""Report of a reconstruction: the evidence, the numbers of trains that explain it, and the best trains.
 
-Further sections are on known trains, on what all candidates share, on facts to look for, and on the family tree.
+Further sections describe known trains, common facts, facts to look for, and the family tree.
 """
 
 from __future__ import annotations
@@ -73,24 +73,24 @@ _USE = {
     "some": "surviving arbors need not be in the train",
 }
 _NOT_COUNTED = "not counted"
-_TURNING = "A rank or an end of the family tree that is underlined shows its train turning."
+_TURNING = "An underlined rank or end of the family tree shows its animated train."
 _OF_KNOWN = (
-    "Where each train stands by weight among all that explain the evidence, and among those with as many added wheels; "
-    "and how many times the best outweighs it."
+    "Rank of each train by weight among all explanations, and among those with the same number of added wheels; and "
+    "the weight of the best train as a multiple of its weight."
 )
 
 
 def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turning: int = 0) -> Document:
-    """The document of a reconstruction.
+    """Return the report of a reconstruction as a document.
 
     Parameters
     ----------
     found : ReconstructionAnswer
-        The answer to describe.
+        Answer to describe.
     viewer : str
-        A whole page of HTML that shows trains turning.
+        Complete HTML page that shows animated trains.
     turning : int
-        How many of the best it shows.
+        Number of the best trains that are animated.
 
     Returns
     -------
@@ -124,27 +124,30 @@ def _summary(found: ReconstructionAnswer) -> Iterator[str]:
         yield f"{said}; at least {plural(some.added, 'wheel')} must be added."
     if found.original is not None:
         first, last = found.original
-        rank = f"ranks {first}" if first == last else f"ranks {first} to {last}, for some weigh the same"
-        yield f"The train of which arbors are left out is one of them; by weight it {rank}."
+        rank = f"rank {first}" if first == last else f"ranks {first} to {last}, which have equal weights"
+        yield f"The original train is one of them; by weight it has {rank}."
     if not found.complete:
-        yield "Interrupted: the counts are of what had been looked at."
+        yield "Interrupted: the counts cover only the completed part of the search."
     if 0 < found.findings.listed < found.total:
         share = share_text(found.findings.share)
-        listed = f"{found.findings.listed} trains of greatest weight, which have {share} of the weight of all"
+        listed = f"{found.findings.listed} trains of maximum weight, with {share} of the total weight"
         if found.findings.of_all:
-            yield f"The family tree holds the {listed}; what trains share and the next fact are told of all."
+            yield f"The family tree contains the {listed}. Common facts and the next fact are computed over all trains."
         else:
-            yield f"The family tree, what trains share and the next fact are of the {listed}; shares are of theirs."
+            yield f"The family tree, common facts and the next fact cover the {listed}. Shares are relative to them."
 
 
 def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
     yield from _given(found)
     findings = found.findings
-    line = "Bags leave out the order of arbors on the path to a pointer, classes also which wheel on it drives which."
+    line = (
+        "Multisets ignore the order of arbors on the path to a pointer; classes (of equal ratios) also ignore which "
+        "wheel on it drives which."
+    )
     counted = [
         tuple(_NOT_COUNTED if number is None else str(number) for number in astuple(each)) for each in found.counts
     ]
-    yield Section("Counts", [line], [Table(("added wheels", "mechanisms", "bags", "classes"), counted)])
+    yield Section("Counts", [line], [Table(("added wheels", "trains", "multisets", "classes"), counted)])
     yield from known_sections(found.known)
     yield from missing_sections(findings.missing, found.problem.additions.wheels)
     if found.best:
@@ -158,7 +161,7 @@ def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
 
 
 def _given(found: ReconstructionAnswer) -> Iterator[Section]:
-    """What was taken as known."""
+    """Yield the sections on surviving arbors, pointers and known meshes."""
     problem = found.problem
     rows = [
         (
@@ -168,27 +171,31 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
         )
         for each in (problem.input, *problem.arbors)
     ]
-    couplings = [f"{' and '.join(links)} turn as one: a pin in a slot joins them." for links in found.joined.values()]
-    yield Section("Surviving arbors", [_begins(found), *couplings], [Table(("arbor", "wheels"), rows)])
+    couplings = [
+        f"{' and '.join(links)} are joined by a pin and slot: they have the same mean speed."
+        for links in found.joined.values()
+    ]
+    yield Section("Surviving arbors", [_base_text(found), *couplings], [Table(("arbor", "wheels"), rows)])
     pointers = [(dial.name, speed_text(dial), _place(dial)) for dial in problem.dials]
     base = found.base
-    speed = f"speed seen from {base.name}" if base is not None and base.is_carrier else "speed"
+    speed = f"speed relative to {base.name}" if base is not None and base.is_carrier else "speed"
     yield Section("Pointers", (), [Table(("pointer", speed, "on arbor"), pointers)])
     known = [f"{' and '.join(sorted(pair))} mesh." for pair in sorted(problem.meshes, key=sorted)]
     known += [f"{' and '.join(sorted(pair))} do not mesh." for pair in sorted(problem.apart, key=sorted)]
     if known:
-        yield Section("Meshes that are known", known)
+        yield Section("Known meshes", known)
     if found.unused:
         yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
 
 
-def _begins(found: ReconstructionAnswer) -> str:
-    """What drives the train, and what bears it."""
+def _base_text(found: ReconstructionAnswer) -> str:
+    """Return a sentence on the input of the train and the link that carries the arbors."""
     base, source = found.base, found.problem.input.name
     if base is None or not base.is_carrier:
         return f"{source} is the input."
     turns, seen = fraction_text(base.speed), fraction_text(base.driven)
-    return f"Arbors turn on {base.name}, a carrier that turns at {turns}. Seen from it, {source} turns at {seen}."
+    carrier = f"Arbors turn on the carrier {base.name}, whose speed is {turns}."
+    return f"{carrier} The speed of {source} relative to it is {seen}."
 
 
 def _best(found: ReconstructionAnswer, turning: int) -> Section:
@@ -196,32 +203,28 @@ def _best(found: ReconstructionAnswer, turning: int) -> Section:
     for one in found.best:
         shown = _rank(one)
         rank = SceneText(shown, one.rank) if one.rank <= turning else shown
-        added = teeth_text(one.wheels) or "none"
-        rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), teeth_text(one.doubtful)))
-    more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
+        rows.append((rank, share_text(one.weight), *_contents(one)))
+    more = [f"{len(rows)} of {found.total} trains."] if len(rows) < found.total else []
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
-        more.append("In brackets the ranks that trains of one weight share.")
-    header = ("rank", "weight", "added wheels", "meshes", "counts in doubt")
-    return Section("The best", more, [filled_table(header, rows, 4)])
+        more.append("Parentheses give the ranks that trains of equal weight share.")
+    return Section("The best", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
 
 
 def _drawn(found: ReconstructionAnswer) -> Section:
-    rows = [
-        (
-            str(one.rank),
-            ranks_text(one.ranks),
-            teeth_text(one.wheels) or "none",
-            ", ".join(one.meshes),
-            teeth_text(one.doubtful),
-        )
-        for one in found.drawn
-    ]
-    header = ("draw", "ranks", "added wheels", "meshes", "counts in doubt")
-    return Section("Drawn", ["Each with the chance of its weight among all."], [filled_table(header, rows, 4)])
+    rows = [(str(one.rank), ranks_text(one.ranks), *_contents(one)) for one in found.drawn]
+    table = filled_table(("draw", "ranks", *_CONTENTS), rows, 4)
+    return Section("Drawn", ["Drawn at random, in proportion to their weight."], [table])
+
+
+_CONTENTS = ("added wheels", "meshes", "uncertain counts")
+
+
+def _contents(one: RankedTrain) -> tuple[str, str, str]:
+    return teeth_text(one.wheels) or "none", ", ".join(one.meshes), teeth_text(one.doubtful)
 
 
 def _rank(one: RankedTrain) -> str:
-    """The rank, with those of all that weigh the same."""
+    """Format a rank, with the range of ranks of equal weight."""
     return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
 
 
@@ -233,52 +236,52 @@ def _place(dial: SearchedDial) -> str:
 
 
 def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
-    """Where each stands; of one that is no explanation, which rules it breaks, and what it costs without them."""
+    """Yield sections on the ranks of known trains, the rules that they break, and their ranks without these rules."""
     if not known:
         return
     header = ("train", "added wheels", "arbors", "rank", "with as many", "weight", "outweighed")
     yield Section("Known trains", [_OF_KNOWN], [Table(header, [_row(one) for one in known])])
     for one in known:
         if one.broken:
-            rows = dict.fromkeys((each.what, each.change or "nothing single") for each in one.broken)
-            table = Table(("what it has", "what would admit it"), list(rows))
-            yield Section(f"What keeps {one.train} out", [*_noted(one), *_granted(one)], [table])
+            rows = dict.fromkeys((each.what, each.change or "no single change") for each in one.broken)
+            table = Table(("property of the train", "change that would admit it"), list(rows))
+            yield Section(
+                f"Rules that {one.train} breaks", [*_note_sentences(one), *_admission_sentences(one)], [table]
+            )
         elif one.notes:
-            yield Section(f"Of {one.train}", list(_noted(one)))
+            yield Section(f"Notes on {one.train}", list(_note_sentences(one)))
         if one.telling is not None and one.place is not None:
             yield _telling(one.train, one.telling, one.place.trains)
 
 
 def _telling(train: str, found: TellingFacts, trains: int) -> Section:
-    """Facts that single a train out, each alone and in the smallest sets."""
+    """Return the section on facts that distinguish a train, singly and in the smallest sets."""
     many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
     alone = [each for each in found.facts if each.mechanisms == 1]
-    lines = ["Each fact that holds in it and not in all, and how many trains it would leave."]
-    tables = [Table(("fact", f"leaves of {trains}"), _left(found.facts))]
+    lines = ["Facts that are true of this train but not of all, with the number of trains that each would leave."]
+    tables = [Table(("fact", f"left of {trains}"), _fact_rows(found.facts))]
     if not found.sets:
-        lines.append("No three of them leave it alone.")
+        lines.append("No set of three facts leaves only this train.")
     elif not alone:
         ways = plural(len(found.sets), "way")
         lines.append(
-            f"{many_facts[len(found.sets[0])]} together leave it alone, in {ways}; of facts that leave the same trains "
-            "one is told."
+            f"{many_facts[len(found.sets[0])]} together leave only this train, in {ways}. "
+            "Equivalent facts are listed once."
         )
-        rows = [("; ".join(map(_said, some)),) for some in found.sets[:_MOST_SETS]]
-        if len(found.sets) > _MOST_SETS:
-            rows.append((f"... {len(found.sets) - _MOST_SETS} more",))
-        tables.append(Table(("together they leave it alone",), rows))
-    return Section(f"What singles {train} out", lines, tables)
+        rows = [("; ".join(map(_fact_text, some)),) for some in found.sets]
+        tables.append(Table(("facts that together leave only this train",), cut(rows, most=_MOST_SETS)))
+    return Section(f"Facts that distinguish {train}", lines, tables)
 
 
-def _left(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
-    """Facts that leave as many trains in one row."""
+def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
+    """Return table rows that group facts by the number of trains with them."""
     rows: dict[int, list[str]] = {}
     for fact in facts:
-        rows.setdefault(fact.mechanisms, []).append(_said(fact))
+        rows.setdefault(fact.mechanisms, []).append(_fact_text(fact))
     return [("; ".join(said), str(left)) for left, said in rows.items()]
 
 
-def _said(fact: TellingFact) -> str:
+def _fact_text(fact: TellingFact) -> str:
     return _FACTS[fact.kind].format(fact.subject, fact.answer)
 
 
@@ -287,7 +290,7 @@ def _row(one: KnownRank) -> tuple[str, ...]:
     if one.broken:
         return (*begins, "none", "none", "", "")
     if one.place is None:
-        return (*begins, "not asked", "not asked", "", "")
+        return (*begins, "not searched", "not searched", "", "")
     place = one.place
     return (
         *begins,
@@ -306,49 +309,51 @@ def _times(place: TrainPlace) -> str:
     return "by none" if place.dearer == 1 else f"{figure(place.dearer)} times"
 
 
-def _noted(one: KnownRank) -> Iterator[str]:
+def _note_sentences(one: KnownRank) -> Iterator[str]:
     yield from (f"{note}." for note in one.notes)
 
 
-def _granted(one: KnownRank) -> Iterator[str]:
-    """What a train costs in each question that takes it."""
+def _admission_sentences(one: KnownRank) -> Iterator[str]:
+    """Yield a sentence on the rank of a train in each question that admits it."""
     all_that = tuple(dict.fromkeys(each.change for each in one.broken))
     for admitted in one.admitted:
-        changes = "all of this" if admitted.changes == all_that else "; ".join(admitted.changes)
-        yield _cost(changes, admitted)
+        changes = (
+            "all these changes" if admitted.changes == all_that else f"the changes ({'; '.join(admitted.changes)})"
+        )
+        yield _admission_text(changes, admitted)
 
 
-def _cost(changes: str, admitted: AdmittingQuestion) -> str:
+def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
     own = plural(len(admitted.wheels), "wheel") + (f" ({teeth_text(admitted.wheels)})" if admitted.wheels else "")
-    begins = f"Granted {changes}, it adds {own}"
+    begins = f"With {changes} it adds {own}"
     if admitted.refused is not None:
-        return f"{begins}. Not asked: {admitted.refused}."
-    told = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
+        return f"{begins}. Not searched: {admitted.refused}."
+    listed = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
     if admitted.place is None:
-        trains = f"trains are {', '.join(told)}" if told else "there is no train"
-        return f"{begins}, and with at most {plural(admitted.requested, 'wheel')} {trains}."
+        trains = f"the trains by added wheels are {', '.join(listed)}" if listed else "nothing fits"
+        return f"{begins}. With at most {plural(admitted.requested, 'wheel')} {trains}."
     place = admitted.place
-    outweighed = "none outweighs it" if place.dearer == 1 else f"the best outweighs it {_times(place)}"
+    outweighed = "no train weighs more" if place.dearer == 1 else f"the best weighs {_times(place)} as much"
     return (
-        f"{begins}. Trains by added wheels: {', '.join(told)}. It ranks {_ranks(place.ranks, place.trains)}, and "
-        f"{_ranks(place.ranks_alike, place.trains_alike)} with as many; {outweighed}."
+        f"{begins}. Trains by added wheels: {', '.join(listed)}. It ranks {_ranks(place.ranks, place.trains)}, and "
+        f"{_ranks(place.ranks_alike, place.trains_alike)} with the same number of wheels; {outweighed}."
     )
 
 
-# ----------------------------------------------- what candidates share and where they part, the next fact, assumptions
+# ---------------------------------------- facts common to all candidates, facts that differ, the next fact, assumptions
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
-    """What all candidates agree in, and the weight of each answer where they do not."""
+    """Yield sections on facts common to all candidates, and on the weights of answers that differ."""
     if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
-    yield Section("What all of them share", agreed or ["Nothing: there is no fact in which all of them agree."])
+    yield Section("What all of them share", agreed or ["Nothing: the trains agree in no fact."])
     parted = [fact for fact in marginals if len(fact.answers) > 1]
     tables = [table for table in (_meshes(parted), _answers(parted), _needed(parted)) if table.rows]
     if tables:
-        line = "Each answer with its share of the weight, and in how many trains it is given."
-        yield Section("Where they part", [line], tables)
+        line = "Each answer with its share of the weight and its number of trains."
+        yield Section("Where they differ", [line], tables)
 
 
 def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
@@ -357,7 +362,7 @@ def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
     if meshes:
         yield f"In all of them: {', '.join(meshes)}."
     needed = [fact.subject for fact in sure if fact.kind == "needed"]
-    yield from (f"A wheel of {count} is needed in all." for count in needed)
+    yield from (f"All of them need a wheel of {count}." for count in needed)
     others = [_AGREED[fact.kind](fact) for fact in sure if fact.kind not in ("mesh", "needed", "driver")]
     if others:
         yield f"{'Besides' if meshes or needed else 'In all of them'}: {'; '.join(others)}."
@@ -378,90 +383,94 @@ def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
         for answer in fact.answers
         if answer.answer == YES
     ]
-    return Table((title, "weight", "trains"), _first(rows, _MOST_MESHES))
+    return Table((title, "weight", "trains"), cut(rows, most=_MOST_MESHES))
 
 
 def _answers(facts: Sequence[FactMarginal]) -> Table:
     named = {**_REQUESTED, "used": "whether {} is used"}
     rows = [
-        (named[fact.kind].format(fact.subject), _told(fact.answers), figure(fact.bits, 3))
+        (named[fact.kind].format(fact.subject), _answers_text(fact.answers), figure(fact.bits, 3))
         for fact in facts
         if fact.kind in named
     ]
     return Table(("fact", "answers", "bits"), cut(rows) if rows else rows)
 
 
-def _told(answers: Sequence[FactAnswer]) -> str:
-    told = [f"{one.answer}: {share_text(float(one.share))} ({one.mechanisms})" for one in answers[:_MOST_ANSWERS]]
+def _answers_text(answers: Sequence[FactAnswer]) -> str:
+    listed = [f"{one.answer}: {share_text(float(one.share))} ({one.mechanisms})" for one in answers[:_MOST_ANSWERS]]
     if len(answers) > _MOST_ANSWERS:
         rest = answers[_MOST_ANSWERS:]
-        told.append(f"{len(rest)} more: {share_text(float(sum(one.share for one in rest)))}")
-    return ", ".join(told)
+        listed.append(f"{len(rest)} more: {share_text(float(sum(one.share for one in rest)))}")
+    return ", ".join(listed)
 
 
 def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
-    """Facts to look for, the most telling first."""
+    """Yield the section on facts to look for, in descending order of their entropy."""
     if not facts:
         return
     rows = [
-        (_requested(one.fact), figure(one.fact.bits, 3), _told(one.fact.answers), _alike(one.same))
+        (
+            _fact_question(one.fact),
+            figure(one.fact.bits, 3),
+            _answers_text(one.fact.answers),
+            _equivalent_text(one.same),
+        )
         for one in facts[:_MOST_NEXT]
     ]
     lines = [
-        "What single further fact would divide them most. `bits` is what its answer is expected to tell: the entropy "
-        "of the shares that the answers would leave."
+        "Single facts whose observation gives the most information. `bits` is the expected information: the entropy of "
+        "the shares of the answers."
     ]
     if len(facts) > _MOST_NEXT:
         lines.append(f"{_MOST_NEXT} of {len(facts)}.")
-    header = ("fact", "bits", "what each answer would leave", "divides them alike")
+    header = ("fact", "bits", "shares of the answers", "equivalent facts")
     yield Section("The next fact to look for", lines, [Table(header, rows)])
 
 
-def _requested(fact: FactMarginal | Fact) -> str:
+def _fact_question(fact: FactMarginal | Fact) -> str:
     return _REQUESTED[fact.kind].format(fact.subject)
 
 
-def _alike(facts: Sequence[Fact]) -> str:
-    told = [_requested(fact) for fact in facts[:_MOST_ALIKE]]
-    return "; ".join(told) + (f" and {len(facts) - _MOST_ALIKE} more" if len(facts) > _MOST_ALIKE else "")
+def _equivalent_text(facts: Sequence[Fact]) -> str:
+    listed = [_fact_question(fact) for fact in facts[:_MOST_ALIKE]]
+    return "; ".join(listed) + (f" and {len(facts) - _MOST_ALIKE} more" if len(facts) > _MOST_ALIKE else "")
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
-    """How many trains there would be without each hard fact; `given` are the counts with all of them."""
+    """Yield the section on numbers of trains without each hard fact; `given` are the numbers with all facts."""
     if not changes:
         return
     header = ("assumption", *(f"{added} added" for added in range(len(given))), "trains")
-    rows = [("all that is given", *map(str, given), str(sum(given)))]
+    rows = [("all facts", *map(str, given), str(sum(given)))]
     for one in changes:
         counts = [str(count) for count in one.mechanisms] or ["-"] * len(given)
         total = one.refused or f"{one.total}{'' if one.complete else ' or more'}"
         rows.append((one.change, *counts, total))
-    line = "How many trains there would be if one thing were not known, or not ruled out: what each has carried."
-    yield Section("Assumptions that carried weight", [line], [Table(header, rows)])
+    line = "Number of trains without one fact or rule, which shows how much it excludes."
+    yield Section("Effect of each assumption", [line], [Table(header, rows)])
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
-    """Why nothing fits; `most` wheels may be added."""
+    """Yield sections on the reasons why nothing fits; `most` is the maximum number of added wheels."""
     if found is None:
         return
-    line = "Each dial alone, by whatever of the surviving arbors leads to it; the others then need not be used."
-    rows = [(dial.dial, _alone(dial, most)) for dial in found.dials]
+    line = "Each dial without the others; surviving arbors that do not lead to it need not be used."
+    rows = [(dial.dial, _lone_dial_text(dial, most)) for dial in found.dials]
     yield Section("Why nothing fits", [line], [Table(("dial", "alone"), rows)])
     doubts = [(one.change, str(one.fewest), str(one.total)) for one in found.doubts]
     tried = (
-        f"{plural(found.requested, 'change')} to the evidence tried, one at a time: a hard fact "
-        f"dropped, or a surviving "
-        f"count read otherwise by up to {plural(MISREAD, 'tooth').replace('tooths', 'teeth')}."
+        f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard fact is dropped, or a "
+        f"surviving count is changed by up to {MISREAD} teeth."
     )
-    lines = [tried] if doubts else [tried, "None of them alone leaves an explanation."]
+    lines = [tried] if doubts else [tried, "No single change leaves an explanation."]
     if found.refused:
-        lines.append(f"Could not be asked: {'; '.join(found.refused)}.")
-    header = ("what is doubted", "added wheels", "trains")
-    tables = [Table(header, _first(doubts, _MOST_DOUBTS))] if doubts else []
-    yield Section("The cheapest evidence to doubt", lines, tables)
+        lines.append(f"Not searched: {'; '.join(found.refused)}.")
+    header = ("change", "added wheels", "trains")
+    tables = [Table(header, cut(doubts, most=_MOST_DOUBTS))] if doubts else []
+    yield Section("Changes of the evidence that would help", lines, tables)
 
 
-def _alone(dial: LoneDial, most: int) -> str:
+def _lone_dial_text(dial: LoneDial, most: int) -> str:
     if dial.refused is not None:
         return dial.refused
     if dial.fewest is None:
@@ -469,16 +478,11 @@ def _alone(dial: LoneDial, most: int) -> str:
     return f"explained with {plural(dial.fewest, 'added wheel')}"
 
 
-def _first(rows: Sequence[tuple[str, ...]], most: int) -> list[tuple[str, ...]]:
-    left = len(rows) - most
-    return list(rows) if left <= 0 else [*rows[:most], (f"... {left} more", *("" for _ in rows[0][1:]))]
-
-
 # ----------------------------------------------------------------------------------------------------- the family tree
 
 
 def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[Section]:
-    """The tree; the first so many trains turn on the page."""
+    """Yield the section on the family tree; the first `turning` trains are animated on the page."""
     if not tree:
         return
     shown = set(sorted(range(len(tree)), key=lambda at: -tree[at].share)[:_MOST_BRANCHES])
@@ -498,8 +502,8 @@ def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[S
             yield Branch(f"{plural(len(left), 'lighter branch').replace('branchs', 'branches')}: {share}, {trains}")
 
     said = [
-        "Meshes from the input on, the driving wheel first, along the path to each pointer in turn; a pointer stands "
-        "in brackets at its arbor. Each branch has its share of the weight. Trains at one end differ in counts alone."
+        "Meshes from the input along the path to each pointer in turn, the driving wheel first. Parentheses give the "
+        "pointers of an arbor. Each branch has its share of the weight. Trains at one end differ only in counts."
     ]
     yield Section("The family tree", said, branches=list(lines([0])))
 
@@ -527,20 +531,20 @@ def _scene(text: str, rank: int, turning: int) -> str:
     return SceneText(text, rank) if rank <= turning else text
 
 
-# --------------------------------------------------------------------------------------------------------------- words
+# -------------------------------------------------------------------------------------------------------------- formats
 
 
 def share_text(share: float) -> str:
-    """A share of the weight, as a page tells it."""
+    """Format a share of the weight in percent with three digits."""
     return f"{100 * share:.3g} %"
 
 
 def teeth_text(wheels: Mapping[str, int]) -> str:
-    """Wheels with their counts: `m1 96, n1 53`."""
+    """Format wheels with their counts, such as `m1 96, n1 53`."""
     return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
 
 
 def ranks_text(ranks: tuple[int, int]) -> str:
-    """`3`, or `1-4` of trains that weigh the same."""
+    """Format a rank as `3`, or as `1-4` for trains of equal weight."""
     first, last = ranks
     return str(first) if first == last else f"{first}-{last}"

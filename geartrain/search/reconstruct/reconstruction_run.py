@@ -1,4 +1,4 @@
-"""How `geartrain reconstruct` runs its search: progress, journals, interruptions; and its page."""
+"""Execution of `geartrain reconstruct`: progress bars, journals and interruptions; and its HTML page."""
 
 from __future__ import annotations
 
@@ -22,39 +22,40 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
     from geartrain.search.reconstruct.search_tasks import ExpectedCost
 
-_LARGE = 15  # decimal logarithm of choices of counts above which their number is printed first
+_LARGE = 15  # decimal logarithm of the number of choices of tooth counts above which it is printed
 _STEPS = 1000
-"""Of a progress bar."""
+"""Number of steps of a progress bar."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 
 
 class CommandRun(ReconstructionRun):
-    """A run with progress bars on standard error and journals in a folder, whose parts Ctrl-C stops one by one."""
+    """Run with progress bars on standard error and journals in a folder. Ctrl-C interrupts one part at a time."""
 
     def __init__(self, folder: Path | None, options: RunOptions) -> None:
         self._folder, self._options = folder, options
         self._journal: Journal | None = None
-        self._is_taken_up_with_another = False
+        self._is_needed_to_resume = False
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Print what is asked."""
-        tell(f"asked: {RequestedQuestion.of(problem)}")
+        """Print the size of the question."""
+        tell(f"question: {RequestedQuestion.of(problem)}")
         if (size := count_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
 
     def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Print what it will cost."""
+        """Print the expected cost of the search."""
         tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in cost.paths.items())}")
         if seconds := rough(cost.whole):
             workers = self._options.workers
-            shared = f", shared by {workers}" if workers not in (None, 1) else ""
+            shared = f", shared by {workers} processes" if workers not in (None, 1) else ""
             timed = f"one part in {cost.parts} of the search was timed"
-            tell(f"expected: about {_lasting(seconds)} in one process{shared}; {timed}")
+            tell(f"expected time: about {_duration_text(seconds)} in one process{shared}; {timed}")
 
     @contextmanager
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
-        """With a journal that is kept until all is searched."""
-        requested = {"question": question_digest(problem)}  # how much is listed, and per what, changes no task
+        """Yield an executor whose journal is kept until all searches are complete."""
+        # tasks do not depend on the listing or on the unit of the prior
+        requested = {"question": question_digest(problem)}
         with long_run("reconstruct", requested, self._folder, self._options) as given:
             self._journal = given.journal
             yield _weighted(given, problem, cost)
@@ -63,45 +64,45 @@ class CommandRun(ReconstructionRun):
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> Iterator[Execution]:
-        """If it is stopped, what was counted is reported, and the rest can be taken up."""
+        """Yield an executor; an interruption keeps the finished counts and the journal."""
         requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
         with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
             try:
                 yield given
             except KeyboardInterrupt:
-                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} counted; the rest is left out")
+                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} counted; the rest is omitted")
             cut = len(counted) < len(changed)
-            self._is_taken_up_with_another = cut and given.journal is not None and bool(len(given.journal))
+            self._is_needed_to_resume = cut and given.journal is not None and bool(len(given.journal))
             close_journal(given.journal, cut)
 
     def searched(self, complete: bool) -> None:
-        """The journal of the search goes, unless it is taken up with that of the assumptions."""
-        if not self._is_taken_up_with_another:
+        """Close the journal of the search unless the interrupted count of assumptions needs it."""
+        if not self._is_needed_to_resume:
             close_journal(self._journal, not complete)
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """With a progress bar; if it is stopped, the answer is given without it."""
+        """Yield an executor with a progress bar; an interruption omits the part from the answer."""
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
                 yield Execution(executor, tell=bar.reach)
         except KeyboardInterrupt:
-            tell(f"stopped: {what} is left out")
+            tell(f"interrupted: {what} omitted")
 
 
 def _weighted(execution: Execution, problem: ReconstructionProblem, expected: ExpectedCost) -> Execution:
-    """The same, whose progress is the share of the time that all is expected to take."""
-    shares, said = done_shares(problem, expected), execution.tell
+    """Return the executor with progress in proportion to the expected time of the tasks."""
+    shares, report_progress = done_shares(problem, expected), execution.tell
 
     def reach(done: int, _: int) -> None:
-        if said is not None:
-            said(round(_STEPS * shares[done]), _STEPS)
+        if report_progress is not None:
+            report_progress(round(_STEPS * shares[done]), _STEPS)
 
     return replace(execution, tell=reach)
 
 
-def _lasting(seconds: float) -> str:
-    """A rough time in the unit that fits."""
+def _duration_text(seconds: float) -> str:
+    """Format a rough duration [s] in seconds, minutes, hours or days."""
     for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
         if seconds >= 2 * size:
             return f"{seconds / size:.0f} {unit}"
@@ -109,7 +110,7 @@ def _lasting(seconds: float) -> str:
 
 
 def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:
-    """The page, on which the first so many candidates turn."""
+    """Write the HTML page, in which the first `turning` candidates are animated."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.report.html_page import to_html
     from geartrain.scene import build_scene
@@ -125,4 +126,4 @@ def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:
             bar.advance()
     viewer = page(scenes) if scenes else ""
     data = to_html([describe_reconstruction(found, viewer, len(scenes))]).encode("utf-8")
-    to.write(data, f": {plural(len(scenes), 'train')} turning, {len(data) / 1000:,.0f} kB")
+    to.write(data, f": {plural(len(scenes), 'train')} animated, {len(data) / 1000:,.0f} kB")

@@ -1,17 +1,17 @@
-"""From a question to exact counts and to candidates: topologies are weighed, the best trains are listed or drawn."""
+"""Exact counts and candidates of a question: topologies are weighed, and the best trains are listed or drawn."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from itertools import groupby, islice
 from random import Random
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import whole_multiple
+from geartrain.numerics.exact import plural, whole_multiple
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
@@ -25,21 +25,21 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.train_topology import Topology
 
 _LISTED = 20_000
-"""Candidates that are made at most; of more of one weight, the first that are found."""
-_TOLD_APART = 300_000
-"""Choices of counts up to which bags and classes are counted."""
+"""Maximum number of candidates that are built. If more have the same weight, the first ones found are used."""
+_MOST_CLASSIFIED = 300_000
+"""Maximum number of choices of tooth counts for which multisets of arbors and ratio classes are counted."""
 
 _Weight = TypeVar("_Weight", Fraction, float)
 _Wheel = tuple[str, int]
 _Step = tuple[str, _Wheel, _Wheel]
-"""An arbor on a path: its name, the wheel by which it is driven and the one by which the path goes on."""
+"""Arbor on a path: its name, driven wheel and driving wheel."""
 
 _NONE: _Wheel = ("", 0)
 
 
 @dataclass(frozen=True, slots=True)
 class ExplanationCount(Result):
-    """How many explanations there are with just so many added wheels.
+    """Numbers of explanations with a given number of added wheels.
 
     See Also
     --------
@@ -47,18 +47,24 @@ class ExplanationCount(Result):
     """
 
     added: int
-    """Added wheels."""
+    """Number of added wheels."""
     mechanisms: int
-    """Trains, all different."""
+    """Number of different trains."""
     bags: int | None
-    """Trains that differ by more than the order of arbors on the path of a dial; None where they are too many."""
+    """Number of multisets of arbors on paths (equivalence classes up to order); None if too many trains."""
     classes: int | None
-    """Trains that differ by more than which wheel drives which on the path of a dial; None likewise."""
+    """Number of ratio classes: equal driving and driven wheels on each path; None if too many trains."""
+
+
+def explanations_text(counts: Sequence[ExplanationCount]) -> str:
+    """Return how many trains explain the evidence, by number of added wheels, in a line."""
+    found = (f"{each.mechanisms:,} with {plural(each.added, 'added wheel')}" for each in counts if each.mechanisms)
+    return f"explanations: {', '.join(found) or 'none'}"
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate(Result):
-    """One explanation.
+    """Train that explains a question.
 
     See Also
     --------
@@ -68,30 +74,30 @@ class Candidate(Result):
     KEYS = ("added", Key("weight", to=float), "ranks")
 
     arbor: Arbor
-    """The train from its input on."""
+    """Input arbor of the train."""
     added: int
-    """Added wheels."""
+    """Number of added wheels."""
     weight: float
-    """Its share of the weight of all explanations."""
+    """Share of the weight of all explanations, 0 to 1."""
     ranks: tuple[int, int]
-    """First and last rank by weight that it may have among all explanations, from 1 on; some may weigh the same."""
+    """First and last rank by weight, from 1. They differ if several trains have the same weight."""
 
 
 @dataclass(frozen=True, slots=True)
 class WeightClass(Result):
-    """Explanations of one weight."""
+    """Explanations with the same prior weight."""
 
     added: int
-    """Added wheels of each."""
+    """Number of added wheels of each explanation."""
     weight: Fraction
-    """What each weighs before its dials are looked at, up to a factor that all share."""
+    """Prior weight of each explanation, up to a common factor."""
     mechanisms: int
-    """How many they are."""
+    """Number of explanations."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reconstructions(Result):
-    """All explanations of a question, counted, and the best of them.
+    """Numbers of all explanations of a question, and the best explanations.
 
     See Also
     --------
@@ -101,15 +107,19 @@ class Reconstructions(Result):
     KEYS = ("counts", "complete", "candidates")
 
     counts: tuple[ExplanationCount, ...]
-    """By number of added wheels, from 0 on."""
+    """Numbers of explanations, for 0, 1, 2, ... added wheels."""
     complete: bool
-    """Whether all were looked at."""
+    """True if the search covered all candidates."""
     candidates: tuple[Candidate, ...]
-    """The best first."""
+    """Candidates in descending order of weight."""
     topologies: tuple[CountedTopology, ...] = ()
-    """All structures with the numbers of their trains, where each train weighs as its structure; else none."""
+    """All topologies with the numbers of their trains; empty if trains are weighed one by one."""
     weights: tuple[WeightClass, ...] = ()
-    """All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself."""
+    """Numbers of trains by added wheels and descending weight; empty if trains are weighed one by one."""
+
+    def _summary(self) -> str:
+        listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
+        return f"{explanations_text(self.counts)}, {listed}"
 
 
 def find_reconstructions(
@@ -118,18 +128,18 @@ def find_reconstructions(
     listed: int = 1000,
     per: Literal["mechanism", "class"] = "mechanism",
 ) -> Reconstructions:
-    """Count all explanations with at most as many added wheels as may be added, and list the best.
+    """Count all explanations with up to the maximum number of added wheels, and list the best.
 
     Parameters
     ----------
     problem : ReconstructionProblem
-        The typed question.
+        Typed question.
     execution : Execution, optional
-        How the parts of the search are done; default one after the other in this process.
+        Executor of the parts of the search. By default they run one after the other in this process.
     listed : int
-        How many candidates are listed at least, where there are so many.
+        Minimum number of candidates to list, if there are as many.
     per : {"mechanism", "class"}
-        What has a weight of its own: every train, or every ratio class, whose trains then share it.
+        Unit of the prior: one weight for every train, or one for every ratio class, which its trains share.
 
     Returns
     -------
@@ -138,7 +148,7 @@ def find_reconstructions(
     Raises
     ------
     QuestionError
-        If more trains than can be listed would have to be, to share weights by class or to weigh measured sizes.
+        If too many trains would have to be listed, to share weights by class or to weigh measured sizes.
 
     Examples
     --------
@@ -160,7 +170,7 @@ def find_reconstructions(
         found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
-        return _all_weighed(problem, found, complete, per)
+        return _weighed_one_by_one(problem, found, complete, per)
     counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
     weights = tuple(_weight_classes(problem, found))
@@ -170,7 +180,7 @@ def find_reconstructions(
 def _weight_classes(
     problem: ReconstructionProblem, found: Mapping[int, Sequence[CountedTopology]]
 ) -> Iterator[WeightClass]:
-    """By number of added wheels, how many trains have each weight, the greatest first."""
+    """Yield the numbers of trains with each weight, for each number of added wheels, in descending order of weight."""
     for added, topologies in found.items():
         alike = Counter[Fraction]()
         for each in topologies:
@@ -180,17 +190,17 @@ def _weight_classes(
 
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
     mechanisms = sum(each.mechanisms for each in topologies)
-    # the order of arbors changes neither, but where a ring limits counts in some orders
+    # the order of arbors changes neither key, unless a ring limits counts in some orders
     maximum = problem.additions.maximum
-    told = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
-    if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
+    marked = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
+    if sum(each.choices if one_order else each.mechanisms for each, one_order in marked) > _MOST_CLASSIFIED:
         return ExplanationCount(added, mechanisms, None, None)
-    some = [arbor for each, one_order in told for arbor in _trains(each, problem, one_order)]
-    return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))
+    some = [arbor for each, one_order in marked for arbor in _trains(each, problem, one_order)]
+    return ExplanationCount(added, mechanisms, len({*map(arbor_multiset, some)}), len({*map(ratio_class, some)}))
 
 
 def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
-    """All trains of a topology; or with each choice of counts one, its arbors in any order."""
+    """Yield all trains of a topology, or with `one_order` one train for each choice of tooth counts."""
     limits = problem.additions
     facts = MeshFacts() if one_order else MeshFacts.of(problem)
     topology = each.topology
@@ -199,7 +209,7 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
 
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
-    """The heaviest candidates, those of one weight by added wheels and their teeth."""
+    """Yield candidates in descending order of weight, then by the number and teeth of added wheels."""
     weighed = [(topology_prior(each.topology, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.mechanisms for weight, _, each in weighed)
     ranks = weight_ranks((weight, each.mechanisms) for weight, _, each in weighed)
@@ -215,18 +225,29 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(arbor)
+    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), _written_out(arbor)
 
 
-def _all_weighed(
+def _written_out(value: object) -> str:
+    """Return a candidate with all its parts as text, which orders candidates of equal weight and size."""
+    if isinstance(value, Arbor | PlacedWheel):
+        parts = (f"{each.name}={_written_out(getattr(value, each.name))}" for each in fields(value))
+        return f"{type(value).__name__}({', '.join(parts)})"
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_written_out, value))}{',' * (len(value) == 1)})"
+    return repr(value)
+
+
+def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, per: str
 ) -> Reconstructions:
-    """Every candidate, weighed by itself: by its misfits, or as a part of its class; impossible ones are dropped."""
+    """Weigh every candidate by its misfits, or as a part of its class, and drop impossible ones."""
     number = sum(each.mechanisms for some in found.values() for each in some)
     if number > _LISTED:
-        what = f"{number} trains would have to be weighed one by one, and {_LISTED} can be"
-        fix = "ask with fewer added wheels (-k), or with `--per mechanism` and without measured sizes"
-        raise QuestionError(Problem(what, "weights by class, and of measured sizes, are of whole trains", fix))
+        what = f"{number} trains would have to be weighed one by one, more than {_LISTED}"
+        why = "weights per class and weights of measured sizes need every train"
+        fix = "add fewer wheels (-k), or use `--per mechanism` without `geometry`"
+        raise QuestionError(Problem(what, why, fix))
     counts, weighed = [], []
     for added, topologies in found.items():
         own = []
@@ -235,7 +256,9 @@ def _all_weighed(
             if likelihood:
                 own.append((float(prior(arbor, problem)) * likelihood, added, arbor))
         arbors = [arbor for _, _, arbor in own]
-        counts.append(ExplanationCount(added, len(own), len({*map(bag, arbors)}), len({*map(ratio_class, arbors)})))
+        counts.append(
+            ExplanationCount(added, len(own), len({*map(arbor_multiset, arbors)}), len({*map(ratio_class, arbors)}))
+        )
         weighed += own
     if per == "class":
         classes: dict[object, int] = {}
@@ -252,20 +275,20 @@ def _all_weighed(
 def draw_candidates(
     found: Reconstructions, problem: ReconstructionProblem, dials: Sequence[str], number: int, seed: int
 ) -> tuple[Candidate, ...]:
-    """Draw candidates independently of each other; one may come several times.
+    """Draw candidates independently of each other, with replacement.
 
     Parameters
     ----------
     found : Reconstructions
         All explanations of the question.
     problem : ReconstructionProblem
-        The typed question.
+        Typed question.
     dials : sequence of str
-        In the order of the evidence.
+        Dials in the order of the evidence.
     number : int
-        How many are drawn, from 0 on.
+        Number of draws, at least 0.
     seed : int
-        The same seed draws the same trains.
+        Random seed.
 
     Returns
     -------
@@ -286,9 +309,9 @@ def draw_candidates(
     if not found.topologies:
         if not sum(each.mechanisms for each in found.counts):
             return ()
-        what = "no trains can be drawn where each is weighed by itself"
-        fix = "list them instead (--all), or ask without measured sizes and with `--per mechanism`"
-        raise QuestionError(Problem(what, "they are drawn from sums over trains that weigh the same", fix))
+        what = "trains cannot be drawn if they are weighed one by one"
+        fix = "list them instead (--all), or use `--per mechanism` without `geometry`"
+        raise QuestionError(Problem(what, "draws need sums over trains of equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
     shares = [weight * each.mechanisms for weight, each in zip(whole, found.topologies, strict=True)]
@@ -304,16 +327,13 @@ def draw_candidates(
 
 
 def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
-    """First and last rank by weight that a candidate may have among all, for some weigh the same.
-
-    None if it is not listed.
-    """
-    wanted = mechanism(arbor)
-    return next((one.ranks for one in found.candidates if mechanism(one.arbor) == wanted), None)
+    """Return the first and last rank by weight of a candidate among all, or None if it is not listed."""
+    wanted = train_key(arbor)
+    return next((one.ranks for one in found.candidates if train_key(one.arbor) == wanted), None)
 
 
 def is_all_listed(found: Reconstructions) -> bool:
-    """Whether every explanation that is counted is listed."""
+    """Return whether every explanation that is counted is also listed."""
     return found.complete and len(found.candidates) == sum(count.mechanisms for count in found.counts)
 
 
@@ -321,25 +341,25 @@ def is_all_listed(found: Reconstructions) -> bool:
 
 
 def topology_prior(topology: Topology, problem: ReconstructionProblem) -> Fraction:
-    """Weight of each of a topology's trains before its dials are looked at, up to a factor that all share."""
+    """Return the prior weight of each train of a topology, up to a common factor."""
     added = added_prior(problem, topology.added.number, topology.added_arbors)
     return added * survivors_prior(problem, topology.used)
 
 
 def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
-    """Weight of a candidate before its dials are looked at, up to a factor that all candidates share."""
+    """Return the prior weight of a candidate, up to a common factor."""
     used = [wheel for wheel in arbor.wheels() if wheel.name is not None]
     return added_prior(problem, arbor.added_wheels, arbor.added_arbors) * survivors_prior(problem, used)
 
 
 def added_prior(problem: ReconstructionProblem, wheels: int, arbors: int) -> Fraction:
-    """What so many added wheels and arbors weigh."""
+    """Return the factor of the prior weight for given numbers of added wheels and arbors."""
     factors, limits = problem.factors, problem.additions
     return 1 / ((factors.wheel * (limits.maximum - limits.minimum + 1)) ** wheels * factors.arbor**arbors)
 
 
 def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel]) -> Fraction:
-    """What the surviving wheels weigh of which some are used, with their counts."""
+    """Return the factor of the prior weight for used surviving wheels with their counts, and for unused ones."""
     counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
     weight, unused = Fraction(1), len(counts)
     for wheel in used:
@@ -349,7 +369,7 @@ def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel])
 
 
 def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
-    """First and last rank of candidates of each weight, from weights and how many candidates have them."""
+    """Return weight -> first and last rank, from pairs of a weight and a number of candidates."""
     alike = Counter[_Weight]()
     for weight, number in weighed:
         alike[weight] += number
@@ -360,23 +380,23 @@ def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[
     return found
 
 
-# ------------------------------------------ equality: of mechanisms, up to the order of arbors, up to what drives what
+# -------------------------------------- equality: of trains, up to the order of arbors, up to driving and driven wheels
 
 
-def mechanism(arbor: Arbor) -> tuple[object, ...]:
-    """All of a candidate, in whatever order its parts were found."""
-    passed = tuple(sorted(map(mechanism, arbor.passes)))
-    drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(mechanism, below)))) for wheel, below in arbor.drives))
+def train_key(arbor: Arbor) -> tuple[object, ...]:
+    """Return a hashable key of a whole candidate, independent of the order of its parts."""
+    passed = tuple(sorted(map(train_key, arbor.passes)))
+    drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(train_key, below)))) for wheel, below in arbor.drives))
     return arbor.name or "", _wheel(arbor.driven), arbor.dials, drives, passed
 
 
-def bag(arbor: Arbor) -> tuple[object, ...]:
-    """For every dial, which arbors are on its path and through which wheels, without their order."""
+def arbor_multiset(arbor: Arbor) -> tuple[object, ...]:
+    """Return the multiset of arbors on the path of each dial, with their wheels, independent of their order."""
     return tuple(sorted((dial, tuple(sorted(path))) for dial, path in _paths(arbor)))
 
 
 def ratio_class(arbor: Arbor) -> tuple[object, ...]:
-    """For every dial, which wheels drive and which are driven on its path."""
+    """Return the multisets of driving and of driven wheels on the path of each dial."""
     return tuple(
         sorted(
             (dial, tuple(sorted(step[2] for step in path[:-1])), tuple(sorted(step[1] for step in path[1:])))

@@ -1,4 +1,4 @@
-"""Independent tasks of the search: topologies are enumerated, their trains are counted, and the time is estimated."""
+"""Independent tasks of the search, which enumerate topologies and count their trains, and an estimate of their time."""
 
 from __future__ import annotations
 
@@ -49,29 +49,29 @@ from geartrain.search.reconstruct.train_topology import Topology, plain_topology
 from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives, draw_index
 
 QUICK = 2
-"""Added wheels up to which a search is not worth parting."""
+"""Maximum number of added wheels for which a search is not divided into parts."""
 _PARTS = 24
 _SAMPLES = {4096: 3, 512: 4, 64: 5}
-"""One part in so many is timed, so many of them; then one in fewer, until that is long enough to judge by."""
+"""Number of parts of the search -> number of timed parts. Larger parts are timed until the time suffices."""
 _ENOUGH = 0.3
-"""Seconds that are long enough, for each number of added wheels."""
+"""Minimum time [s] of a sample for each number of added wheels."""
 _MOST_CHOICES = 40
-"""Decimal logarithm of the most choices of counts of added wheels; searches of hours have some 1e20."""
+"""Maximum decimal logarithm of the number of choices of added tooth counts; searches of hours have about 20."""
 _YEAR = 3.2e7  # s
 _LONGEST = 100 * _YEAR
-"""Seconds in one process; what takes longer is refused."""
+"""Maximum expected time in one process [s]. Longer searches are refused."""
 _GOLDEN = (5**0.5 - 1) / 2
-"""Its multiples lie evenly between whole numbers: which parts are timed."""
+"""Golden ratio conjugate. The fractional parts of its multiples are evenly distributed, and select the timed parts."""
 
-# All trains of a topology as orders times choices of counts: what holds in how many of them, and trains drawn.
-# Orders and counts are independent but where rings limit counts in some orders. Then orders are parted by the
-# limits, and are independent of the counts in each part.
+# The trains of a topology as a product of orders and choices of tooth counts: marginals and random draws. Orders and
+# counts are independent unless rings limit counts in some orders. Orders are then partitioned by these limits, and are
+# independent of the counts in each part.
 
 
 class OrderPart(NamedTuple):
-    """Orders of one topology in all of which the added counts have the same choices.
+    """Orders of one topology that all have the same choices of added tooth counts.
 
-    A train is one of the orders and one of the choices. The orders tell `NamedMesh` and `AddedPlace`.
+    A train is one of the orders with one of the choices. The marginals of the orders are `NamedMesh` and `AddedPlace`.
     """
 
     open: OpenCounts
@@ -80,13 +80,14 @@ class OrderPart(NamedTuple):
 
 
 class TopologyTrains:
-    """Sums over the trains of a question's topologies, and draws from them.
+    """Sums over the trains of the topologies of a question, and random draws from them.
 
     Parameters
     ----------
     problem : ReconstructionProblem
+        Typed question.
     dials : sequence of str
-        In the order of the evidence.
+        Dials in the order of the evidence.
     """
 
     def __init__(self, problem: ReconstructionProblem, dials: Sequence[str]) -> None:
@@ -97,13 +98,13 @@ class TopologyTrains:
         self._names = tuple(dials), links, wheels
 
     def count(self, topology: Topology) -> int:
-        """How many trains it is."""
+        """Count the trains of a topology."""
         if not self._facts.are_any:
             return topology.orders * self.counts.total(OpenCounts(topology.added, topology.wanted))
         return sum(part.choices * part.orders.total for part in self.parts(topology))
 
     def parts(self, topology: Topology) -> list[OrderPart]:
-        """All trains of a topology, every one in one part."""
+        """Partition the trains of a topology by the limits that rings set."""
         if not rings_limit(topology, self._facts.rings, self._maximum):
             orders = topology_orders(name_topology(topology, *self._names), self._facts)
             return [self._part(OpenCounts(topology.added, topology.wanted), orders)]
@@ -118,7 +119,7 @@ class TopologyTrains:
         return OrderPart(requested, self.counts.total(requested), orders)
 
     def _listed(self, tokens: CountTokens, arbors: list[Arbor]) -> WeightedAlternatives[Hashable]:
-        """Orders one by one, as trains with tokens for counts."""
+        """Return listed orders as alternatives, each given as a train with tokens for tooth counts."""
 
         def each(_: Hashable) -> Iterator[Alternative[Hashable]]:
             for arbor in arbors:
@@ -137,13 +138,13 @@ class TopologyTrains:
         return lambda token: AddedKind(*tokens.owner(token), most.get(token))
 
     def draw(self, topology: Topology, chance: Random) -> Arbor:
-        """One of the trains of a topology, each with the same chance."""
+        """Draw one of the trains of a topology with equal probability."""
         parts = self.parts(topology)
         part = parts[draw_index([part.choices * part.orders.total for part in parts], chance)]
-        told, tokens = part.orders.draw(chance), CountTokens(topology.added)
-        arbor = next((one for one in told if isinstance(one, Arbor)), None)
+        drawn, tokens = part.orders.draw(chance), CountTokens(topology.added)
+        arbor = next((one for one in drawn if isinstance(one, Arbor)), None)
         if arbor is None:
-            steps = sorted((one for one in told if isinstance(one, ChainStep)), key=lambda one: one.place)
+            steps = sorted((one for one in drawn if isinstance(one, ChainStep)), key=lambda one: one.place)
             orders: dict[int, list[int]] = {id(chain): [] for chain in topology.chains}
             for step in steps:
                 orders[id(step.chain.chain)].append(step.which)
@@ -176,7 +177,7 @@ def _tokens(arbor: Arbor) -> Iterator[int]:
 
 
 def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
-    """A train with counts for its tokens."""
+    """Replace the tokens of a train by tooth counts."""
 
     def counted(wheel: PlacedWheel) -> PlacedWheel:
         return wheel if wheel.name is not None else PlacedWheel(None, counts[wheel.teeth])
@@ -187,17 +188,17 @@ def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
     return Arbor(arbor.name, driven, arbor.dials, tuple(drives), passes)
 
 
-# Every topology that may explain the dials, with its number of choices of added counts. Paths are chosen for all
-# dials, and put together to trees.
+# All topologies that can explain the dials, with their numbers of choices of added counts. Paths are chosen for all
+# dials and combined to trees.
 
 
 class TopologySearch:
-    """All topologies of a question with a given number of added wheels.
+    """Enumeration of all topologies of a question with a given number of added wheels.
 
     Parameters
     ----------
     counts : AddedCountSums
-        By which choices of counts are counted.
+        Counter of the choices of added tooth counts.
     """
 
     def __init__(self, problem: ReconstructionProblem, counts: AddedCountSums) -> None:
@@ -206,7 +207,7 @@ class TopologySearch:
 
     @cached_property
     def paths(self) -> dict[str, PathList]:
-        """By dial, the list of its paths."""
+        """Dial -> list of its paths."""
         dials = sorted(self.problem.dials, key=lambda dial: dial.name)
         return {dial.name: PathList(dial, self.problem, self._keys) for dial in dials}
 
@@ -215,7 +216,7 @@ class TopologySearch:
         return PathChoice(self.problem, self.paths, self._keys), PathTrees(self.problem, self.paths)
 
     def topologies(self, added: int, part: int = 0, parts: int = 1) -> Iterator[tuple[Topology, int]]:
-        """All topologies with just so many added wheels that have choices, and how many; of several parts one."""
+        """Yield topologies with exactly `added` added wheels in one part of the search, with their choices."""
         choice, trees = self._by_paths
         for chosen in choice.choices(added, part, parts):
             for topology in trees.topologies(chosen, added):
@@ -224,12 +225,12 @@ class TopologySearch:
                     yield topology, choices
 
 
-# The search of topologies in independent parts: each finds and counts some of them, in whichever process.
+# Independent parts of the search for topologies, which any process can run.
 
 
 @dataclass(frozen=True)
 class CountedTopology:
-    """A topology with its number of choices of the added wheels' counts, and how many trains it is; neither is 0."""
+    """Topology with its positive numbers of choices of added tooth counts and of trains."""
 
     topology: Topology
     choices: int
@@ -237,7 +238,7 @@ class CountedTopology:
 
 
 class TopologyTask(NamedTuple):
-    """A part of the search with a given number of added wheels."""
+    """One part of the search with a given number of added wheels."""
 
     problem: ReconstructionProblem
     added: int
@@ -246,17 +247,17 @@ class TopologyTask(NamedTuple):
 
 
 class CountedPart(NamedTuple):
-    """What a part of the search found."""
+    """Result of one part of the search."""
 
     added: int
     last: bool
-    """Whether it is the last with so many added wheels."""
+    """True for the last part with this number of added wheels."""
     topologies: list[CountedTopology]
-    """Each with its trains."""
+    """Topologies with their numbers of trains."""
 
 
 def topology_tasks(problem: ReconstructionProblem) -> list[TopologyTask]:
-    """All parts, those with few added wheels first."""
+    """Return all parts of the search, in ascending order of the number of added wheels."""
     return [
         TopologyTask(problem, added, part, parts)
         for added in range(problem.additions.wheels + 1)
@@ -266,7 +267,7 @@ def topology_tasks(problem: ReconstructionProblem) -> list[TopologyTask]:
 
 
 def count_topologies(problem: ReconstructionProblem, execution: Execution | None = None) -> Iterator[CountedPart]:
-    """What each part of the search finds."""
+    """Yield the result of each part of the search."""
     tasks = topology_tasks(problem)
     answers = (execution or Execution()).run(_counted, tasks)
     for task, answer in zip(tasks, answers, strict=True):
@@ -275,27 +276,30 @@ def count_topologies(problem: ReconstructionProblem, execution: Execution | None
 
 
 def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
-    """By dial, how many paths to it are possible."""
+    """Return the number of possible paths to each dial."""
     search, _ = _search(problem)
     return {dial.name: len(search.paths[dial.name]) for dial in problem.dials}
 
 
 def timed_part(task: TopologyTask) -> float:
-    """How long a part of the search takes (s)."""
+    """Measure the time of one part of the search [s]."""
     start = perf_counter()
     _counted(task)
     return perf_counter() - start
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
-    """Topologies as plain data, each with its choices and trains."""
+    """Return topologies as plain data, each with its numbers of choices and of trains."""
     search, trains = _search(task.problem)
     topologies = search.topologies(task.added, task.part, task.parts)
     return [(plain_topology(each), choices, number) for each, choices in topologies if (number := trains.count(each))]
 
 
 def _search(problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTrains]:
-    """Lists of paths are made once a process; a question is known by its digest, for it need not be hashable."""
+    """Return the cached search of a question.
+
+    Path lists are made once per process. The cache key is the digest of the question, which need not be hashable.
+    """
     digest = question_digest(problem)
     if digest not in _SEARCHES:
         while len(_SEARCHES) > 1:
@@ -306,14 +310,14 @@ def _search(problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTra
 
 
 _SEARCHES: dict[str, tuple[TopologySearch, TopologyTrains]] = {}
-"""The last two questions, by digest."""
+"""Cache of the last two questions, by digest."""
 
 
 # ------------------------------------------------------- the time of a search, extrapolated from a sample of its tasks
 
 
 def rough(seconds: float) -> float:
-    """Seconds to one digit; 0 below one, which is not worth telling.
+    """Round a time to one digit; return 0 for less than one second, which is not reported.
 
     >>> rough(27.4), rough(0.7)
     (30.0, 0.0)
@@ -323,28 +327,30 @@ def rough(seconds: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ExpectedCost(Result):
-    """What the search will cost."""
+    """Expected cost of a search."""
 
     KEYS = ("paths", Key("seconds", "whole", to=rough))
 
     paths: dict[str, int]
-    """By dial, how many paths from the input to it are possible, with as many added wheels as may be."""
+    """Dial -> number of possible paths from the input to it, with the maximum number of added wheels."""
     seconds: tuple[float, ...]
-    """How long the search is expected to take in one process, by number of added wheels (s), good to a factor of
-    three or so. 0 up to two added wheels, where nothing is timed. What trains are listed and compared comes on top."""
+    """Expected time in one process [s] for each number of added wheels, accurate to a factor of about three.
+
+    It is 0 up to two added wheels, where nothing is timed. It excludes the comparison of the listed trains.
+    """
     parts: int
-    """One part in so many of the search was timed; 0 if none was."""
+    """Number of parts of which one was timed; 0 if nothing was timed."""
 
     @property
     def whole(self) -> float:
-        """Seconds in all, in one process."""
+        """Total expected time in one process [s]."""
         return sum(self.seconds)
 
 
 def expect_cost(problem: ReconstructionProblem) -> ExpectedCost:
-    """What a question will cost; the lists of its paths are made, and kept for the search in this process.
+    """Estimate the cost of a question; its path lists are cached for the search in this process.
 
-    Raises `QuestionError` if there are too many paths, or the search would not end within a hundred years.
+    Raises `QuestionError` if there are too many paths, or if the search would take more than a hundred years.
     """
     _refuse_absurd(problem)
     parted = dict.fromkeys(task.added for task in topology_tasks(problem) if task.parts > 1)
@@ -358,13 +364,13 @@ def expect_cost(problem: ReconstructionProblem) -> ExpectedCost:
 
 
 def count_choices(problem: ReconstructionProblem) -> float:
-    """Decimal logarithm of the number of choices of the counts of as many wheels as may be added."""
+    """Return the decimal logarithm of the number of choices of tooth counts of the maximum number of added wheels."""
     added = problem.additions
     return added.wheels * log10(max(added.maximum - added.minimum + 1, 1))
 
 
 def _refuse_absurd(problem: ReconstructionProblem) -> None:
-    """Raise `QuestionError` for more choices of counts than any search could look through, before anything is done."""
+    """Raise `QuestionError` before the search if there are more choices of tooth counts than any search can cover."""
     added, size = problem.additions, count_choices(problem)
     if size <= _MOST_CHOICES:
         return
@@ -372,16 +378,16 @@ def _refuse_absurd(problem: ReconstructionProblem) -> None:
     raise QuestionError(
         Problem(
             f"up to {added.wheels} added wheels of {added.minimum} to {added.maximum} teeth have 1e{size:.0f} choices",
-            f"a search takes up to 1e{_MOST_CHOICES}",
-            f"ask for at most {fits} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`, or for fewer counts",
+            f"a search supports up to 1e{_MOST_CHOICES} choices",
+            f"add at most {fits} wheels: `-k {fits}` or `reconstruct: {{add: {{wheels: {fits}}}}}`; or narrow `teeth`",
         )
     )
 
 
 def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) -> None:
-    """Raise `QuestionError` where times that go on growing as the last two end beyond `_LONGEST`.
+    """Raise `QuestionError` if the times, extrapolated by the ratio of the last two, exceed `_LONGEST`.
 
-    seconds   by number of added wheels, from the first number that is timed on
+    seconds   times [s] for increasing numbers of added wheels, from the first number that is timed
     """
     last, most = QUICK + len(seconds), problem.additions.wheels
     if len(seconds) < 2 or seconds[-1] < _ENOUGH or seconds[-2] <= 0:
@@ -395,19 +401,19 @@ def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) ->
     fits = last + floor((log10(_LONGEST) - log10(seconds[-1])) / log10(growth))
     raise QuestionError(
         Problem(
-            f"up to {most} added wheels are asked for, which would take about 1e{longest - log10(_YEAR):.0f} years",
-            f"in one process {last} added wheels take about {rough(seconds[-1]) or 1:g} s, and each one more "
-            f"{growth:.2g} times as long",
-            f"ask for at most {max(fits, last)} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`",
+            f"a search with up to {most} added wheels would take about 1e{longest - log10(_YEAR):.0f} years",
+            f"in one process {last} added wheels take about {rough(seconds[-1]) or 1:g} s, and each further "
+            f"wheel takes {growth:.2g} times as long",
+            f"add at most {max(fits, last)} wheels, with -k or in `reconstruct: {{add: {{wheels: ...}}}}`",
         )
     )
 
 
 def _sampled(problem: ReconstructionProblem, added: int) -> tuple[int, float]:
-    """One part in how many was timed, and how long all of them would take (s)."""
+    """Return the number of parts of which one was timed, and the extrapolated total time [s]."""
     parts, whole = 0, 0.0
     for parts, samples in _SAMPLES.items():
-        # a part that is none: what every part has to do before it comes to what is its own
+        # an index outside the range gives an empty part, which measures the fixed cost of every part
         alone = timed_part(TopologyTask(problem, added, parts, parts))
         chosen = (int(_GOLDEN * number % 1 * parts) for number in range(1, samples + 1))
         own = sum(timed_part(TopologyTask(problem, added, part, parts)) - alone for part in chosen)
@@ -418,12 +424,12 @@ def _sampled(problem: ReconstructionProblem, added: int) -> tuple[int, float]:
 
 
 def done_shares(problem: ReconstructionProblem, expected: ExpectedCost) -> tuple[float, ...]:
-    """By number of tasks that are done, from none on, the share of the whole time that they are expected to take."""
+    """Return the expected share of the total time, 0 to 1, after each number of completed tasks, from none."""
     done = list(accumulate(_weights(problem, expected), initial=0.0))
     return tuple(each / done[-1] for each in done)
 
 
 def _weights(problem: ReconstructionProblem, expected: ExpectedCost) -> Iterator[float]:
-    """What each task takes, none of them nothing."""
+    """Yield the expected time of each task [s], which is always positive."""
     minimum = 1e-3 * expected.whole + 1e-6
     yield from (minimum + expected.seconds[task.added] / task.parts for task in topology_tasks(problem))

@@ -1,7 +1,7 @@
 """Parts of a train that a reconstruction can find: trees of arbors on the frame or on one carrier.
 
-Spur wheels and rings join its arbors; those that a pin in a slot joins are one arbor of it. A part without some of its
-arbors is evidence of which the answer is known: a test of what evidence is worth.
+Spur wheels and rings connect the arbors. Links that a pin and slot joins are one arbor. A part without some of its
+arbors is evidence with a known answer, so it measures how much the evidence determines.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWhe
 from geartrain.train import Train, declare
 from geartrain.train.reconstruction import NEW_ARBOR
 
-# From the arbor that drives along meshes of spur wheels: how every other arbor is driven.
+# Driving mesh of every arbor, along meshes of spur wheels from the input.
 
 
-_ALONG = (0, 0, 1)
-_KEPT = ("title", "sources", "unit", "view")
-_OF_WHEELS = ("internal", "status", "source", "note")
+_Z_AXIS = (0, 0, 1)
+_KEPT_KEYS = ("title", "sources", "unit", "view")
+_WHEEL_KEYS = ("internal", "status", "source", "note")
 
 
 @dataclass(frozen=True)
 class DrivenArbor:
-    """How an arbor is driven: by which wheel of which other arbor, and by which of its own."""
+    """Mesh by which an arbor is driven: parent arbor, driving wheel and driven wheel."""
 
     parent: str
     driving: str
@@ -41,7 +41,7 @@ class DrivenArbor:
 
 
 class ArborMesh(NamedTuple):
-    """A mesh as an arbor has it: the number of the gear pair, its own wheel, and the other one."""
+    """Mesh as seen from one arbor: number of the gear pair, wheel on the arbor, and its mate."""
 
     gear: int
     own: str
@@ -51,12 +51,12 @@ class ArborMesh(NamedTuple):
 def walk_arbors(
     train: Train, source: str, meshes: Mapping[str, Sequence[ArborMesh]], arbor_of: Callable[[str], str]
 ) -> dict[str, DrivenArbor]:
-    """How every arbor is driven that meshes reach from a source, breadth first.
+    """Return the driving mesh of every arbor that is reached from a source by breadth-first search.
 
-    meshes    by arbor
-    arbor_of  the arbor of a wheel
+    meshes    meshes of each arbor
+    arbor_of  function that returns the arbor of a wheel
 
-    Raises `QuestionError` where meshes close a loop.
+    Raises `QuestionError` if meshes close a loop.
     """
     driven: dict[str, DrivenArbor] = {}
     waiting, used = deque([source]), set[int]()
@@ -69,8 +69,9 @@ def walk_arbors(
             child = arbor_of(other)
             if child == source or child in driven:
                 what = f"the meshes of '{train.name}' close a loop at '{train.gears[gear].name}'"
-                fix = "only trees are reconstructed yet"
-                raise QuestionError(Problem(what, "an arbor is driven on two ways", fix, train.place("gears", gear)))
+                why = "an arbor is driven in two ways, and only trees of arbors are reconstructed"
+                place = train.place("gears", gear)
+                raise QuestionError(Problem(what, why, "remove a mesh of the loop", place))
             driven[child] = DrivenArbor(arbor, own, other)
             waiting.append(child)
     return driven
@@ -79,9 +80,9 @@ def walk_arbors(
 def walk_meshes(
     train: Train, source: str, arbors: Mapping[str, str], rings: Collection[str] = ()
 ) -> dict[str, DrivenArbor]:
-    """The same of all arbors that turn in the frame.
+    """Return the driving mesh of every arbor on the frame that is reached from a source by breadth-first search.
 
-    arbors  by link, the arbor that it is, or is a part of
+    arbors  link -> the arbor that it is, or is a part of
     rings   wheels that may be internal
     """
     tree = find_tree(train)
@@ -96,9 +97,9 @@ def walk_meshes(
 
 
 def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) -> bool:
-    """Whether two wheels are spur wheels or rings that turn on a carrier about parallel axes.
+    """Return whether two wheels are spur wheels or rings that turn on a carrier about parallel axes.
 
-    carrier   what bears the axes; on another than the frame a wheel may stand still
+    carrier   link that carries the axes; if it is not the frame, one of the wheels may be fixed to the frame
     """
     still = {train.frame, *train.fixed}
     directions = set()
@@ -108,7 +109,7 @@ def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) 
         if wheel.kind != "spur" or any(link in lock for lock in train.locks) or (stands and carrier in still):
             return False
         axis = train.axes.get(tree.axis(carrier if stands else link) or "")
-        directions.add(_ALONG if axis is None else tuple(map(_value, axis.direction)))
+        directions.add(_Z_AXIS if axis is None else tuple(map(_value, axis.direction)))
     return len(directions) == 1
 
 
@@ -118,73 +119,73 @@ def _value(figure: Figure) -> object:
 
 @dataclass(frozen=True)
 class SpurTree:
-    """Arbors of a train from the one at which a part of it begins to its pointers."""
+    """Arbors of one part of a train, from its first arbor to its pointers."""
 
     train: Train
     base: BaseLink
-    """What bears the arbors, and at what speed the first of them turns."""
+    """Link that carries the arbors, and the speed of the first arbor."""
     driven: Mapping[str, DrivenArbor]
-    """How every other arbor is driven; parents come first."""
+    """Arbor -> mesh by which it is driven. Parents come first."""
     joined: Joined
-    """By arbor that stands for several links, all of them, itself first."""
+    """Arbor -> links that it represents, itself first; only arbors with several links."""
     pointers: Mapping[str, str]
-    """Name of an output, or of a link whose speed is given, -> its arbor."""
+    """Name of an output, or of a link whose speed is given -> its arbor."""
     counts: Mapping[str, int]
-    """Teeth of every wheel that meshes."""
+    """Name of each meshing wheel -> its tooth count."""
     teeth: tuple[int, int]
-    """The fewest and the most that an added wheel may have."""
+    """Minimum and maximum tooth count of an added wheel."""
 
     @property
     def source(self) -> str:
-        """The arbor at which it begins."""
+        """First arbor of the part."""
         return self.base.source
 
     @property
     def arbors(self) -> tuple[str, ...]:
-        """Every arbor, the first one first."""
+        """All arbors, the first arbor of the part at the beginning."""
         return self.source, *self.driven
 
     @property
     def has_idlers(self) -> bool:
-        """Whether a driven wheel drives."""
+        """True if a driven wheel also drives."""
         driving = {mesh.driving for mesh in self.driven.values()}
         return any(mesh.driven in driving for mesh in self.driven.values())
 
     @cached_property
     def able(self) -> tuple[str, ...]:
-        """Arbors that can be lost: all driven ones but those with a ring, for no ring is added."""
+        """Arbors that can be lost: all driven arbors without a ring, because rings are never added."""
         wheels = self.train.wheels
         return tuple(link for link in self.driven if not any(wheels[name][1].internal for name in self.wheels_of(link)))
 
     @property
     def name(self) -> str:
-        """What part of the train it is; nothing for that which begins at the input, on the frame."""
+        """Label of the part of the train; empty for the part that begins at the input, on the frame."""
         if self.base.is_carrier:
             return f"on {self.base.name}, from {self.source}"
         return "" if self.source in self.train.case(None).inputs else f"from {self.source}"
 
     def links_of(self, arbor: str) -> tuple[str, ...]:
-        """The links that an arbor stands for; those that stand still all are the frame."""
+        """Return the links that an arbor represents. All fixed links belong to the frame."""
         if arbor == self.train.frame:
             return arbor, *self.train.fixed
         return self.joined.get(arbor, (arbor,))
 
     def arbor_of(self, link: str) -> str:
-        """The arbor that stands for a link: mostly itself."""
+        """Return the arbor that represents a link, which is usually the link itself."""
         return next((arbor for arbor, links in self.joined.items() if link in links), link)
 
     def link_of(self, pointer: str) -> str:
-        """The link whose speed a pointer shows."""
+        """Return the link whose speed a pointer shows."""
         output = self.train.case(None).outputs.get(pointer)
         return pointer if output is None else output.of or pointer
 
     def wheels_of(self, arbor: str) -> tuple[str, ...]:
-        """The wheels of an arbor that mesh, as declared."""
+        """Return the meshing wheels of an arbor in the order of the declaration."""
         links = self.links_of(arbor)
         return tuple(name for link in links for name in self.train.links[link].wheels if name in self.counts)
 
     def meshes(self, lost: Collection[str] = ()) -> tuple[tuple[str, str], ...]:
-        """Pairs of wheels that mesh, the driving one first, but for those of arbors that are lost."""
+        """Return the meshes (driving wheel, driven wheel) except those of lost arbors."""
         return tuple(
             (mesh.driving, mesh.driven)
             for arbor, mesh in self.driven.items()
@@ -192,10 +193,10 @@ class SpurTree:
         )
 
     def arbor(self, lost: Collection[str] = (), link: str | None = None) -> Arbor:
-        """The tree as a candidate.
+        """Return the tree as a candidate.
 
-        lost   arbors that did not survive, which have no names then
-        link   the arbor at which it begins; default the first
+        lost   arbors that do not survive, and so have no names
+        link   arbor at which the tree begins; the default is the first arbor
         """
         link = self.source if link is None else link
         own = self.driven[link].driven if link in self.driven else None
@@ -216,39 +217,41 @@ class SpurTree:
         )
 
 
-# The parts of a train that a reconstruction can find, each a tree of arbors on the frame or on one carrier. The
-# first part begins at the input, on the frame. Where what bears the arbors changes, another begins: on a carrier at
-# the wheels of the frame, or at an arbor of an earlier part, whose speed is then known. So on the frame behind a
-# carrier.
+# Parts of a train that a reconstruction can find, each a tree of arbors on the frame or on one carrier. The first part
+# begins at the input, on the frame. Another part begins where the link that carries the arbors changes: on a carrier at
+# the wheels of the frame, or at an arbor of an earlier part, whose speed is then known. The same applies on the frame
+# behind a carrier.
 
 
 def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
-    """All parts of a train that lead to pointers, that from the input first if there is one.
+    """Return all parts of a train that lead to pointers, the part that begins at the input first.
 
-    A pointer is an output whose speed is known (by `expect`, or a target with a tolerance) and that has a target; and
-    where no such arbor follows, the last arbor whose speed is known. What leads to no pointer is in no part.
+    A pointer is an output with a target whose speed is known by `expect` or by a target with a tolerance. If no pointer
+    follows an arbor of known speed, that arbor is a pointer. Arbors that lead to no pointer belong to no part.
 
-    Raises `QuestionError` where there is none: no single input, no pointer that is reached, meshes that close a loop.
+    Raises `QuestionError` if the train has no such part, because it has no single input, no pointer is reached, or its
+    meshes close a loop.
     """
     _check_input(train)
     parts = _Parts(train)
     found = tuple(parts.trees())
     every = [teeth for tree in found for teeth in tree.counts.values()]
     if found:
-        # few wheels of a small part would say too much of those that are lost
+        # the range of the few wheels of a small part would restrict the lost counts too much
         return found[0], *(replace(tree, teeth=(min(every), max(every))) for tree in found[1:])
     what = f"no pointer of '{train.name}' is reached by spur wheels on the frame or on a carrier"
-    obstacles = _joined(list(_obstacles(train)))
-    why = parts.loop or (f"it has {obstacles}" if obstacles else "no output beyond the input has a speed")
-    raise QuestionError(Problem(what, why, "only such trees are reconstructed yet"))
+    obstacles = _joined(list(_unsupported_features(train)))
+    why = parts.loop or (f"it has {obstacles}" if obstacles else "no output except the input has a known speed")
+    fix = "give `expect` to an output that spur wheels drive on the frame or on a carrier"
+    raise QuestionError(Problem(what, why, fix))
 
 
 def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None = None) -> SpurTree:
-    """The part of a train in which some arbors are driven, of several the first.
+    """Return the first part of a train in which all given arbors are driven.
 
-    source   the arbor at which it begins; default any
+    source   arbor at which the part begins; the default is any arbor
 
-    Raises `QuestionError` where there is none, also where they are in different parts.
+    Raises `QuestionError` if no part has all of them, for example if the arbors are in different parts.
     """
     trees = find_spur_trees(train)
     if source is not None:
@@ -256,33 +259,35 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         if not trees:
             begin = ", ".join(tree.source for tree in find_spur_trees(train))
             fix = f"name one of: {begin}"
-            raise QuestionError(Problem(f"no part of '{train.name}' begins at '{source}'", "", fix))
+            why = "a part begins at the input, or at an arbor of known speed"
+            raise QuestionError(Problem(f"no part of '{train.name}' begins at '{source}'", why, fix))
     wanted = list(arbors)
     held = [[tree for tree in trees if tree.arbor_of(link) in tree.driven] for link in wanted]
     both = [tree for tree in trees if all(tree in some for some in held)]
     if both or not all(held):
         return (both or trees)[0]
     said = " and ".join(f"'{link}'" for link in wanted)
-    why = f"arbors of this train are borne or driven in {len(trees)} parts, and each is a question of its own"
-    raise QuestionError(Problem(f"{said} cannot be left out together", why, "leave out those of one part"))
+    why = f"the train has {len(trees)} parts, and each is reconstructed separately"
+    raise QuestionError(Problem(f"{said} cannot be left out together", why, "leave out arbors of one part only"))
 
 
 def _check_input(train: Train) -> None:
     if train.states:
-        what = f"'{train.name}' is driven otherwise in each of its states"
-        raise QuestionError(Problem(what, "a reconstruction has one input", "ask of a train without states"))
+        what = f"'{train.name}' has several states"
+        raise QuestionError(Problem(what, "a reconstruction has one input", "use a train without `states`"))
     turning = [link for link, speed in train.case(None).inputs.items() if speed]
     if len(turning) != 1:
         what = f"'{train.name}' has {len(turning)} inputs that turn"
-        raise QuestionError(Problem(what, "a reconstruction has one", "ask of a train with one", train.place("inputs")))
+        why = "a reconstruction has one input"
+        raise QuestionError(Problem(what, why, "use a train with one input", train.place("inputs")))
 
 
 @dataclass
 class _Base:
-    """What turns on the frame or on a carrier."""
+    """Joined links and meshes that turn on the frame or on one carrier."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Link -> the links that couplings join to it, itself among them, in the order of the train."""
+    """Link -> links that couplings join to it, itself included, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
     """Arbor -> its meshes."""
 
@@ -294,22 +299,22 @@ class _Parts:
         self._inputs = {link: speed for link, speed in train.case(None).inputs.items() if speed}
 
     def trees(self) -> Iterator[SpurTree]:
-        """Each part once an arbor is known at which it begins."""
+        """Yield each part as soon as the speed of an arbor is known at which it can begin."""
         waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)
         while waiting:
-            parts = ((part, self._begun(*part, tuple(known))) for part in waiting)
-            part, begun = next((each for each in parts if each[1] is not None), (None, None))
-            if part is None or begun is None:
+            parts = ((part, self._start_of(*part, tuple(known))) for part in waiting)
+            part, start = next((each for each in parts if each[1] is not None), (None, None))
+            if part is None or start is None:
                 return
             waiting.remove(part)
-            tree = self._tree(begun)
+            tree = self._tree(start)
             if tree is not None:
-                known |= dict.fromkeys([begun.name, *(link for one in tree.arbors for link in tree.links_of(one))])
+                known |= dict.fromkeys([start.name, *(link for one in tree.arbors for link in tree.links_of(one))])
                 yield tree
 
-    # what meshes on what
+    # meshes on each base
 
     @cached_property
     def _bases(self) -> dict[str, _Base]:
@@ -331,28 +336,28 @@ class _Parts:
         return {base: own for base, own in found.items() if own.meshes}
 
     def _arbor(self, base: str, wheel: str, bases: dict[str, _Base] | None = None) -> str:
-        """The arbor of a wheel: the frame for all that stands still, the first one for links that are joined."""
-        return self._stands_for(base, self.train.wheels[wheel][0], bases)
+        """Return the arbor of a wheel: the frame for fixed links, the first link for joined links."""
+        return self._arbor_of_link(base, self.train.wheels[wheel][0], bases)
 
-    def _stands_for(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
+    def _arbor_of_link(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
         if link in self.train.fixed:
             return self.train.frame
         return (bases or self._bases)[base].joined.get(link, (link,))[0]
 
     def _connected(self, base: str) -> Iterator[set[str]]:
-        """Arbors that meshes hold together."""
+        """Yield the sets of arbors that meshes connect."""
         meshes = self._bases[base].meshes
         mates = ((arbor, *(self._arbor(base, each.other) for each in own)) for arbor, own in meshes.items())
         yield from map(set, joined_groups(meshes, mates))
 
-    # where a part begins
+    # first arbor of a part
 
-    def _begun(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
-        """Its base and its first arbor, whose speeds are known; None where no such arbor is."""
+    def _start_of(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
+        """Return the base and first arbor of a part, or None if no arbor with a known speed is in it."""
         frame, speed = self.train.frame, self._speed(base)
         if speed is None or (not speed and base != frame):
             return None
-        first = [frame] if base != frame and frame in arbors else [self._stands_for(base, link) for link in known]
+        first = [frame] if base != frame and frame in arbors else [self._arbor_of_link(base, link) for link in known]
         for source in first:
             turns = self._speed(source)
             if source in arbors and turns is not None and turns != speed:
@@ -360,7 +365,7 @@ class _Parts:
         return None
 
     def _speed(self, link: str) -> Fraction | None:
-        """The exact speed of a link, None where there is none."""
+        """Return the exact speed of a link, or None if it is not determined."""
         if link == self.train.frame or link in self.train.fixed:
             return Fraction(0)
         if link in self._inputs:
@@ -370,18 +375,19 @@ class _Parts:
 
     # the tree
 
-    def _tree(self, begun: BaseLink) -> SpurTree | None:
-        base, train = begun.name, self.train
+    def _tree(self, start: BaseLink) -> SpurTree | None:
+        base, train = start.name, self.train
         meshes = self._bases[base].meshes
         try:
-            driven = walk_arbors(train, begun.source, meshes, lambda wheel: self._arbor(base, wheel))
+            driven = walk_arbors(train, start.source, meshes, lambda wheel: self._arbor(base, wheel))
         except QuestionError as error:
             self.loop = error.problems[0].what
             return None
-        outputs = [(name, self._stands_for(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
+        outputs = [(name, self._arbor_of_link(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
         pointers = {name: arbor for name, arbor, wanted in outputs if arbor in driven and wanted}
         named = {arbor: name for name, arbor, _ in reversed(outputs)}
-        for arbor in reversed(list(driven)):  # what leads to no pointer is left out; a known speed makes one
+        # arbors without a pointer below are dropped; a known speed makes a pointer
+        for arbor in reversed(list(driven)):
             if arbor in pointers.values() or any(mesh.parent == arbor for mesh in driven.values()):
                 continue
             if arbor in named:
@@ -395,12 +401,12 @@ class _Parts:
         if not pointers:
             return None
         teeth = min(counts.values()), max(counts.values())
-        return _renamed(SpurTree(train, begun, driven, joined, pointers, counts, teeth))
+        return _renamed(SpurTree(train, start, driven, joined, pointers, counts, teeth))
 
     def _known_outputs(self, base: str) -> Iterator[tuple[str, str, bool]]:
-        """Outputs whose speed is known, seen from the frame or the base; with the link, and whether it has a target.
+        """Yield (output, link, has a target) for outputs of known speed relative to the frame or the base.
 
-        On a carrier also the links that are driven.
+        On a carrier the driven links are also outputs.
         """
         train = self.train
         for name, output in train.case(None).outputs.items():
@@ -412,7 +418,7 @@ class _Parts:
 
 
 def _renamed(tree: SpurTree) -> SpurTree:
-    """The same with joined arbors called as in a question: after the first of their links that has wheels there."""
+    """Return the tree with joined arbors named as in a question: after their first link with meshing wheels."""
     names = {}
     for arbor, links in tree.joined.items():
         names[arbor] = min(
@@ -433,19 +439,19 @@ def _renamed(tree: SpurTree) -> SpurTree:
     return replace(tree, base=base, driven=driven, joined=joined, pointers=pointers)
 
 
-# what is in no part
+# links that belong to no part
 
 
 def why_not(train: Train, link: str) -> str:
-    """Why a link is in none of the parts."""
+    """Return the reason why a link is in none of the parts."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
-        return "it stands still"
+        return "it does not turn"
     if any(link in lock for lock in train.locks):
-        return "it is held to another link"
+        return "it is locked to another link"
     followers = [one for one in train.couplings if link == one.slot and one.kind != "pin_and_slot"]
     if followers:
-        return "a pin and follower moves it, whose mean ratio is 0"
+        return "it is moved by a pin and follower, whose mean ratio is 0"
     kinds = sorted({wheel.kind for wheel in wheels.values() if wheel.kind != "spur"})
     if kinds:
         return f"it has {_joined(kinds)} wheels"
@@ -455,48 +461,48 @@ def why_not(train: Train, link: str) -> str:
     others = sorted({train.wheels[name][1].kind for name in mates} - {"spur"})
     if others:
         return f"it meshes with {_joined(others)} wheels"
-    return "it leads to no pointer of known speed" if mates else "its wheels mesh with none"
+    return "it leads to no pointer of known speed" if mates else "its wheels mesh with no other wheel"
 
 
-def _obstacles(train: Train) -> Iterator[str]:
-    """What of a train no part takes up."""
+def _unsupported_features(train: Train) -> Iterator[str]:
+    """Yield features of a train that no part supports."""
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
     if any(one.kind != "pin_and_slot" for one in train.couplings):
-        yield "couplings that are no pins in slots"
+        yield "couplings other than pin and slot"
     if train.locks:
-        yield "arbors that are held to others"
+        yield "locked arbors"
 
 
 def _joined(parts: Sequence[str]) -> str:
     return ", ".join(parts[:-1]) + " and " + parts[-1] if len(parts) > 1 else "".join(parts)
 
 
-# ------------------------------------------------------------------ evidence of such a part without some of its arbors
+# ------------------------------------------------------------------------ evidence of a part without some of its arbors
 
 
 def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Train:
-    """Evidence of a tree of which some arbors are lost.
+    """Return the evidence that remains of a tree if some arbors are lost.
 
-    What survives are the other arbors with the wheels that mesh in the train, counts as they are used there, and the
-    couplings of two of them; every pointer with its speed, on its arbor or on one that does not survive. As many wheels
-    may be added as are lost, with as many teeth as any wheel of the part has; of a later part, as any of all parts.
+    The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between them.
+    Every pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost. Their tooth
+    counts have the range of the first part, or for a later part the range of all parts.
 
-    lost   links; `QuestionError` for the first arbor, and for what is no arbor of the tree, or has a ring
-    seen   the meshes of wheels that survive were seen, and no more arbors may be added than are lost; else it is not
-           known who meshes with whom
+    lost   links; `QuestionError` for the first arbor, for a link that is not in the tree, and for an arbor with a ring
+    seen   True if meshes of surviving wheels are known and no more arbors may be added than are lost; else meshes are
+           unknown
     """
     return declare(lost_evidence_data(tree, lost, seen))
 
 
 def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> dict[str, Any]:
-    """The same with the keys of a declaration."""
+    """Return the evidence that remains of a tree, with the keys of a declaration."""
     _check(tree, lost)
     train = tree.train
     arbors = lost_arbors(tree, lost)
     given = train.model_dump(mode="json", exclude_unset=True, by_alias=True)
     words = "-".join(lost).replace(" ", "-")
-    kept = {key: given[key] for key in _KEPT if given.get(key)}
+    kept = {key: given[key] for key in _KEPT_KEYS if given.get(key)}
     if "title" in kept:
         kept["title"] += f", without {', '.join(lost)}"
     surviving = [arbor for arbor in tree.arbors if arbor not in arbors]
@@ -523,12 +529,12 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
 
 
 def lost_arbors(tree: SpurTree, links: Sequence[str]) -> tuple[str, ...]:
-    """The arbors of the tree that some links stand for."""
+    """Return the arbors of the tree that represent some links, each once."""
     return tuple(dict.fromkeys(map(tree.arbor_of, links)))
 
 
 def lost_wheels(tree: SpurTree, lost: Sequence[str]) -> int:
-    """How many wheels are lost with some links."""
+    """Count the meshing wheels that are lost with some links."""
     return sum(len(tree.wheels_of(arbor)) for arbor in lost_arbors(tree, lost))
 
 
@@ -547,7 +553,7 @@ def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any
 
 
 def _inputs(tree: SpurTree, given: dict[str, Any]) -> dict[str, Any]:
-    """The speeds of what bears the arbors and of the first of them."""
+    """Return the declared speeds of the base and of the first arbor."""
     base, frame = tree.base, tree.train.frame
     speeds = {base.name: base.speed, base.source: base.driven + base.speed}
     return {link: given["inputs"].get(link, str(speed)) for link, speed in speeds.items() if link != frame}
@@ -558,31 +564,31 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
     able = [link for arbor in tree.able if arbor not in arbors for link in tree.links_of(arbor)]
     for link, arbor in zip(lost, arbors, strict=True):
         if arbor == tree.source:
-            what, why = f"'{link}' carries the input", "a reconstruction begins there"
+            what, why = f"'{link}' carries the input", "a reconstruction begins at the input"
         elif arbor not in tree.driven:
             what = f"'{link}' cannot be left out"
-            why = why_not(tree.train, link) if link in tree.train.links else "there is no such link"
+            why = why_not(tree.train, link) if link in tree.train.links else "the train has no such link"
         elif arbor not in tree.able:
-            what, why = f"'{link}' cannot be left out", "it has a ring, and no ring is added"
+            what, why = f"'{link}' cannot be left out", "it has a ring, and rings are never added"
         elif arbors.count(arbor) > 1:
-            what, why = f"'{link}' is left out twice", "an arbor is lost once, with all that is joined to it"
+            what, why = f"'{link}' is left out twice", "an arbor is lost together with all links that are joined to it"
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))
 
 
 def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
-    """Wheels of a surviving arbor with their counts, and what is told of them."""
+    """Return the meshing wheels of a surviving link with their counts, kinds, statuses and sources."""
     found: dict[str, Any] = {}
     for name in (name for name in tree.train.links[link].wheels if name in tree.counts):
         wheel = given["links"][link]["wheels"][name]
-        about = {key: wheel[key] for key in _OF_WHEELS if key in wheel} if isinstance(wheel, dict) else {}
+        about = {key: wheel[key] for key in _WHEEL_KEYS if key in wheel} if isinstance(wheel, dict) else {}
         found[name] = {"teeth": tree.counts[name], **about} if about else tree.counts[name]
     return found
 
 
 def _shown(tree: SpurTree, given: dict[str, Any], pointer: str) -> dict[str, Any]:
-    """How fast a pointer turns: what is expected of it, else its targets that have a tolerance; and seen from what."""
+    """Return the speed of a pointer: its `expect`, else its targets with a tolerance; and its reference link."""
     output = given["outputs"].get(pointer)
     if output is None:
         return {"expect": given["inputs"][pointer]}

@@ -1,6 +1,6 @@
-"""From a candidate to a complete declaration: what survives as it was declared, what is added marked as hypothetical.
+"""Conversion of a candidate to a complete declaration, in which added parts are marked as hypothetical.
 
-Names do not depend on anything but the evidence and the candidate, so that the same candidate is the same text.
+Names depend only on the evidence and the candidate, so that equal candidates give equal texts.
 """
 
 from __future__ import annotations
@@ -18,14 +18,15 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, Surviving
 from geartrain.train import Train, declare
 from geartrain.train.yaml_nodes import as_yaml
 
-# One module for wheels in mesh, from what was measured on each of them, so that a candidate can be built and drawn.
+# One module for wheels that mesh, from all their measurements, so that a candidate can be built and drawn.
 
 
 def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, float | None]:
-    """The module (mm) to be declared of every measured wheel but those whose measured module stands.
+    """Return the modules [mm] to declare for measured wheels whose measured module does not apply.
 
-    Wheels that mesh share one module: the first that was measured gets the geometric mean of what was, and None stands
-    for its mates, which follow from it. None stands for all of them where the places of two axes in mesh decide.
+    Wheels that mesh share one module. The first measured wheel of a group has the geometric mean of the measured
+    modules, and its mates have None, because their modules follow from it. All wheels of a group have None if the
+    positions of two axes determine the module.
     """
     mates = _meshing(train)
     placed = {
@@ -49,10 +50,10 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
 
 
 def with_module(declared: Mapping[str, Any], measured: str, module: float | None) -> dict[str, Any]:
-    """A declared wheel with the module that it is to have, and a note of what was measured where that differs.
+    """Return a declared wheel with a new module, and a note of the measured value if it differs.
 
-    measured   what the evidence says of it, such as "module 0.455 mm"
-    module     in mm; None where it follows from others
+    measured   text of the measurement, such as "module 0.455 mm"
+    module     new module [mm]; None if it follows from other wheels
     """
     text = "" if module is None else f"{module:.4g} mm"
     found = {key: value for key, value in declared.items() if key != "module"} | ({"module": text} if text else {})
@@ -63,7 +64,7 @@ def with_module(declared: Mapping[str, Any], measured: str, module: float | None
 
 
 def _meshing(train: NamedArbor) -> dict[str, str]:
-    """Of every wheel the first of those that share its module."""
+    """Return wheel -> first wheel of the group that shares its module."""
     first: dict[str, str] = {}
     for _, wheel, arbor in train.meshes():
         assert arbor.driven is not None
@@ -88,21 +89,21 @@ _LEFT_OUT = {
 
 
 def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
-    """A candidate with the names that its declaration gives to arbors and wheels."""
+    """Return a candidate with the names that its declaration gives to arbors and wheels."""
     return name_train(arbor, tuple(evidence.outputs), {*evidence.links, evidence.frame}, evidence.wheels)
 
 
 def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
-    """A candidate as a checked declaration.
+    """Convert a candidate to a checked declaration.
 
     Parameters
     ----------
     evidence : Train
-        What it explains.
+        Evidence that the candidate explains.
     arbor : Arbor
-        The candidate, from its input on.
+        Input arbor of the candidate.
     name : str
-        Of the train.
+        Name of the train.
 
     Returns
     -------
@@ -121,12 +122,12 @@ def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
 
 
 def candidate_text(evidence: Train, arbor: Arbor, name: str) -> str:
-    """A candidate as YAML, the same text for the same candidate."""
+    """Return the declaration of a candidate as YAML; equal candidates give equal texts."""
     return as_yaml(candidate_data(evidence, arbor, name))
 
 
 def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
-    """A candidate with the keys of a declaration."""
+    """Return the declaration of a candidate as plain data."""
     train = TrainConstruction.of(evidence, arbor)
     given = train.given
     kept = {key: value for key, value in given.items() if key not in _LEFT_OUT}
@@ -141,15 +142,15 @@ def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
 
 @dataclass
 class TrainConstruction:
-    """A declaration that is put together arbor by arbor.
+    """Declaration of a candidate, built arbor by arbor.
 
-    given    the evidence as plain data
+    given    evidence as plain data
     links, revolutes, gears, couplings   those of the candidate, as plain data
-    shown    link and speed of every pointer, as seen from the base
-    meshes   ids of wheels, the driving one first
-    added    ids of added wheels with their counts
-    doubtful ids of surviving wheels that may have several counts, with the one that they have here
-    modules  ids of measured wheels whose module changes, with the new one (mm); None where it follows from others
+    shown    pointer -> its link, and its speed relative to the base
+    meshes   pairs of wheels, the driving wheel first
+    added    added wheels -> tooth counts
+    doubtful surviving wheels with uncertain tooth counts -> counts in this candidate
+    modules  measured wheels whose module changes -> new module [mm]; None if it follows from other wheels
     """
 
     evidence: Train
@@ -167,7 +168,7 @@ class TrainConstruction:
 
     @classmethod
     def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
-        """All of a candidate."""
+        """Build the declaration of a candidate."""
         given = evidence.model_dump(mode="json", exclude_unset=True, by_alias=True)
         made = cls(evidence, find_base(evidence), given)
         made._carrier()
@@ -176,7 +177,7 @@ class TrainConstruction:
         return made
 
     def _add(self, source: NamedArbor) -> None:
-        """All arbors of a candidate."""
+        """Add all arbors and meshes of a candidate."""
         self.modules = fit_modules(source, read_geometry_evidence(self.evidence))
         self._put(source, self.base.driven)
         speeds = {source.name: self.base.driven}
@@ -192,7 +193,7 @@ class TrainConstruction:
         return not wheel.added and self.evidence.wheels[wheel.name][1].internal
 
     def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
-        """An arbor with its wheels and pointers, or those that given couplings join to one."""
+        """Add an arbor, or the links that couplings join to it, with its wheels and pointers."""
         links = joined_arbors(self.evidence).get(arbor.name, (arbor.name,))
         for link in links:
             self._link(link, arbor.added)
@@ -204,7 +205,7 @@ class TrainConstruction:
             self.shown[dial] = (of if of in links else links[0], speed)
 
     def parts(self) -> dict[str, Any]:
-        """What differs from the evidence."""
+        """Return the keys of the declaration that differ from the evidence."""
         frame = self.evidence.frame
         links = {frame: self.given["links"].get(frame, {})}
         links |= {link: self.links[link] for link in (*self.evidence.links, *self.links) if link in self.links}
@@ -216,7 +217,7 @@ class TrainConstruction:
         return {"axes": axes, **found} if axes else found
 
     def _carrier(self) -> None:
-        """The carrier, where there is one, turns in the frame."""
+        """Add the carrier, if there is one, and its joint with the frame."""
         if self.base.is_carrier:
             self.links[self.base.name] = dict(self.given["links"][self.base.name] or {})
             self._joint(self.evidence.frame, self.base.name)
@@ -231,7 +232,7 @@ class TrainConstruction:
             self._joint(self.evidence.frame, link, self.revolutes[0]["axis"])
 
     def _joint(self, bearing: str, link: str, axis: str | None = None) -> None:
-        """The joint by which a link turns, as declared; else on its bearing, about an axis of its own or the given."""
+        """Add the declared joint of a link, or a joint with its bearing about a given or a new axis."""
         joints = self.given.get("revolutes", ())
         bearings = {bearing, self.evidence.frame, self.base.name} - {link}
         joint = next((joint for joint in joints if link in joint["pair"] and bearings & set(joint["pair"])), None)
@@ -241,7 +242,7 @@ class TrainConstruction:
         self.revolutes.append(joint)
 
     def _wheel(self, link: str, wheel: NamedWheel) -> None:
-        """A wheel on its link, with the count of the candidate."""
+        """Add a wheel to its link, with the tooth count of the candidate."""
         wheels = dict(self.links[link].get("wheels", {}))
         if wheel.added:
             self.added[wheel.name] = wheel.teeth
@@ -282,7 +283,7 @@ class TrainConstruction:
 
 
 def _with_count(teeth: Any, count: int) -> Any:
-    """A declared tooth count with the value of a candidate; its doubt stays."""
+    """Return a declared tooth count with the value of a candidate; its range or choices remain."""
     if not isinstance(teeth, Mapping):
         return count
     found = {"value": count, **{key: part for key, part in teeth.items() if key not in ("value", "search")}}

@@ -1,7 +1,7 @@
-"""Topology of a train: a rooted tree of arbors, without counts of added wheels.
+"""Topology of a train: a rooted tree of arbors without the tooth counts of added wheels.
 
-The arbors between two branchings, a chain, are in no order. So a topology is an equivalence class of trains up to the
-order of arbors on chains and the counts of added wheels.
+The arbors between two branchings form a chain and have no order. A topology is therefore an equivalence class of
+trains, up to the order of arbors on chains and the counts of added wheels.
 """
 
 from __future__ import annotations
@@ -21,37 +21,37 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingWheel,
 )
 
-# How the path to a dial may lead through a surviving arbor: which of its wheels is driven and which one drives.
+# Passes of a path through a surviving arbor: its driven and its driving wheel.
 
 
 ADDED = PlacedWheel(None, 0)
-"""An added wheel whose count is still open."""
+"""Added wheel whose tooth count is not yet chosen."""
 
 
 @dataclass(frozen=True)
 class ArborPass:
-    """One way through an arbor."""
+    """Driven and driving wheel by which a path passes through one arbor."""
 
     driven: PlacedWheel | None
-    """The wheel by which the path comes in, None on the input arbor."""
+    """Driven wheel, by which the path enters; None on the input arbor."""
     driver: PlacedWheel | None
-    """The wheel by which it goes on, the driven one itself where that is an idler; None where the path ends."""
+    """Driving wheel, by which the path leaves. It is the driven wheel of an idler, and None if the path ends here."""
     idle: int
-    """Number of surviving wheels that it passes by."""
+    """Number of surviving wheels of the arbor that the path does not use."""
     idler: bool = False
 
     @property
     def added_drivers(self) -> int:
-        """Whether the wheel that drives is an added one: 0 or 1; an idler has no part in the speed."""
+        """Number of added driving wheels that change the speed, 0 or 1. An idler does not change the speed."""
         return int(self.driver == ADDED and not self.idler)
 
     @property
     def added_driven(self) -> int:
-        """Whether the wheel that is driven is an added one that has a part in the speed: 0 or 1."""
+        """Number of added driven wheels that change the speed, 0 or 1."""
         return int(self.driven == ADDED and not self.idler)
 
     def meshes_with(self, rings: frozenset[str]) -> int:
-        """Number of its meshes in which one of some wheels is; an idler is in two."""
+        """Count the meshes of the arbor whose wheel on it is one of `rings`; an idler has two meshes."""
         return sum(wheel is not None and wheel.name in rings for wheel in (self.driven, self.driver))
 
     @property
@@ -61,9 +61,10 @@ class ArborPass:
 
 
 def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Iterator[ArborPass]:
-    """All ways through a surviving arbor, and those that end at it.
+    """Yield all pairs of wheels by which a path can pass through a surviving arbor or end at it.
 
-    An added wheel beside surviving ones only drives; where no wheel survives, one is added that is driven.
+    An added wheel on an arbor with surviving wheels can only drive. On an arbor without surviving wheels the driven
+    wheel is added.
     """
     beside = problem.additions.on == "any" and problem.additions.wheels > 0
     is_input = arbor is problem.input
@@ -90,12 +91,12 @@ def _driven_wheels(arbor: SurvivingArbor, problem: ReconstructionProblem, beside
 
 
 def readings(wheel: SurvivingWheel) -> Iterator[PlacedWheel]:
-    """A surviving wheel with each count that it may have."""
+    """Yield a surviving wheel with each of its possible tooth counts."""
     for teeth, _ in wheel.counts:
         yield PlacedWheel(wheel.name, teeth)
 
 
-# A train whose added wheels have no counts yet, and whose arbors stand in any order between two branchings.
+# A train without tooth counts of added wheels, whose arbors have any order between two branchings.
 
 
 Dials = tuple[str, ...]
@@ -104,22 +105,22 @@ Dials = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Branching:
-    """An arbor at which paths to dials end or part."""
+    """Arbor at which paths to dials end or separate."""
 
     name: str | None
-    """Of the surviving arbor, None for an added one."""
+    """Name of the surviving arbor; None for an added arbor."""
     driven: PlacedWheel | None
-    """The wheel that is driven, `ADDED` for one that is added, None on the input arbor."""
+    """Driven wheel: `ADDED` for an added wheel, None on the input arbor."""
     here: Dials
-    """Dials that it shows."""
+    """Dials that the arbor shows."""
     drives: tuple[tuple[PlacedWheel, tuple[Chain, ...]], ...] = ()
-    """Driving wheels, each with what hangs from it."""
+    """Driving wheels, each with the chains that it drives."""
     passes: tuple[Chain, ...] = ()
-    """What the driven wheel itself drives."""
+    """Chains that the driven wheel itself drives as an idler."""
 
     @property
     def chains(self) -> Iterator[Chain]:
-        """All that hangs from it."""
+        """All chains that the arbor drives."""
         for _, chains in self.drives:
             yield from chains
         yield from self.passes
@@ -127,47 +128,47 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors that lead to some dials without branching, and where they end."""
+    """Arbors without a branching between them, on the way to some dials, and the end of the chain."""
 
     dials: Dials
-    """To which it leads."""
+    """Dials to which the chain leads."""
     through: tuple[tuple[str, ArborPass], ...]
-    """Surviving arbors by name, with the way through each."""
+    """Names of the surviving arbors, each with its driven and driving wheel."""
     compounds: int
-    """Number of added arbors with two wheels, and with one that is driven and drives."""
+    """Number of added arbors with two wheels."""
     idlers: int
-    """Number of added arbors with two wheels, and with one that is driven and drives."""
+    """Number of added arbors with one wheel that is both driven and driving."""
     end: Branching | tuple[Chain, ...]
-    """The arbor at which it ends, or what hangs from the last driving wheel."""
+    """Arbor at which the chain ends, or the chains that its last driving wheel drives."""
 
     @property
     def arbors(self) -> int:
-        """How many arbors stand in a row."""
+        """Number of arbors on the chain."""
         return len(self.through) + self.compounds + self.idlers
 
     @property
     def orders(self) -> int:
-        """How many orders they have; added ones of one kind are told apart by their counts only."""
+        """Number of orders of the arbors. Added arbors of one kind are interchangeable."""
         return factorial(self.arbors) // (factorial(self.compounds) * factorial(self.idlers))
 
     @property
     def next_chains(self) -> tuple[Chain, ...]:
-        """What follows."""
+        """Chains that begin at the end of this chain."""
         return tuple(self.end.chains) if isinstance(self.end, Branching) else self.end
 
 
 @dataclass(frozen=True)
 class Topology:
-    """A whole train without counts of added wheels, and how fast the surviving ones on each path are."""
+    """Train without tooth counts of added wheels, and the quotients that these counts must have for each dial."""
 
     root: Branching
-    """The input arbor."""
+    """Input arbor."""
     wanted: tuple[tuple[str, Quotients], ...]
-    """By dial, least and greatest quotient that the added wheels on its path must have."""
+    """Pairs of a dial and the minimum and maximum quotient of the added wheels on its path."""
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
-        """All of them, from the input on."""
+        """All chains in depth-first order from the input."""
         found: list[Chain] = []
         waiting = list(self.root.chains)[::-1]
         while waiting:
@@ -177,12 +178,12 @@ class Topology:
 
     @cached_property
     def branchings(self) -> tuple[Branching, ...]:
-        """All arbors at which paths end or part, from the input on."""
+        """All arbors at which paths end or separate, in depth-first order from the input."""
         return self.root, *(chain.end for chain in self.chains if isinstance(chain.end, Branching))
 
     @cached_property
     def orders(self) -> int:
-        """How many orders its arbors have if any of them may stand anywhere on its chain."""
+        """Number of orders of the arbors on all chains, without constraints on meshes."""
         found = 1
         for chain in self.chains:
             found *= chain.orders
@@ -190,7 +191,7 @@ class Topology:
 
     @cached_property
     def added(self) -> AddedWheels:
-        """Its added wheels."""
+        """Added wheels, grouped by the dials whose speed they change."""
         drivers, driven, idle = Counter[Dials](), Counter[Dials](), 0
         for chain in self.chains:
             drivers[chain.dials] += chain.compounds + sum(each.added_drivers for _, each in chain.through)
@@ -199,51 +200,51 @@ class Topology:
             if isinstance(chain.end, Branching):
                 idle += _count_end(chain.end, chain.dials, drivers, driven)
         for wheel, chains in self.root.drives:
-            drivers[_led_to(chains)] += wheel == ADDED
+            drivers[_dials_of(chains)] += wheel == ADDED
         groups = tuple((dials, drivers[dials], driven[dials]) for dials in sorted({*drivers, *driven}))
         return AddedWheels(tuple(group for group in groups if group[1] or group[2]), idle)
 
     @cached_property
     def used(self) -> tuple[PlacedWheel, ...]:
-        """Surviving wheels that mesh, each with its count."""
-        found = dict.fromkeys(wheel for chain in self.chains for _, each in chain.through for wheel in _both(each))
+        """Surviving wheels that mesh, each with its tooth count."""
+        found = dict.fromkeys(wheel for chain in self.chains for _, each in chain.through for wheel in _wheels_of(each))
         for branching in self.branchings:
             found.update(dict.fromkeys([branching.driven, *(wheel for wheel, _ in branching.drives)]))
         return tuple(wheel for wheel in found if wheel is not None and wheel != ADDED)
 
     @cached_property
     def added_arbors(self) -> int:
-        """How many arbors are added."""
+        """Number of added arbors."""
         return sum(chain.compounds + chain.idlers for chain in self.chains) + sum(
             branching.name is None for branching in self.branchings
         )
 
 
 Quotients = tuple[Fraction, Fraction]
-"""Least and greatest quotient of products of counts, equal where it must be exact."""
+"""Minimum and maximum quotient of products of tooth counts, equal if the quotient is exact."""
 
 
 class CountLimit(NamedTuple):
-    """The most teeth that one added wheel may have."""
+    """Maximum tooth count of one added wheel."""
 
     dials: Dials
-    """Whose speed it changes; none for a wheel that changes no speed."""
+    """Dials whose speed the wheel changes; empty for a wheel that changes no speed."""
     drives: bool
-    """Whether it drives on the way to them."""
+    """True for a driving wheel on the way to these dials, False for a driven wheel."""
     most: int
 
 
 @dataclass(frozen=True)
 class AddedWheels:
-    """How many wheels are added, by the dials whose speed they change."""
+    """Numbers of added wheels, grouped by the dials whose speed they change."""
 
     groups: tuple[tuple[Dials, int, int], ...]
-    """Dials, number of wheels that drive on the way to them, and of those that are driven."""
+    """Triples (dials, number of driving wheels, number of driven wheels)."""
     idle: int
     """Number of wheels that change no speed."""
 
     def without(self, limit: CountLimit) -> AddedWheels:
-        """All but one of those of a limit."""
+        """Return the added wheels without one wheel to which the limit applies."""
         if not limit.dials:
             return AddedWheels(self.groups, self.idle - 1)
         left = [
@@ -255,41 +256,41 @@ class AddedWheels:
 
     @property
     def number(self) -> int:
-        """All of them."""
+        """Total number of added wheels."""
         return self.idle + sum(drivers + driven for _, drivers, driven in self.groups)
 
 
 def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Counter[Dials]) -> int:
-    """Add the added wheels of an arbor at which paths end or part; those that change no speed are returned."""
+    """Count the added wheels of a branching in `drivers` and `driven`, and return the number that change no speed."""
     for wheel, chains in end.drives:
-        drivers[_led_to(chains)] += wheel == ADDED
+        drivers[_dials_of(chains)] += wheel == ADDED
     if end.driven != ADDED:
         return 0
-    past = set(_led_to(end.passes))  # what an idler drives does not know its count
+    past = set(_dials_of(end.passes))  # the speeds of dials driven by an idler do not depend on its count
     turned = tuple(dial for dial in dials if dial not in past)
     driven[turned] += bool(turned)
     return not turned
 
 
-def _led_to(chains: tuple[Chain, ...]) -> Dials:
+def _dials_of(chains: tuple[Chain, ...]) -> Dials:
     return tuple(sorted(dial for chain in chains for dial in chain.dials))
 
 
-def _both(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
+def _wheels_of(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
     return each.driven, each.driver
 
 
-# as plain data, to cross between processes and to be kept
+# plain data, for transfer between processes and for journals
 
 
 def plain_topology(topology: Topology) -> list[Any]:
-    """A topology as lists, texts and numbers."""
+    """Convert a topology to nested lists of strings and numbers."""
     wanted = [[dial, str(low), str(high)] for dial, (low, high) in topology.wanted]
     return [_plain_branching(topology.root), wanted]
 
 
 def topology_of(plain: list[Any]) -> Topology:
-    """The topology again."""
+    """Restore a topology from nested lists."""
     root, wanted = plain
     return Topology(_branching_of(root), tuple((dial, (Fraction(low), Fraction(high))) for dial, low, high in wanted))
 
@@ -312,7 +313,7 @@ def _branching_of(plain: list[Any]) -> Branching:
 
 
 def _plain_chain(chain: Chain) -> list[Any]:
-    through = [[name, *map(_plain_wheel, _both(each)), each.idle, each.idler] for name, each in chain.through]
+    through = [[name, *map(_plain_wheel, _wheels_of(each)), each.idle, each.idler] for name, each in chain.through]
     end = [_plain_branching(chain.end)] if isinstance(chain.end, Branching) else [None, [*map(_plain_chain, chain.end)]]
     return [[*chain.dials], through, chain.compounds, chain.idlers, end]
 

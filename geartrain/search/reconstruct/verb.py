@@ -1,4 +1,4 @@
-"""`geartrain reconstruct`: from what survives and what the pointers show to every train that explains it."""
+"""Command `geartrain reconstruct`: every train that explains surviving wheels and pointers."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 Evidence = Annotated[
     str,
     typer.Argument(
-        help="A YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`); "
-        "with --without a train.",
+        help="YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`). With "
+        "--without: a train.",
         metavar="FILE",
     ),
 ]
@@ -43,71 +43,82 @@ Evidence = Annotated[
 _EVIDENCE = "evidence.yaml"
 _FAMILY = "family.json"
 MOST_DRAWN = 100_000
-"""Trains that are drawn at most."""
+"""Maximum number of trains drawn at random."""
 MOST_TURNING = 200
 
 
 def run(
     evidence: Evidence,
     without: Annotated[
-        Names, typer.Option("--without", help="Ask of a train as if this arbor were lost; several may be.")
+        Names, typer.Option("--without", help="Treat this arbor of a train as lost; may be repeated.")
     ] = None,
     source: Annotated[
         str | None,
         typer.Option(
             "--from",
-            help="With --without: of several parts of the train that with this link at its beginning; default the "
-            "first that has the arbors.",
+            help="With --without: link at which the part of the train begins. Default: the first part that has the "
+            "arbors.",
         ),
     ] = None,
     seen: Annotated[
         bool,
         typer.Option(
             "--seen",
-            help="With --without: the meshes of wheels that survive were seen, and no more arbors are added than are "
-            "lost.",
+            help="With --without: the meshes of surviving wheels are known, and no more arbors are added than "
+            "are lost.",
         ),
     ] = False,
     most: Annotated[
         int | None,
-        typer.Option("-k", min=0, max=1000, help="The most wheels that may be added; default what the evidence says."),
+        typer.Option(
+            "-k", min=0, max=1000, help="Maximum number of added wheels. Default: the number in the evidence."
+        ),
     ] = None,
-    count: Annotated[bool, typer.Option("--count", help="Count only, list nothing.")] = False,
-    best: Annotated[int, typer.Option("--best", min=0, max=MOST_COUNT, help="How many trains are listed.")] = 20,
-    every: Annotated[bool, typer.Option("--all", help="List all of them.")] = False,
-    idlers: Annotated[bool, typer.Option("--idlers", help="A driven wheel may drive.")] = False,
+    count: Annotated[bool, typer.Option("--count", help="Count the trains without listing them.")] = False,
+    best: Annotated[int, typer.Option("--best", min=0, max=MOST_COUNT, help="Number of trains to list.")] = 20,
+    every: Annotated[bool, typer.Option("--all", help="List all trains.")] = False,
+    idlers: Annotated[bool, typer.Option("--idlers", help="Allow driven wheels to drive.")] = False,
     folder: Annotated[
-        Path | None, typer.Option("--write", help="Write what is listed into this folder, a declaration a file.")
+        Path | None, typer.Option("--write", help="Write each listed train as a declaration into this folder.")
     ] = None,
     page: Annotated[
-        Path | None, typer.Option("--page", help="Write a page of HTML with the family tree and the trains turning.")
+        Path | None, typer.Option("--page", help="Write an HTML page with the family tree and animated trains.")
     ] = None,
     turning: Annotated[
-        int, typer.Option("--turning", min=1, max=MOST_TURNING, help="How many trains turn on the page.")
+        int, typer.Option("--turning", min=1, max=MOST_TURNING, help="Number of animated trains on the page.")
     ] = 12,
     per: Annotated[
         Literal["mechanism", "class"],
-        typer.Option("--per", help="What has a weight of its own: every train, or every class of equal ratios."),
+        typer.Option(
+            "--per", help="Unit of the prior: one weight for every train, or for every class of equal ratios."
+        ),
     ] = "mechanism",
     sample: Annotated[
         int,
-        typer.Option("--sample", min=0, max=MOST_DRAWN, help="Draw so many trains, with the chance of their weight."),
+        typer.Option(
+            "--sample",
+            min=0,
+            max=MOST_DRAWN,
+            help="Draw this number of trains at random, in proportion to their weight.",
+        ),
     ] = 0,
     seed: Seed = 1,
     assumptions: Annotated[
-        bool, typer.Option("--assumptions", help="Drop each hard fact in turn and count again; asks once for each.")
+        bool, typer.Option("--assumptions", help="Count again without each hard fact in turn; one search for each.")
     ] = False,
     rank: Annotated[
         Names,
         typer.Option(
-            "--rank", help="Say what this train costs here: a file or a shipped train; several may be.", metavar="TRAIN"
+            "--rank",
+            help="Rank this train among the explanations: a file or a shipped train; may be repeated.",
+            metavar="TRAIN",
         ),
     ] = None,
     same: Annotated[
         Names,
         typer.Option(
             "--same",
-            help="A wheel or output of a ranked train, and what that is here: E4=e3.",
+            help="Wheel or output of a ranked train, and its name in the evidence: E4=e3.",
             metavar="ITS=OURS",
         ),
     ] = None,
@@ -126,13 +137,13 @@ def run(
     from geartrain.train.declaration_files import read_declaration, read_evidence
 
     if not without and (seen or source is not None):
-        raise typer.BadParameter("it is said of a train without some arbors", param_hint="--seen" if seen else "--from")
+        raise typer.BadParameter("it is used only with --without", param_hint="--seen" if seen else "--from")
     if count and folder is not None:
-        raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
+        raise typer.BadParameter("--count lists no trains to write", param_hint="--write")
     if count and page is not None:
-        raise typer.BadParameter("with --count there is nothing to show", param_hint="--page")
+        raise typer.BadParameter("--count lists no trains to show", param_hint="--page")
     if same and not rank:
-        raise typer.BadParameter("it names what is in a train that --rank gives", param_hint="--same")
+        raise typer.BadParameter("it is used only with --rank", param_hint="--same")
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
     check_distinct_outputs(to, turning_page)
     if folder is not None:
@@ -165,15 +176,15 @@ def run(
 
 
 def _name_pair(text: str) -> tuple[str, str]:
-    """`E4=e3`."""
+    """Parse a pair of names such as `E4=e3`."""
     own, _, called = map(str.strip, text.partition("="))
     if not own or not called:
-        raise typer.BadParameter(f"'{text}' is not like E4=e3", param_hint="--same")
+        raise typer.BadParameter(f"'{text}' is not of the form ITS=OURS, such as E4=e3", param_hint="--same")
     return own, called
 
 
 def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
-    """Every listed candidate as a declaration of its own, the family tree, and the evidence where it was made."""
+    """Write each listed candidate as a declaration, the family tree, and with `with_evidence` the evidence."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.search.reconstruct.train_construction import candidate_text
     from geartrain.train.declaration_files import write_declaration
@@ -195,7 +206,7 @@ def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence
 
 
 def _family_text(found: ReconstructionAnswer) -> str:
-    """The family tree as JSON, with what was asked."""
+    """Return the family tree, the digest of the question and the counts as JSON."""
     from geartrain.search.reconstruct.reconstruction_problem import question_digest
 
     requested = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}

@@ -1,1 +1,1 @@
-"""Tooth counts of the free wheels of a train: every assignment that meets all requirements, counted."""
+"""Search for the tooth counts of the free wheels of a train: all assignments that satisfy every requirement."""

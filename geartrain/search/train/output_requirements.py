@@ -1,4 +1,4 @@
-"""What a train asks of its outputs, as exact intervals of their speeds, and how far a speed is off."""
+"""Requirements of a train on its outputs, as exact intervals of speeds, and the errors of speeds."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 class SpeedRequirement:
     """One requirement on the speed of an output.
 
-    label      in words, such as "period 583.92 d" or "expect 2/7"
-    wanted     the speed asked for, in the train's unit; positive where only the magnitude counts
-    signed     False: only the magnitude counts
-    allowed    the speeds that are in order, closed and apart; None: all
-    graded     True if the output's error is counted from it
-    approached True if no tolerance is stated: the nearer the better
-    target     True for what the sky does, False for what is expected or printed
+    label      description, such as "period 583.92 d" or "expect 2/7"
+    wanted     requested speed in the unit of the train; positive if only the magnitude is required
+    signed     False if only the magnitude is required
+    allowed    admissible speeds, closed disjoint intervals; None for all
+    graded     True if the error of the output is computed from this requirement
+    approached True if no tolerance is given, so that the error is minimised
+    target     True for an astronomical target, False for an expected or published value
     """
 
     label: str
@@ -46,7 +46,7 @@ class SpeedRequirement:
 
     @classmethod
     def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """What a target demands, within a share of it or as near as may be."""
+        """Build the requirement of a target with a relative tolerance `share`; None minimises the error."""
         said = "" if share is None else f" within {decimal(share, 3)}"
         demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
         if share is None:
@@ -54,26 +54,29 @@ class SpeedRequirement:
         return replace(demand, allowed=demand.within(share), approached=False)
 
     def loosened(self) -> SpeedRequirement:
-        """The same, to be come near to: with nothing required of a speed but its sense."""
+        """Return the requirement without its tolerance: its error is minimised, and only the sense of rotation is
+        required.
+        """
         allowed: tuple[Interval, ...] | None = None
         if self.signed and self.wanted:
             allowed = ((Fraction(0), None),) if self.wanted > 0 else ((None, Fraction(0)),)
         return replace(self, allowed=allowed, approached=True)
 
     def error(self, speed: Fraction) -> Fraction:
-        """Relative error; the speed itself where 0 is wanted."""
+        """Return the relative error of a speed; the speed itself if the requested speed is 0."""
         return Fraction(error_against(speed, self.wanted, self.signed))
 
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
-        """The allowed speeds, for a graded demand no further off than a share of what is wanted."""
+        """Return the admissible speeds; for a graded requirement only those within the relative tolerance `share`."""
         if share is None or not self.graded:
             return self.allowed
+        # the tolerance is absolute if the requested speed is 0
         size = abs(self.wanted) or Fraction(1)
         near = (_around(self.wanted, share * size),) if self.signed else _magnitudes(self.wanted, share)
         return near if self.allowed is None else meet(near, self.allowed)
 
     def met(self, speed: Fraction) -> bool:
-        """True if a speed is in order."""
+        """Return whether a speed is admissible."""
         return self.allowed is None or is_within(speed, self.allowed)
 
 
@@ -82,20 +85,21 @@ def _around(middle: Fraction, half: Fraction) -> Interval:
 
 
 def _magnitudes(wanted: Fraction, share: Fraction) -> tuple[Interval, ...]:
-    """Speeds of either sense whose magnitude is within a share of the wanted one."""
+    """Return the speeds of either sense whose magnitude is within a relative tolerance of the requested one."""
     return of_either_sense(wanted * (1 - share), wanted * (1 + share))
 
 
 def of_either_sense(minimum: Fraction, most: Fraction) -> tuple[Interval, ...]:
-    """Speeds whose magnitude lies between two numbers."""
+    """Return the speeds of either sense whose magnitude is between two numbers."""
     return ((-most, most),) if minimum <= 0 else ((-most, -minimum), (minimum, most))
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
-    """What two unions of intervals have in common."""
+    """Return the intersection of two unions of intervals."""
     found = []
     for a, b in left:
         for c, d in right:
+            # None is an unbounded end
             low = a if c is None else c if a is None else max(a, c)
             high = b if d is None else d if b is None else min(b, d)
             if low is None or high is None or low <= high:
@@ -105,33 +109,33 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
 
 @dataclass(frozen=True, slots=True)
 class OutputRequirement:
-    """An output with all its requirements."""
+    """Output with all its requirements."""
 
     name: str
-    """Of the output; "state: output" where several states are asked at once."""
+    """Name of the output; "state: output" if several states are searched at once."""
     function: Function
-    """Its speed, of the free wheels."""
+    """Speed as a function of the free wheels."""
     demands: tuple[SpeedRequirement, ...]
-    """All hold at once; one at least."""
+    """Requirements that must all be satisfied, at least one."""
 
     @property
     def approached(self) -> bool:
-        """True if a target without a tolerance is to be approached."""
+        """True if the error of a target without a tolerance is minimised."""
         return any(demand.approached for demand in self.demands)
 
     @property
     def exact(self) -> bool:
-        """True if one exact speed is asked for, so that no solution has an error."""
+        """True if one exact speed is required, so that no solution has an error."""
         common = self.requested(None)
         return common is not None and all(low == high for low, high in common.intervals)
 
     @property
     def text(self) -> str:
-        """The demands in words."""
+        """Description of the requirements."""
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
-        """The demand on the function, with graded demands no further off than `share`; None if all is allowed."""
+        """Return the constraint on the function, graded requirements within `share`; None if unconstrained."""
         common: tuple[Interval, ...] = ((None, None),)
         for demand in self.demands:
             near = demand.within(share)
@@ -139,7 +143,7 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """How the output stands at a speed: by the graded demand it misses by most."""
+        """Return the result of the output at a speed, by the graded requirement with the maximum error."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         met = all(demand.met(speed) for demand in self.demands)
@@ -147,14 +151,14 @@ class OutputRequirement:
 
 
 def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
-    """What must hold for a train to turn: loops that close, links driven in one way.
+    """Yield the conditions for a train to turn: loops that close, and links that are driven consistently.
 
-    Raises `QuestionError` where it does not whatever the counts.
+    `QuestionError` is raised if it cannot turn with any counts.
     """
     for condition in formulas.conditions:
         if not condition.wheels:
-            what = f"'{train.name}' does not turn, whatever counts are chosen"
-            raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
+            what = f"'{train.name}' cannot turn with any tooth counts"
+            raise QuestionError(Problem(what, condition.label, "`geartrain solve FILE` shows what locks it"))
         yield IntervalConstraint(condition.label, condition, ((Fraction(0), Fraction(0)),))
     for exclusion in formulas.exclusions:
         yield IntervalConstraint(exclusion.label, exclusion, _ANYTHING_ELSE, strict=True)
@@ -163,7 +167,7 @@ def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[Interv
 def find_output_requirements(
     train: Train, case: StateCase, functions: Mapping[str, Function], tolerance: Fraction | None
 ) -> list[OutputRequirement]:
-    """The outputs of a case that have a function and of which something is asked."""
+    """Return the outputs of a case that have a function and at least one requirement."""
     moving = [speed for speed in case.inputs.values() if speed]
     found = []
     for name, function in functions.items():
@@ -198,7 +202,9 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
 
 
 def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iterator[SpeedRequirement]:
-    """A figure as printed, as speeds; ratios need the speed of the one input, and hold for none without it."""
+    """Yield the requirement of a published figure. A ratio needs the speed of a single input; without it no speed is
+    allowed.
+    """
     label = f"published {published.value} {published.as_}"
     half = _half(published.value, published.tolerance)
     low, high = published.value.value - half, published.value.value + half
@@ -216,16 +222,17 @@ def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iter
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
-    """The speeds for which drive over speed lies between two numbers."""
+    """Yield the intervals of speeds for which drive over speed is between two numbers."""
     if low > 0 or high < 0:
         ends = sorted((drive / low, drive / high))
         yield ends[0], ends[1]
         return
+    # the interval of ratios includes 0, so the speeds are unbounded
     rays = [drive / end for end in (low, high) if end]
     yield from ((None, ray) if ray < 0 else (ray, None) for ray in sorted(rays))
 
 
-# The free wheels of a train and their requirements, in parts that share neither output nor constraint.
+# The free wheels of a train and their requirements, in connected components.
 
 
 _MOST_COUNTS = 10**6
@@ -233,37 +240,39 @@ _MOST_COUNTS = 10**6
 
 @dataclass(frozen=True, slots=True)
 class SearchPart:
-    """Wheels that outputs or constraints join, and their requirements."""
+    """Wheels connected by outputs or constraints, and their requirements."""
 
     domains: Domains
-    """Wheel -> its counts, ascending, in the order declared."""
-    askings: tuple[OutputRequirement, ...]
-    """Outputs that they move."""
+    """Wheel -> its admissible counts, ascending, in the order of declaration."""
+    requirements: tuple[OutputRequirement, ...]
+    """Outputs that the wheels influence."""
     conditions: tuple[IntervalConstraint, ...]
-    """Loops and locks that must close for the train to turn."""
+    """Conditions on loops and locks for the train to turn."""
     rules: tuple[CountConstraint, ...]
-    """Constraints on counts."""
+    """Constraints on the counts."""
 
     @property
     def considered(self) -> int:
-        """Assignments there are."""
+        """Number of assignments."""
         return prod(len(counts) for counts in self.domains.values())
 
 
 @dataclass(frozen=True, slots=True)
 class TrainRequirements:
-    """The requirements of a train in one or several states."""
+    """Requirements of a train in one or several states."""
 
-    askings: tuple[OutputRequirement, ...]
+    requirements: tuple[OutputRequirement, ...]
     conditions: tuple[IntervalConstraint, ...]
     remarks: tuple[str, ...]
-    """Outputs that no free wheel moves and that are not as asked, and outputs that nothing determines."""
+    """Remarks on outputs that no free wheel influences and that violate their requirements, and on undetermined
+    outputs.
+    """
 
 
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """The counts of each free wheel, ascending, in the order declared; see `search_train` for `free`.
+    """Return the admissible counts of each free wheel, ascending, in the order of declaration.
 
-    Raises `QuestionError` where there is none, or where one has no counts to choose from.
+    See `search_train` for `free`. `QuestionError` is raised if no wheel is free, or if one has no range of counts.
     """
     if isinstance(free, str) and free not in ("search", "uncertain"):
         free = [free]
@@ -280,26 +289,26 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         if counts:
             found[wheel] = counts
         elif chosen and not isinstance(free, str):
-            why = f"its count is {teeth.value}, with no search, range or choices"
+            why = f"its count is {teeth.value}, without search, range or choices"
             fix = "declare it as {search: [15, 80]}"
             raise QuestionError(
                 Problem(f"wheel '{wheel}' is not free", why, fix, train.place("links", link, "wheels", wheel))
             )
     if not found:
-        fix = "write `teeth: {search: [15, 80]}` at the wheels to be found"
+        fix = "declare `teeth: {search: [15, 80]}` for the wheels to search"
         if free == "search" and any(train.uncertain_wheels()):
-            fix += ", or ask for the uncertain ones"
-        raise QuestionError(Problem(f"'{train.name}' has no wheel to be found", "none has `search`", fix))
+            fix += ", or use --free uncertain"
+        raise QuestionError(Problem(f"'{train.name}' has no free wheel", "no wheel declares `search`", fix))
     return found
 
 
 def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
-    """The counts a wheel may have: those of `search`, else what its evidence allows."""
+    """Return the admissible counts of a wheel: those of `search`, otherwise its `choices` or `range`."""
     counts = teeth.searched or sorted(set(teeth.choices or ()))
     if not counts and teeth.range is not None:
         counts = range(teeth.range[0], teeth.range[1] + 1)
     if len(counts) > _MOST_COUNTS:
-        why = f"{counts[0]} to {counts[-1]} are more than {_MOST_COUNTS} counts"
+        why = f"{counts[0]} to {counts[-1]} has more than {_MOST_COUNTS} counts"
         place = train.place("links", link, "wheels", wheel)
         raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow it", place))
     return counts
@@ -308,40 +317,40 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
 def find_requirements(
     train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
 ) -> TrainRequirements:
-    """All requirements on the outputs, in one state or in all of them."""
+    """Return all requirements on the outputs, in one state or in all states."""
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
-    askings: list[OutputRequirement] = []
+    requirements: list[OutputRequirement] = []
     conditions: dict[IntervalConstraint, None] = {}
     remarks: list[str] = []
     for one in states:
         prefix = f"{one}: " if len(states) > 1 else ""
         case, formulas = train.case(one), find_formulas(train, one, domains)
         conditions |= dict.fromkeys(find_turning_conditions(train, formulas))
-        for asking in find_output_requirements(train, case, formulas.outputs, tolerance):
-            asking = OutputRequirement(prefix + asking.name, asking.function, asking.demands)
-            if asking.function.wheels:
-                askings.append(asking)
+        for requirement in find_output_requirements(train, case, formulas.outputs, tolerance):
+            requirement = OutputRequirement(prefix + requirement.name, requirement.function, requirement.demands)
+            if requirement.function.wheels:
+                requirements.append(requirement)
             else:
-                remarks.extend(_idle(asking))
+                remarks.extend(_idle(requirement))
         remarks.extend(f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined)
-    return TrainRequirements(tuple(askings), tuple(conditions), tuple(remarks))
+    return TrainRequirements(tuple(requirements), tuple(conditions), tuple(remarks))
 
 
-def _idle(asking: OutputRequirement) -> Iterator[str]:
-    """A remark on an output that no free wheel moves, if it is not as it should be."""
-    speed = asking.function.value({})
+def _idle(requirement: OutputRequirement) -> Iterator[str]:
+    """Yield a remark on an output that no free wheel influences, if it violates its requirements."""
+    speed = requirement.function.value({})
     if speed is not None:
-        reached = asking.reached(speed)
+        reached = requirement.reached(speed)
         if not reached.met:
-            said = f"its speed is {speed}, {decimal(reached.error, 3)} off ({reached.label})"
-            yield f"no free wheel moves '{asking.name}', which is not as asked: {said}"
+            said = f"its speed is {speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
+            yield f"no free wheel influences '{requirement.name}', which violates its requirement: {said}"
 
 
 def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
-    """The wheels parted by what joins them, in the order declared; idle wheels are parts by themselves."""
+    """Yield the connected components of the free wheels in the order of declaration; idle wheels are parts."""
     scopes = chain(
-        (asking.function.wheels for asking in demands.askings),
+        (requirement.function.wheels for requirement in demands.requirements),
         (condition.function.wheels for condition in demands.conditions),
         (rule.wheels for rule in rules),
     )
@@ -349,7 +358,9 @@ def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[Cou
         group = set(wheels)
         yield SearchPart(
             {wheel: domains[wheel] for wheel in wheels},
-            tuple(asking for asking in demands.askings if not group.isdisjoint(asking.function.wheels)),
+            tuple(
+                requirement for requirement in demands.requirements if not group.isdisjoint(requirement.function.wheels)
+            ),
             tuple(one for one in demands.conditions if not group.isdisjoint(one.function.wheels)),
             tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
         )

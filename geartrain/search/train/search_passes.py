@@ -1,6 +1,7 @@
-"""One pass of a search over a part: its requirements as a join, planned, cut into tasks, and run.
+"""One pass of a search over a part: its requirements as a join, divided into tasks, and run.
 
-Of very many assignments the best are kept: bounds in floats drop most others, exact errors order the rest.
+If there are very many assignments only the best are kept. Bounds in floats discard most others, and exact errors sort
+the rest.
 """
 
 from __future__ import annotations
@@ -32,22 +33,22 @@ from geartrain.search.train.output_requirements import OutputRequirement, Search
 from geartrain.search.train.train_findings import Assignment, By
 
 _SMALL = 3e6
-"""Steps below which a pass is one task: about a second."""
+"""Number of steps below which a pass is one task; they take about a second."""
 _MOST_TASKS = 100_000
 _SAMPLED = 16
-"""Tasks of a sample."""
+"""Number of tasks of a random sample."""
 _POOL = 20_000
-"""Assignments that a pool holds before it is sorted out."""
+"""Number of assignments in a pool at which all but the best are discarded."""
 
 Task = dict[str, Any]
-"""What `do_task` takes."""
+"""Argument of `do_task`."""
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
-    """A pass cut into tasks, and the part of it they are: less than 1 where all would pass the limit.
+    """Divide a pass into tasks; also return the share of the pass that they cover, below 1 if the limit is exceeded.
 
-    Tasks are runs of the values of the first item, and of the next one below where the first has few. A sample is
-    drawn always alike.
+    Tasks are runs of the values of the first item, and of the next one below if the first has few values. The random
+    sample has a fixed seed.
     """
     if question.steps <= _SMALL <= limit:
         return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
@@ -55,18 +56,20 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
     wanted = question.steps * _SAMPLED / limit if sampled else question.steps / _SMALL
     chain = _chain(question, min(wanted, _MOST_TASKS))
     number = prod(of for _, of in chain)
-    # twice its share, for tasks are uneven
+    # twice the share of a task, because tasks are uneven
     budget = 2 * limit / _SAMPLED if sampled else limit
     chosen: Sequence[int] = range(number)
     if sampled and number > _SAMPLED:
-        # always the same sample, so that a question has one answer
+        # fixed seed, so that results are deterministic
         chosen = sorted(random.Random(0).sample(range(number), _SAMPLED))
     tasks = [{"parts": _digits(at, chain), "budget": budget, "pieces": 16} for at in chosen]
     return tasks, len(tasks) / number if sampled else 1.0
 
 
 def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
-    """Items from the root down, each with the number of runs its values are cut into; about `wanted` together."""
+    """Return items from the root downwards, each with the number of runs of its values; their product is about
+    `wanted`.
+    """
     node: PlanNode | None = question.plan
     found: list[tuple[int, int]] = []
     while node is not None and (wanted > 1 or not found):
@@ -88,34 +91,36 @@ def _digits(number: int, chain: Sequence[tuple[int, int]]) -> list[list[int]]:
 
 @dataclass(frozen=True, slots=True)
 class PassWork:
-    """What all tasks of one pass share."""
+    """Data that all tasks of one pass share."""
 
     question: JoinProblem
-    """To be answered."""
+    """Join problem of the pass."""
     order: AssignmentOrder
-    """Of what is listed."""
+    """Order of the list of the best."""
     most: int
-    """Assignments that one task may bring out to list the best of them."""
+    """Maximum number of assignments that one task may enumerate to list the best."""
 
     def packed(self) -> bytes:
-        """As a worker takes it."""
+        """Return the pickled data for a worker process."""
         return pickle.dumps(self)
 
 
 @lru_cache(maxsize=1)
 def _unpacked(packed: bytes) -> tuple[PassWork, ExactJoin]:
+    # unpickled once per process and pass, not once per task
     work = pickle.loads(packed)
     assert isinstance(work, PassWork)
     return work, ExactJoin(work.question)
 
 
 def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
-    """One piece of a search: a part of the values of some items.
+    """Run one task of a search: a part of the values of some items.
 
-    task   `parts`: [[item, number, of], ...], the part with this number of so many; `budget`: steps it may take;
-           `pieces`: into how many it is cut, so that not all is lost when the budget ends
-    Returns `count`, `removed` (one number for each constraint), `listed` (whether `best` holds the best), `best`
-    (counts in the order of the wheels), `steps`, and `cut` (whether the budget ended it).
+    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts; `budget`: maximum number of steps;
+           `pieces`: number of pieces, so that the results of finished pieces remain if the budget is exceeded
+
+    The result has the keys `count`, `removed` (one number for each constraint), `listed` (True if `best` is complete),
+    `best` (counts in the order of the wheels), `steps`, and `cut` (True if the budget was exceeded).
     """
     work, join = _unpacked(packed)
     total: dict[str, Any] = {"count": 0, "removed": [0] * len(work.question.reasons), "listed": True, "cut": False}
@@ -136,7 +141,7 @@ def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
-    """The runs of values that some parts are, the first of them cut into pieces."""
+    """Yield the runs of values of a task, with the first of them divided into pieces."""
     runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
     item = parts[0][0]
     first, last = runs[item]
@@ -147,7 +152,7 @@ def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Ite
 
 
 def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: int) -> dict[str, Any]:
-    """Count; then bring out what is to be listed, or what late rules must see."""
+    """Count the assignments of a piece; enumerate them if they are to be listed or tested by late constraints."""
     question = work.question
     counts, gone = join.count(question.plan, join.start())
     count = int(counts[0])
@@ -165,7 +170,7 @@ def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: in
 
 
 def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int]) -> AssignmentColumns:
-    """The assignments that the late rules let pass."""
+    """Return the assignments that satisfy the late constraints."""
     number = len(question.reasons) - len(question.late)
     for at, rule in enumerate(question.late, number):
         met = rule.holds(columns)
@@ -176,24 +181,24 @@ def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int])
 
 @dataclass(frozen=True, slots=True)
 class PassTally:
-    """What the tasks of a pass came to."""
+    """Sum of the results of the tasks of a pass."""
 
     count: int
-    """Assignments that meet everything."""
+    """Number of assignments that satisfy all requirements."""
     removed: tuple[int, ...]
-    """For each constraint, how many it refused."""
+    """Number of assignments that each constraint rejected."""
     best: tuple[Assignment, ...]
-    """The best, best first."""
+    """Best assignments, best first."""
     listed: bool
-    """False if there were too many to bring out: `best` is then empty."""
+    """False if there were too many assignments to enumerate; `best` is then empty."""
     cut: bool
-    """True if a task spent its budget."""
+    """True if a task exceeded its budget."""
     stopped: bool
-    """True if the run was interrupted: the rest is of the tasks that were done."""
+    """True if the run was interrupted; the other fields include only finished tasks."""
 
 
 def merged(work: PassWork, results: Iterable[Mapping[str, Any]]) -> PassTally:
-    """Add up the results of tasks; an interrupt ends the sum, not the search."""
+    """Sum the results of tasks; a keyboard interrupt returns the sum so far."""
     count, listed, cut, stopped = 0, True, False, False
     removed = [0] * len(work.question.reasons)
     pool = BestAssignments(work.order, work.question.wheels)
@@ -212,16 +217,16 @@ def merged(work: PassWork, results: Iterable[Mapping[str, Any]]) -> PassTally:
 
 
 NOTHING = PassTally(0, (), (), True, False, True)
-"""What a pass comes to that was not begun, because the search was interrupted."""
+"""Result of a pass that was not started because the search was interrupted."""
 
 Tell = Callable[[int, int], None]
 
 
 @dataclass
 class PassRunner:
-    """How the tasks of all passes are run: executor, journal of finished tasks, report of progress.
+    """Execution of the tasks of all passes: executor, journal of finished tasks, progress function.
 
-    Several passes share a journal: each begins where the last one ended.
+    Several passes share a journal, in which their tasks are numbered consecutively.
     """
 
     executor: Executor | None = None
@@ -231,11 +236,12 @@ class PassRunner:
     stopped: bool = False
 
     def run(self, work: PassWork, tasks: Sequence[Task]) -> PassTally:
-        """Do the tasks of a pass. After an interrupt nothing more is done."""
+        """Run the tasks of a pass; after an interrupt nothing is run."""
         if self.stopped:
             return NOTHING
         journal = None if self.journal is None else cast(Journal, _Section(self.journal, self.done))
         before, tell = self.done, self.tell
+        # tasks of later passes have higher numbers in the journal
         self.done += len(tasks)
 
         def told(done: int, total: int) -> None:
@@ -247,56 +253,56 @@ class PassRunner:
         return tally
 
     def release(self) -> None:
-        """The search is over: further questions are answered in this process, without journal or report."""
+        """End the search; later requests run in this process, without journal or progress."""
         self.executor = self.journal = self.tell = None
         self.stopped = False
 
 
 class _Section:
-    """A journal whose tasks are numbered from somewhere on."""
+    """View of a journal with an offset of the task numbers."""
 
     def __init__(self, journal: Journal, offset: int) -> None:
         self._journal, self._offset = journal, offset
 
     @property
     def closed(self) -> bool:
-        """As of the journal."""
+        """True if the journal is closed."""
         return self._journal.closed
 
     def recall(self, task: int, mark: str = "") -> str | None:
-        """As of the journal."""
+        """Return the stored result of a task of this section."""
         return self._journal.recall(task + self._offset, mark)
 
     def keep(self, task: int, mark: str, text: str) -> None:
-        """As of the journal."""
+        """Store the result of a task of this section."""
         self._journal.keep(task + self._offset, mark, text)
 
 
 @dataclass(frozen=True, slots=True)
 class PassResult:
-    """What a pass came to."""
+    """Result of a pass."""
 
     share: Fraction | None
-    """The common tolerance it was run with, if any."""
+    """Common relative tolerance of the pass, None if there is none."""
     searched: float
-    """Part of the assignments that it looked at; 1 where it is complete."""
+    """Share of the assignments that was searched; 1 if complete."""
     tally: PassTally
-    """Counts and the best."""
+    """Counts and the best assignments."""
     reasons: tuple[str, ...] = ()
-    """What refused assignments, parallel to the tally's numbers."""
+    """Names of the constraints that reject assignments, parallel to `tally.removed`."""
     order: tuple[int, ...] = ()
-    """Indices of the reasons in the order in which they are decided."""
+    """Indices of the reasons in the order in which they are evaluated."""
     steps: float = 0.0
-    """About how many it was forecast to take."""
+    """Estimated number of steps."""
 
     @property
     def complete(self) -> bool:
-        """True if every assignment was looked at."""
+        """True if every assignment was considered."""
         return self.searched == 1 and not self.tally.cut and not self.tally.stopped
 
     @property
     def removed(self) -> dict[str, int]:
-        """Reason -> assignments it refused, in the order asked; rules of one name together."""
+        """Reason -> number of assignments it rejected, in the order of evaluation, summed by name."""
         found: dict[str, int] = {}
         for at in self.order:
             reason = self.reasons[at]
@@ -305,25 +311,25 @@ class PassResult:
 
 
 NOT_BEGUN = PassResult(None, 0.0, NOTHING)
-"""A pass that an interrupt kept from beginning."""
+"""Result of a pass that an interrupt prevented."""
 
 
 @dataclass
 class PartSearch:
-    """The passes over one part."""
+    """Search of one part in several passes."""
 
     part: SearchPart
     order: AssignmentOrder
     runner: PassRunner
     limit: float
-    """Steps that one pass may take."""
-    alone: tuple[tuple[str, int], ...] = field(init=False)
+    """Maximum number of steps of one pass."""
+    removed_first: tuple[tuple[str, int], ...] = field(init=False)
     domains: Domains = field(init=False)
     rules: tuple[CountConstraint, ...] = field(init=False)
     _sample: SelectivitySample | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
-        """Rules on one wheel narrow its counts, and are done with."""
+        """Apply the constraints on single wheels to their counts."""
         domains: Domains = self.part.domains
         alone = []
         for rule in self.part.rules:
@@ -331,58 +337,59 @@ class PartSearch:
                 narrowed = narrow(domains, rule)
                 alone.append((rule.name, size_of(domains) - size_of(narrowed)))
                 domains = narrowed
-        self.alone, self.domains = tuple(alone), domains
+        self.removed_first, self.domains = tuple(alone), domains
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
 
     @property
     def sample(self) -> SelectivitySample:
-        """Some assignments."""
+        """Random sample of assignments."""
         if self._sample is None:
             self._sample = SelectivitySample.of(self.domains)
         return self._sample
 
-    def without(self, *, rule: str = "", asking: OutputRequirement | None = None) -> PartSearch:
-        """The same search without the rules of one name, or one output less."""
+    def without(self, *, rule: str = "", requirement: OutputRequirement | None = None) -> PartSearch:
+        """Return the search without the constraints of one name, or without one output."""
         part = replace(
             self.part,
             rules=tuple(one for one in self.part.rules if one.name != rule),
-            askings=tuple(one for one in self.part.askings if one is not asking),
+            requirements=tuple(one for one in self.part.requirements if one is not requirement),
         )
         return PartSearch(part, self.order, self.runner, self.limit)
 
     def requested(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
-        """Every demand of a pass."""
-        found = [asking.requested(share, strict) for asking in self.part.askings]
+        """Return all interval constraints of a pass."""
+        found = [requirement.requested(share, strict) for requirement in self.part.requirements]
         return (*self.part.conditions, *(one for one in found if one is not None))
 
     def chances(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
-        """About which part of the assignments meets each rule and demand."""
+        """Estimate the share of assignments that satisfies each constraint and requirement."""
         chances = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
         return chances | {one.name: self.sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
-        """One pass: all counted, and the best brought out if there are at most `most`.
+        """Run one pass: count all solutions, and list the best if there are at most `most`.
 
-        share    graded demands are narrowed to this common tolerance
-        strict   leave out what lies on the ends of intervals
+        share    common relative tolerance of graded requirements
+        strict   True to exclude the ends of intervals
         """
         if not size_of(self.domains):
             return PassResult(share, 1.0, PassTally(0, (), (), True, False, False))
         requested = self.requested(share, strict)
         question = find_join_problem(self.domains, requested, self.rules, self.chances(requested))
         tasks, searched = cut(question, self.limit)
+        # `most` may be infinite
         work = PassWork(question, self.order, int(min(most, 1 << 62)))
         tally = self.runner.run(work, tasks)
         return PassResult(share, searched, tally, question.reasons, question.order, question.steps)
 
 
 def size_of(domains: Domains) -> int:
-    """Assignments there are."""
+    """Return the number of assignments."""
     return prod(len(counts) for counts in domains.values())
 
 
 def narrow(domains: Domains, rule: CountConstraint) -> Domains:
-    """The counts that a rule on one wheel leaves."""
+    """Restrict the counts of a wheel to those that a constraint on this wheel permits."""
     (wheel,) = rule.wheels
     counts = domains[wheel]
     if not counts:
@@ -391,40 +398,40 @@ def narrow(domains: Domains, rule: CountConstraint) -> Domains:
     return {**domains, wheel: tuple(count for count, good in zip(counts, met.tolist(), strict=True) if good)}
 
 
-# --------------------------------------------------- the best of very many assignments: bounds in floats, exact errors
+# --------------------------------------------------- the best of many assignments: bounds in floats, exact errors
 
 
 @dataclass(frozen=True, slots=True)
 class AssignmentOrder:
-    """What makes an assignment better than another."""
+    """Total order of assignments."""
 
     by: By
-    """What comes first; then error, total, largest, and the counts in the order of the wheels."""
+    """Primary criterion; ties are broken by error, total, largest, and the counts in the order of the wheels."""
     best: int
-    """How many are wanted."""
-    askings: tuple[OutputRequirement, ...]
-    """The outputs their errors are of."""
+    """Number of assignments to keep."""
+    requirements: tuple[OutputRequirement, ...]
+    """Outputs whose errors are compared."""
     declared: Mapping[str, int]
-    """Wheel -> declared count, where it has one."""
+    """Wheel -> declared count, if it has one."""
 
     @property
     def level(self) -> bool:
-        """True if all solutions have one error, because every output is asked for one exact speed."""
-        return all(asking.exact for asking in self.askings)
+        """True if all solutions have the same error, because an exact speed is required of every output."""
+        return all(requirement.exact for requirement in self.requirements)
 
     def assignment(self, teeth: Mapping[str, int]) -> Assignment | None:
-        """What the outputs do with some counts; None where one has no speed."""
+        """Evaluate the outputs for some counts; None if one has no speed."""
         outputs = {}
-        for asking in self.askings:
-            speed = asking.function.value(teeth)
+        for requirement in self.requirements:
+            speed = requirement.function.value(teeth)
             if speed is None:
                 return None
-            outputs[asking.name] = asking.reached(speed)
+            outputs[requirement.name] = requirement.reached(speed)
         changed = tuple(wheel for wheel, count in teeth.items() if self.declared.get(wheel, count) != count)
         return Assignment(dict(teeth), outputs, changed)
 
     def first(self, columns: AssignmentColumns) -> Ints:
-        """What comes first, of many assignments; 0 for the error, which `errors` bounds."""
+        """Return the primary criterion of many assignments; 0 for the error, which `errors` bounds."""
         table = np.stack(list(columns.values()))
         if self.by == "total":
             return np.asarray(table.sum(axis=0))
@@ -439,36 +446,36 @@ class AssignmentOrder:
         return np.zeros(table.shape[1], dtype=np.int64)
 
     def errors(self, columns: AssignmentColumns) -> tuple[Floats, Floats]:
-        """Bounds on the largest |error|, least and greatest."""
+        """Return lower and upper bounds of the maximum absolute error over the outputs."""
         size = len(next(iter(columns.values())))
         minimum, maximum = np.zeros(size), np.zeros(size)
         if not self.level:
-            for asking in self.askings:
-                low, high = _errors(asking, columns)
+            for requirement in self.requirements:
+                low, high = _errors(requirement, columns)
                 minimum, maximum = np.maximum(minimum, low), np.maximum(maximum, high)
         return minimum, maximum
 
     def ranks(self, columns: AssignmentColumns) -> Ints:
-        """Whole numbers in the order of the largest |error|, exactly; equal errors have equal numbers."""
+        """Return integer ranks by the maximum absolute error, exactly; equal errors have equal ranks."""
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
         if self.level:
             return found
-        exact = [_exact_errors(asking, columns) for asking in self.askings]
+        exact = [_exact_errors(requirement, columns) for requirement in self.requirements]
         rank = {error: at for at, error in enumerate(sorted({error for errors, _ in exact for error in errors}))}
         for errors, which in exact:
             found = np.maximum(found, np.array([rank[error] for error in errors], dtype=np.int64)[which])
         return found
 
 
-def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
-    """Bounds on the largest |error| of one output."""
-    function = asking.function
-    # a count is rounded once at most, where it is beyond 2^53
+def _errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
+    """Return lower and upper bounds of the maximum absolute error of one output."""
+    function = requirement.function
+    # a count is rounded at most once, if it exceeds 2^53
     quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
     speed, off = quotient.bounded(products_of([columns[wheel].astype(np.float64) for wheel in function.wheels]))
     size = len(next(iter(columns.values())))
     minimum, maximum = np.zeros(size), np.zeros(size)
-    for demand in (demand for demand in asking.demands if demand.graded):
+    for demand in (demand for demand in requirement.demands if demand.graded):
         wanted = as_float(demand.wanted)
         if wanted is None:
             return np.zeros(size), np.full(size, inf)
@@ -477,22 +484,25 @@ def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floa
             slack = off / abs(wanted) + 4 * ROUNDING * (1 + error)
         else:
             error, slack = np.abs(speed), off
+        # an error that is not finite has no bound, so it excludes nothing
         slack = np.where(np.isfinite(error), slack, inf)
         error = np.where(np.isfinite(error), error, 0.0)
         minimum, maximum = np.maximum(minimum, error - slack), np.maximum(maximum, error + slack)
     return minimum, maximum
 
 
-def _exact_errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
-    """The exact |error| of each distinct speed of an output, and for each assignment which of them is its own."""
-    function = asking.function
+def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
+    """Return the exact absolute error of each distinct speed of an output, and the index of the speed of each
+    assignment.
+    """
+    function = requirement.function
     above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
     speeds, which = distinct_quotients(above, below)
-    return [abs(asking.reached(speed).error) for speed in speeds], which
+    return [abs(requirement.reached(speed).error) for speed in speeds], which
 
 
 def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:
-    """The sum of some terms, exact: int64 where it fits, Python integers otherwise."""
+    """Return the exact sum of some terms, as int64 if it fits, otherwise as Python integers."""
     most = {wheel: int(columns[wheel].max()) for wheel in wheels}
     bound = sum(
         abs(coefficient) * prod(most[wheel] ** power for wheel, power in zip(wheels, powers, strict=True))
@@ -510,7 +520,7 @@ def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: Assignmen
 
 
 class BestAssignments:
-    """Keeps the best of all assignments it is given, a bounded number at a time."""
+    """List of the best of all assignments that are added, in bounded memory."""
 
     def __init__(self, order: AssignmentOrder, wheels: Sequence[str]) -> None:
         self.order, self.wheels = order, tuple(wheels)
@@ -518,7 +528,7 @@ class BestAssignments:
         self._new: list[Ints] = []
 
     def add(self, columns: AssignmentColumns) -> None:
-        """Offer some assignments."""
+        """Add assignments to the candidates."""
         self._new.append(np.stack([columns[wheel] for wheel in self.wheels]))
         if sum(table.shape[1] for table in self._new) > _POOL:
             self._gather()
@@ -527,7 +537,7 @@ class BestAssignments:
                 self._sort()
 
     def best(self) -> list[list[int]]:
-        """The counts of the best, best first."""
+        """Return the counts of the best assignments, best first."""
         self._gather()
         self._drop()
         self._sort()
@@ -542,19 +552,19 @@ class BestAssignments:
         return dict(zip(self.wheels, self._table, strict=True))
 
     def _drop(self) -> None:
-        """Drop what bounds on the errors show to be none of the best."""
+        """Discard assignments whose error bounds exclude them from the best."""
         best = self.order.best
         if self._table.shape[1] <= best or self.order.level:
             return
         first = self.order.first(self._columns())
         minimum, maximum = self.order.errors(self._columns())
-        # the n-th least upper bound: what lies surely above it is none of the best n
+        # n-th smallest upper bound: larger lower bounds exclude an assignment from the best n
         last = np.lexsort((maximum, first))[best - 1]
         kept: Bools = (first < first[last]) | ((first == first[last]) & (minimum <= maximum[last]))
         self._table = self._table[:, kept]
 
     def _sort(self) -> None:
-        """Sort exactly, and keep the best."""
+        """Sort exactly and keep the best."""
         if self._table.shape[1]:
             columns = self._columns()
             sizes = self._table.max(axis=0), self._table.sum(axis=0)

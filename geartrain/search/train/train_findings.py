@@ -1,4 +1,4 @@
-"""What a search for the tooth numbers of a train found: part by part, with where any other assignment stands."""
+"""Results of a search for the tooth counts of a train, part by part, and the ranks of given assignments."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from heapq import heappop, heappush
 from math import prod
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 By = Literal["error", "total", "largest", "distinct", "change"]
@@ -20,7 +20,7 @@ ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
 
 @dataclass(frozen=True, slots=True)
 class ReachedSpeed(Result):
-    """What an output does under an assignment."""
+    """Speed and error of an output with an assignment."""
 
     KEYS = (
         "speed",
@@ -32,19 +32,20 @@ class ReachedSpeed(Result):
     )
 
     speed: Fraction
-    """Exact, in the train's unit [turns of the unit]."""
+    """Exact speed in the unit of the train."""
     label: str
-    """The requirement it misses by most, such as "period 583.92 d"."""
+    """Requirement with the maximum error, such as "period 583.92 d"."""
     error: Fraction
-    """Its relative error: |speed| / wanted - 1 against a target, speed / expected - 1 against an `expect` (the speed
-    itself where 0 is expected)."""
+    """Relative error of that requirement: |speed| / requested - 1 for a target, speed / expected - 1 for an `expect`
+    (the speed itself if 0 is expected).
+    """
     met: bool
-    """True if the output meets all that is required of it."""
+    """True if the output satisfies all its requirements."""
 
 
 @dataclass(frozen=True, slots=True)
 class Assignment(CountSizes, Result):
-    """Tooth counts of the free wheels, and what the outputs do with them.
+    """Tooth counts of the free wheels, and the resulting speeds of the outputs.
 
     See Also
     --------
@@ -54,29 +55,29 @@ class Assignment(CountSizes, Result):
     KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
 
     teeth: Mapping[str, int]
-    """Wheel -> count, in the order declared."""
+    """Wheel -> tooth count, in the order of declaration."""
     outputs: Mapping[str, ReachedSpeed]
-    """Output -> what it reaches; in a train with states the outputs are named "state: output"."""
+    """Output -> its speed and error; in a train with several states the names are "state: output"."""
     changed: tuple[str, ...] = ()
-    """Wheels whose count is not the declared value."""
+    """Wheels whose count differs from the declared value."""
 
     @property
     def counts(self) -> Collection[int]:
-        """The counts of all wheels."""
+        """Tooth counts of all wheels."""
         return self.teeth.values()
 
     @property
     def error(self) -> Fraction:
-        """The largest |error| over the outputs; 0 without any."""
+        """Maximum absolute error over the outputs; 0 if there are none."""
         return max((abs(reached.error) for reached in self.outputs.values()), default=Fraction(0))
 
     def measure(self, by: By) -> tuple[Fraction | int, ...]:
-        """What it is ordered by: the order asked for, then error, total and largest; least is best.
+        """Return the sort key, best first: the requested criterion, then error, total and largest count.
 
         Parameters
         ----------
         by : {"error", "total", "largest", "distinct", "change"}
-            What comes first.
+            Primary criterion.
         """
         total, largest = self.total, self.largest
         first: dict[By, Fraction | int] = {
@@ -91,7 +92,7 @@ class Assignment(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class PartFindings(Result):
-    """Free wheels that belong together, because outputs or constraints join them, and all that meets them."""
+    """Free wheels connected by outputs or constraints, and all their solutions."""
 
     KEYS = (
         "wheels",
@@ -109,55 +110,63 @@ class PartFindings(Result):
     )
 
     wheels: tuple[str, ...]
-    """In the order declared; parts share none."""
+    """Wheels in the order of declaration; no wheel is in two parts."""
     outputs: tuple[str, ...]
-    """The outputs they move; none for wheels that no output and no constraint asks for."""
+    """Outputs that they influence; empty for wheels without outputs and constraints."""
     demands: tuple[str, ...]
-    """What is required of the outputs, in words."""
+    """Descriptions of the requirements on the outputs."""
     rules: tuple[str, ...]
     """Names of the constraints on counts."""
     considered: int
-    """Assignments there are."""
+    """Number of assignments."""
     count: int
-    """Assignments that meet everything; where `tolerance` is not None, those within it."""
+    """Number of assignments that satisfy all requirements, and are within `tolerance` if that is not None."""
     tolerance: Fraction | None
-    """For outputs without a tolerance of their own: the one that was found to hold enough."""
+    """Tolerance for outputs without their own, chosen so that it includes enough assignments; None if not used."""
     complete: bool
     """True if every assignment was considered, so that `count` is exact."""
     ranked: bool
-    """True if no assignment that is not in `solutions` comes before one that is."""
+    """True if it is proved that `solutions` are the best."""
     reason: str
-    """Why it is not complete, or not ranked."""
+    """Reason for which the search is not complete, or the solutions are not ranked."""
     solutions: tuple[Assignment, ...]
-    """The best, best first."""
+    """Best assignments, best first."""
     shortfall: Shortfall
-    """Where the others went: each is charged to the constraint at which the search gave it up; these stand in the
-    order in which they are decided."""
+    """Numbers of rejected assignments. Each is counted under the constraint at which the search rejected it; the
+    constraints are listed in the order of evaluation.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class Standing(Result):
-    """Where one assignment of a part's wheels stands."""
+    """Rank of one assignment of the wheels of a part."""
 
     wheels: tuple[str, ...]
-    """The part's wheels."""
+    """Wheels of the part."""
     assignment: Assignment | None
-    """Its counts, outputs and errors; None where a wheel's count locks the train or leaves it free."""
+    """Counts, outputs and errors of the assignment; None if its counts lock the train or leave it free."""
     rank: int | None
-    """1 for the best: one more than the number of assignments before it in error; None where it is refused or where
-    counting would take too long."""
+    """Rank by error, 1 for the best; None if the assignment is rejected or if counting would take too long."""
     refused: tuple[str, ...]
-    """What refuses it, each in words; empty for a solution."""
+    """Descriptions of all constraints that reject it; empty for a solution."""
 
 
 @dataclass(frozen=True, slots=True)
-class TrainFindings(Result):
-    """All that a search in a train found.
+class TrainFindings(Tabular, Result):
+    """Results of a search in a train.
 
     See Also
     --------
-    search_train : gives it.
+    search_train : returns it.
     """
+
+    ROWS = "search.tooth_numbers_report:assignment_rows"
+    MEANINGS: ClassVar = {
+        "error of *": "Speed of the output over the requested speed, minus 1 [1].",
+        "*": "Tooth count of the wheel.",
+    }
+
+    PAGE = "search.tooth_numbers_report:describe_assignments"
 
     KEYS = (
         *(Key("train", "name"), "by", "complete", "ranked", "considered", "count", "remarks", "parts", "solutions"),
@@ -165,20 +174,25 @@ class TrainFindings(Result):
     )
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     by: By
-    """The order of the solutions."""
+    """Order of the solutions."""
     best: int
-    """How many were asked for."""
+    """Requested number of solutions."""
     parts: tuple[PartFindings, ...]
-    """Independent parts; any solution of one goes with any solution of another."""
+    """Independent parts; their solutions can be combined freely."""
     links: Mapping[str, str]
     """Free wheel -> its link."""
     remarks: tuple[str, ...] = ()
-    """What the reader should know: outputs that no free wheel moves, and whether they are right."""
+    """Remarks, such as on outputs that no free wheel influences and that violate their requirements."""
     where: tuple[Standing, ...] = ()
-    """Where the assignments stand that were asked about."""
+    """Ranks of the queried assignments."""
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
+
+    def _summary(self) -> str:
+        return f"{self.name}: {len(self.parts)} parts, " + ", ".join(
+            f"{len(part.solutions)} solutions" for part in self.parts[:4]
+        )
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -192,55 +206,56 @@ class TrainFindings(Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """Whether the search was whole, though it may have been of a sample."""
+        """ "interrupted" if the search was interrupted, otherwise "whole", even if only a sample was searched."""
         return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
     def ranked(self) -> bool:
-        """True if the solutions of every part are shown to be its best."""
+        """True if it is proved that the solutions of every part are its best."""
         return all(part.ranked for part in self.parts)
 
     @property
     def count(self) -> int:
-        """Assignments of all free wheels that meet everything: the product over the parts."""
+        """Number of assignments of all free wheels that satisfy all requirements: the product over the parts."""
         return prod(part.count for part in self.parts)
 
     @property
     def considered(self) -> int:
-        """Assignments of all free wheels that there are."""
+        """Number of assignments of all free wheels."""
         return prod(part.considered for part in self.parts)
 
     @property
     def solutions(self) -> tuple[Assignment, ...]:
-        """The best assignments of all free wheels, made of the solutions of the parts, in the order asked for."""
+        """Best assignments of all free wheels, combined from the solutions of the parts, in the requested order."""
         return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
 
     def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
-        """Where an assignment stands in each part all of whose wheels it names: its errors, its rank, what refuses it.
+        """Return the rank, errors and violated constraints of an assignment in each part whose wheels it includes.
 
         Parameters
         ----------
         teeth : mapping of str to int
-            Free wheel -> count. `QuestionError` for wheels that are not free, and if they make up no part as a whole.
+            Free wheel -> tooth count. `QuestionError` is raised for wheels that are not free, and if no part is
+            complete.
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
         if not whole or self._stand is None:
-            why = f"its parts are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
-            raise QuestionError(Problem("the assignment names no part as a whole", why, "give the missing counts"))
+            why = f"the parts of the train are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
+            raise QuestionError(Problem("the assignment includes no complete part", why, "give the missing counts"))
         return tuple(self._stand(at, teeth) for at in whole)
 
     def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:
-        """The plain declaration that writes a solution down, as a change of the train it was found for.
+        """Return a declaration of a solution as plain data that extends the original train.
 
         Parameters
         ----------
         solution : Assignment or mapping of str to int
-            Of the whole or of one part. `QuestionError` for wheels that are not free.
+            Solution of the whole train or of one part. `QuestionError` is raised for wheels that are not free.
         parent : str
-            What it extends: a shipped train, or a path relative to where it will be written.
+            Train to extend: a shipped train, or a path relative to the file to be written.
         name : str
-            Of the new train; default that of the train with "-found".
+            Name of the new train; by default the name of the train with "-found".
         """
         teeth = solution.teeth if isinstance(solution, Assignment) else solution
         self._check(teeth)
@@ -253,14 +268,14 @@ class TrainFindings(Result):
         for wheel in teeth:
             if wheel not in self.links:
                 fix = f"the free wheels are {', '.join(self.links)}"
-                raise QuestionError(Problem(f"wheel '{wheel}' is not free", "the search did not look for it", fix))
+                raise QuestionError(Problem(f"wheel '{wheel}' is not free", "the search did not vary it", fix))
 
 
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
-    """The best combinations of one solution of each part, best first.
+    """Yield the best combinations of one solution of each part, best first, by a search with a priority queue.
 
-    Every part's solutions are in order, so the next best combination is one step further in one part than one that has
-    come already. (Distinct counts do not add up over parts; there the order is as good as the steps.)
+    The solutions of every part are sorted, so the next best combination is one step in one part from a combination that
+    was already visited. (Numbers of distinct counts do not add over parts; that order is therefore only approximate.)
     """
     if not parts or not all(parts):
         return

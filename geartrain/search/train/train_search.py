@@ -1,4 +1,4 @@
-"""Tooth numbers in a train: every assignment of its free wheels with which all outputs meet their requirements."""
+"""Search for tooth counts in a train: all assignments of its free wheels that satisfy all requirements."""
 
 from __future__ import annotations
 
@@ -29,49 +29,55 @@ from geartrain.search.train.search_passes import NOT_BEGUN, AssignmentOrder, Par
 from geartrain.search.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
 from geartrain.train import Train
 
-# How far to look: a tolerance that holds the best assignments asked for, and not too many to list.
+# Choice of a tolerance that includes the requested number of assignments, and not too many to list.
 
 
 _LISTED = 100_000
-"""Assignments that are brought out to find the best few by error; more are narrowed down first."""
-_TRIES = 40  # passes with one tolerance after the other
-_MINIMUM = Fraction(1, 10**40)  # tolerances past these hold nothing, or all there is
+"""Maximum number of assignments that are enumerated to find the best by error; if there are more, the tolerance is
+reduced.
+"""
+_TRIES = 40  # maximum number of passes with different tolerances
+_MINIMUM = Fraction(1, 10**40)  # smaller tolerances include nothing, tolerances above `_WIDEST` include everything
 _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """The pass that counts, the best assignments, and whether they are shown to be the best."""
-    if any(asking.approached for asking in search.part.askings):
+    """Return the pass that counts, the best assignments, and whether they are proved to be the best."""
+    if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.tally.best, passed.tally.listed and passed.complete
     by_error = search.order.by == "error" and not search.order.level
-    passed = search.run(None, _most(search) if by_error else search.limit / 8)
+    passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.tally.listed or not passed.complete:
         return passed, passed.tally.best, passed.tally.listed and passed.complete
-    top, some = _top(search), ceil(sqrt(search.order.best * _most(search)))
-    guess = top * Fraction(some, passed.tally.count) if _powers(search) == 1 else top / 10
+    # geometric mean of the number needed and the number that can be listed
+    top, some = _error_bound(search), ceil(sqrt(search.order.best * _list_limit(search)))
+    # with one inexact output the number of solutions is about proportional to the tolerance
+    guess = top * Fraction(some, passed.tally.count) if _count_inexact(search) == 1 else top / 10
     narrowed = _fitting(search, guess, top, some)
     return passed, narrowed.tally.best, by_error and narrowed.tally.listed and narrowed.complete
 
 
 def widened(search: PartSearch) -> PassResult:
-    """A pass with a tolerance that holds as many assignments as are wanted, or all there are."""
-    return _fitting(search, _first(search), None, 3 * search.order.best)
+    """Run passes until the tolerance includes the requested number of assignments, or all."""
+    return _fitting(search, _initial_tolerance(search), None, 3 * search.order.best)
 
 
 def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: int) -> PassResult:
-    """A pass with a tolerance in which enough lie, all of them listed.
+    """Find a tolerance that includes enough assignments, all of them listed, and return its pass.
 
-    long   a tolerance that holds too many to list; None if none is known
-    some   how many it should hold, about
-    Where no tolerance will do, because too many have one error, the pass lists what it can in its time.
+    long   a tolerance that includes too many to list; None if none is known
+    some   approximate number of assignments it should include
+
+    If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
+    enumerate within its limit.
     """
     short = Fraction(0)
     for _ in range(_TRIES):
         share = _rounded(guess)
         if share < _MINIMUM or share > _WIDEST or (long is not None and not short < share < long):
             break
-        passed = search.run(share, _most(search))
+        passed = search.run(share, _list_limit(search))
         enough = passed.tally.count >= search.order.best
         if not passed.complete or (enough and passed.tally.listed):
             return passed
@@ -82,166 +88,168 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
             short = share
             guess = share * _growth(search, passed.tally.count, some)
         if short and long is not None:
-            # between too few and too many, halved in logarithms
+            # bisection of the logarithm, between too few and too many
             guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
     if long is None:
         return search.run(None, search.limit / 8)
     return search.run(long if short else Fraction(0), search.limit / 8)
 
 
-def _most(search: PartSearch) -> int:
-    """How many assignments are brought out at most to find the best by error."""
+def _list_limit(search: PartSearch) -> int:
+    """Return the maximum number of assignments that are enumerated to find the best by error."""
     return max(_LISTED, 4 * search.order.best)
 
 
-def _powers(search: PartSearch) -> int:
-    """How many outputs have an error to narrow."""
-    return sum(not asking.exact for asking in search.part.askings)
+def _count_inexact(search: PartSearch) -> int:
+    """Return the number of outputs that have an error."""
+    return sum(not requirement.exact for requirement in search.part.requirements)
 
 
-def _first(search: PartSearch) -> Fraction:
-    """The tolerance in which about as many lie as are wanted."""
+def _initial_tolerance(search: PartSearch) -> Fraction:
+    """Estimate the tolerance that includes about the requested number of assignments."""
     trial = Fraction(1, 1000)
-    # hits grow as the tolerance to the power of the outputs that have an error
+    # the number of hits is proportional to the tolerance to the power of the number of outputs with errors
     hits = size_of(search.domains) * prod(search.chances(search.requested(trial)).values())
-    # 1e-300: a forecast may be so small that it is 0 in float64
-    guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_powers(search), 1))
+    # 1e-300: a forecast may underflow to 0 in float64
+    guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_count_inexact(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))
 
 
 def _growth(search: PartSearch, count: int, some: int) -> Fraction:
-    """By how much to widen when only `count` were found."""
-    # nothing found: as wide a step as is taken
+    """Return the factor by which to increase the tolerance if only `count` assignments were found."""
+    # nothing found: the maximum step
     missing = some / count if count else 1e9
-    return Fraction(min(10.0, max(1.5, missing ** (1 / max(_powers(search), 1)))))
+    return Fraction(min(10.0, max(1.5, missing ** (1 / max(_count_inexact(search), 1)))))
 
 
 def _rounded(share: Fraction) -> Fraction:
-    """To two digits, so that it can be said in words."""
+    """Round to two digits, so that the tolerance is easy to print."""
     return Fraction(f"{float(share):.1e}")
 
 
-def _top(search: PartSearch) -> Fraction:
-    """No solution has a larger error than this."""
+def _error_bound(search: PartSearch) -> Fraction:
+    """Return an upper bound of the error of all solutions."""
     largest = Fraction(0)
-    for asking in search.part.askings:
-        requested = asking.requested(None)
+    for requirement in search.part.requirements:
+        requested = requirement.requested(None)
         for interval in requested.intervals if requested else ():
             for end in interval:
-                errors = [abs(one.error(end)) for one in asking.demands if one.graded and end is not None]
+                errors = [abs(one.error(end)) for one in requirement.demands if one.graded and end is not None]
                 largest = max([largest, *errors])
     return largest or Fraction(1)
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:
-    """The same search with every graded demand approached: what comes nearest."""
-    askings = tuple(
-        replace(asking, demands=tuple(one.loosened() if one.graded else one for one in asking.demands))
-        for asking in search.part.askings
+    """Return the search with every graded requirement replaced by the minimisation of its error."""
+    requirements = tuple(
+        replace(requirement, demands=tuple(one.loosened() if one.graded else one for one in requirement.demands))
+        for requirement in search.part.requirements
     )
-    part = replace(search.part, askings=askings)
-    order = replace(search.order, by="error", best=1, askings=askings)
+    part = replace(search.part, requirements=requirements)
+    order = replace(search.order, by="error", best=1, requirements=requirements)
     return PartSearch(part, order, search.runner, search.limit)
 
 
-# Why a search found little: where the assignments went, what comes nearest, and what to relax.
+# Explanation of short results: rejected assignments, nearest miss, constraints to relax.
 
 
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
-    """The tallies of a pass; where nothing was found, also the nearest miss and what would help."""
+    """Return the rejected assignments of a pass by reason; without a solution also the nearest miss and suggestions."""
     found = tallied(search, passed)
     if passed.tally.count or not passed.complete:
         return found
-    # an explanation must not cost more than the answer
-    nearest, advice = _explained(PartSearch(search.part, search.order, search.runner, search.limit / 4))
+    # the explanation must not cost more than the search
+    nearest, advice = _explain(PartSearch(search.part, search.order, search.runner, search.limit / 4))
     return found if search.runner.stopped else replace(found, nearest=nearest, advice=advice)
 
 
 def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
-    """How many assignments each rule and demand refused, in the order in which they were decided."""
-    removed = dict(search.alone)
+    """Return the number of assignments that each constraint and requirement rejected, in the order of evaluation."""
+    removed = dict(search.removed_first)
     for reason, number in passed.removed.items():
         removed[reason] = removed.get(reason, 0) + number
     return Shortfall(search.part.considered, removed)
 
 
-def _explained(search: PartSearch) -> tuple[str, str]:
-    """The nearest miss in words, and what to relax."""
-    wrong = [asking for asking in search.part.askings if _turns_wrong(asking)]
+def _explain(search: PartSearch) -> tuple[str, str]:
+    """Describe the nearest miss, and the constraints to relax."""
+    wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(requirement)]
     if wrong:
-        names = ", ".join(f"'{asking.name}'" for asking in wrong)
-        return f"{names} turn in the other sense, whatever the counts", "change the sign asked for, or add an idler"
+        names = ", ".join(f"'{requirement.name}'" for requirement in wrong)
+        return f"{names} turn in the opposite sense for all counts", "change the required sign, or add an idler"
     best = _nearest(search)
-    others = "; ".join(_without(search))
+    others = "; ".join(_relaxations(search))
     if best is None:
-        return "", others or "nothing asked is to blame alone: widen the ranges of the wheels"
-    alone = "; ".join(_alone(search)) if len(search.part.askings) > 1 else ""
-    nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (alone, {alone})" if alone else "")
-    advice = f"with a relative tolerance of {_up(best.error)} this one is in"
+        return "", others or "no single requirement is the cause: widen the ranges of the wheels"
+    alone = "; ".join(_individual_errors(search)) if len(search.part.requirements) > 1 else ""
+    nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (individually, {alone})" if alone else "")
+    advice = f"a relative tolerance of {_rounded_up(best.error)} includes it"
     return nearest, advice + (f"; {others}" if others else "")
 
 
-def _turns_wrong(asking: OutputRequirement) -> bool:
-    """True if a sense is asked for that no counts give."""
-    requested = asking.requested(None)
-    senses = [_sense(terms) for terms in (asking.function.numerator, asking.function.denominator)]
+def _has_wrong_sense(requirement: OutputRequirement) -> bool:
+    """Return whether the required sense of rotation cannot be obtained with any counts."""
+    requested = requirement.requested(None)
+    senses = [_sense(terms) for terms in (requirement.function.numerator, requirement.function.denominator)]
     if requested is None or not all(senses):
         return False
     lasting = senses[0] * senses[1]
-    return bool(requested.intervals) and all(_against(interval, lasting) for interval in requested.intervals)
+    return bool(requested.intervals) and all(_is_opposite(interval, lasting) for interval in requested.intervals)
 
 
-def _against(interval: Interval, sense: int) -> bool:
-    """True if an interval has speeds of the other sense, and none of this one."""
+def _is_opposite(interval: Interval, sense: int) -> bool:
+    """Return whether an interval has only speeds of the opposite sense."""
     low, high = interval
-    # an interval whose end is 0 is met by a standstill, so it is not of the other sense alone
+    # an interval that ends at 0 includes rest, so it is not only of the opposite sense
     near, far = (high, low) if sense > 0 else (low, high)
     return near is not None and near * sense <= 0 and far != 0
 
 
 def _sense(terms: Sequence[WholeTerm]) -> int:
-    """1 or -1 where all terms have that sign, else 0."""
+    """Return the common sign of all terms, 1 or -1, or 0 if they differ."""
     signs = {term[0] > 0 for term in terms}
     return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
-    """What comes nearest, with all rules kept; None if the rules leave nothing, or it cannot be found in time."""
-    if not search.part.askings or not size_of(search.domains):
+    """Return the assignment with the minimum error that satisfies all constraints; None if none was found within the
+    limit.
+    """
+    if not search.part.requirements or not size_of(search.domains):
         return None
     best = widened(relaxed_search(search)).tally.best
     return search.order.assignment(best[0].teeth) if best else None
 
 
-def _alone(search: PartSearch) -> Iterator[str]:
-    """How near every output comes when the others are not asked."""
-    for asking in search.part.askings:
-        part = replace(search.part, askings=(asking,))
-        order = replace(search.order, askings=(asking,))
+def _individual_errors(search: PartSearch) -> Iterator[str]:
+    """Yield the minimum error of each output without the requirements on the others."""
+    for requirement in search.part.requirements:
+        part = replace(search.part, requirements=(requirement,))
+        order = replace(search.order, requirements=(requirement,))
         best = _nearest(PartSearch(part, order, search.runner, search.limit))
         if best is not None:
-            yield f"{asking.name} comes to {decimal(best.error, 3)}"
+            yield f"{requirement.name} has an error of {decimal(best.error, 3)}"
 
 
-def _without(search: PartSearch) -> Iterator[str]:
-    """What there would be without one rule, or one output's demands, where there is more than one thing asked."""
+def _relaxations(search: PartSearch) -> Iterator[str]:
+    """Yield the number of solutions without one constraint, or without one output, if there are several."""
     names = dict.fromkeys(rule.name for rule in search.part.rules)
-    if len(names) + len(search.part.askings) < 2:
+    if len(names) + len(search.part.requirements) < 2:
         return
     for name in names:
         passed = search.without(rule=name).run(None, 0)
         if passed.tally.count:
-            yield f'without the rule "{name}" there {_are(passed)}'
-    for asking in search.part.askings:
-        passed = search.without(asking=asking).run(None, 0)
+            yield f'without the constraint "{name}" there {_solution_count(passed)}'
+    for requirement in search.part.requirements:
+        passed = search.without(requirement=requirement).run(None, 0)
         if passed.tally.count:
-            yield f"without what is asked of '{asking.name}' there {_are(passed)}"
+            yield f"without the requirement on '{requirement.name}' there {_solution_count(passed)}"
 
 
-def _are(passed: PassResult) -> str:
+def _solution_count(passed: PassResult) -> str:
     count = passed.tally.count
     minimum = "" if passed.complete else "at least "
-    return f"is {minimum}1" if count == 1 else f"are {minimum}{count}"
+    return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
 
 
 def _teeth(assignment: Assignment) -> str:
@@ -255,8 +263,8 @@ def _errors(assignment: Assignment) -> str:
     )
 
 
-def _up(error: Fraction) -> str:
-    """A size rounded up to two digits."""
+def _rounded_up(error: Fraction) -> str:
+    """Format a magnitude rounded up to two digits."""
     if not error:
         return "0"
     unit = Fraction(10) ** (floor(log10(error)) - 1)
@@ -264,12 +272,12 @@ def _up(error: Fraction) -> str:
 
 
 LIMIT = 10**9
-"""Steps (partial assignments looked at) that a pass may take by default: a few minutes."""
+"""Default maximum number of steps (partial assignments examined) of a pass: a few minutes."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainSearchRequest:
-    """What is requested of a search for tooth numbers in a train; fields are the arguments of `search_train`."""
+    """Request of a search for tooth counts in a train; its fields are the arguments of `search_train`."""
 
     train: Train
     state: str | None = None
@@ -279,10 +287,10 @@ class TrainSearchRequest:
     best: int = 20
     by: By = "error"
     where: tuple[Mapping[str, int], ...] = ()
-    """Assignments whose place among all is requested besides."""
+    """Assignments whose ranks are also requested."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data: equal for two requests that need the same work."""
+        """Return plain data, equal for two requests that need the same computation."""
         return {
             "train": self.train.model_dump(mode="json"),
             "state": self.state,
@@ -295,13 +303,14 @@ class TrainSearchRequest:
 
 
 def answer_search(request: TrainSearchRequest, execution: Execution | None = None) -> TrainFindings:
-    """Answer a request: the solutions of `search_train`, and where the requested assignments are among them.
+    """Run a request: the solutions of `search_train`, and the ranks of the queried assignments.
 
     Parameters
     ----------
     request : TrainSearchRequest
+        Request of the search.
     execution : Execution, optional
-        How the tasks are done; default in this process.
+        Execution of the tasks; by default in this process.
     """
     run = execution or Execution()
     found = search_train(
@@ -333,53 +342,56 @@ def search_train(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> TrainFindings:
-    """All tooth counts of a train's free wheels that meet every requirement, counted, and the best: an exact join.
+    """Find all tooth counts of the free wheels of a train that satisfy every requirement, count them, and list the
+    best.
 
-    Lists of products of counts are joined along what the outputs share, so that far more assignments are counted than
-    could be listed; integers decide. What is required of an output: its `expect` and `published`, at their digits and
-    in their sense; every target that has a tolerance; with `tolerance`, the first target where none has. An output with
-    targets and none of all these is approached: the best `best` by error are found, proved by widening a common
-    tolerance.
+    The algorithm is an exact join of lists of products of counts along the factors that the outputs share, so that many
+    more assignments can be counted than listed; all comparisons are in integers. The requirements on an output are its
+    `expect` and `published`, at their digits and in their sense; every target that has a tolerance; and, with
+    `tolerance`, the first target if none has one. The error of an output with targets but without any of these is
+    minimised: the `best` assignments by error are found, and proved by increasing a common tolerance.
 
     Parameters
     ----------
     train : Train
         The declaration, such as `geartrain.load(name).declaration`.
     state : str, optional
-        In which state of a train with states; default in all of them at once.
+        State of a train with states; by default the requirements of all states.
     free : str or sequence of str
-        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those and all wheels whose count has a `range`
-        or `choices`. Or wheels by name, which must have one of the three. Wheels without any count are free anyway.
+        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those, and all wheels whose count has a `range`
+        or `choices`. Otherwise names of wheels, each of which must have one of the three. Wheels without any count are
+        always free.
     rules : ConstraintOptions or sequence of constraints, optional
-        What else must hold of the counts; default what holds without being asked for, `ConstraintOptions()`.
+        Further constraints on the counts; by default `ConstraintOptions()`.
     tolerance : Fraction, optional
-        Relative, for targets that have none: the first target of an output none of whose targets has one.
+        Relative tolerance for the first target of an output none of whose targets has one.
     best : int
-        How many solutions to list.
+        Maximum number of solutions to list.
     by : {"error", "total", "largest", "distinct", "change"}
-        Their order: largest error of an output, total teeth, largest wheel, distinct counts, or wheels changed from
-        their declared count; ties by error, total, largest, and the counts.
+        Primary criterion of their order: maximum error of an output, sum of counts, largest count, number of distinct
+        counts, or number of wheels changed from their declared count. Ties are broken by error, total, largest count,
+        and the counts.
     limit : int
-        Steps (partial assignments looked at) that a pass may take; beyond them a sample is searched, and `complete` is
-        False.
+        Maximum number of steps (partial assignments examined) of a pass. If it is exceeded, a random sample is
+        searched, and `complete` is False.
     executor : concurrent.futures.Executor, optional
-        Where tasks run; default in this process. The answer does not depend on it.
+        Executor of the tasks; this process by default. It does not change the result.
     journal : Journal, optional
-        Where finished work is kept, for a run that may be cut.
+        Store of finished tasks, so that an interrupted run can be resumed.
     tell : callable, optional
-        Called with (tasks done, tasks in all).
+        Progress function, called with (tasks done, total tasks).
 
     Returns
     -------
     TrainFindings
-        Part by part. Interrupted from the keyboard, it holds what is known, with `complete` False.
+        Results part by part. After a keyboard interrupt they include the finished tasks, with `complete` False.
 
     Raises
     ------
     QuestionError
-        If no wheel is free, nothing is required of them, or there is no such order or state.
+        If no wheel is free, nothing is required of them, or the order or state does not exist.
     RangeError
-        For a range of counts that is too wide to be listed.
+        If a range of counts is too large to list.
 
     References
     ----------
@@ -388,7 +400,7 @@ def search_train(
     Examples
     --------
     The lost wheels of the planets' trains (Pennestri, Valentini and Petti 2002, Table 6), within a quarter per cent;
-    of 35,937 assignments for Jupiter 15 will do:
+    of 35,937 assignments for Jupiter 15 are solutions:
 
     >>> import geartrain
     >>> found = search_train(geartrain.load("pennestri-2002-missing").declaration, best=1)
@@ -399,18 +411,22 @@ def search_train(
     {'JO1': 31, 'JO2': 55, 'JX': 31}
     """
     if by not in ORDERS:
-        raise QuestionError(Problem(f"there is no order '{by}'", "solutions have others", suggest(by, ORDERS)))
+        raise QuestionError(
+            Problem(f"unknown order '{by}'", "the order is one predefined criterion", suggest(by, ORDERS))
+        )
     domains = find_domains(train, free)
     demands = find_requirements(train, state, domains, tolerance)
     if rules is None or isinstance(rules, ConstraintOptions):
         rules = find_constraints(train, domains, rules or ConstraintOptions())
-    if not demands.askings and not rules:
-        fix = "declare `targets`, or an `expect`, at an output that the wheels move"
-        raise QuestionError(Problem("nothing is asked of the free wheels", "no output depends on them", fix))
+    if not demands.requirements and not rules:
+        fix = "declare `targets`, or an `expect`, at an output that the wheels influence"
+        raise QuestionError(
+            Problem("nothing is required of the free wheels", "no output with a requirement depends on them", fix)
+        )
     declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
     runner = PassRunner(executor, journal, tell)
     searches = [
-        PartSearch(part, AssignmentOrder(by, max(best, 1), part.askings, declared), runner, float(limit))
+        PartSearch(part, AssignmentOrder(by, max(best, 1), part.requirements, declared), runner, float(limit))
         for part in find_parts(demands, domains, rules)
     ]
     parts = tuple(_found(one) for one in searches)
@@ -420,7 +436,7 @@ def search_train(
 
 
 def _found(search: PartSearch) -> PartFindings:
-    """All that is said of a part."""
+    """Search one part and return its findings."""
     try:
         passed, solutions, ranked = solve(search)
     except KeyboardInterrupt:
@@ -429,8 +445,8 @@ def _found(search: PartSearch) -> PartFindings:
     part = search.part
     return PartFindings(
         tuple(part.domains),
-        tuple(asking.name for asking in part.askings),
-        tuple(asking.text for asking in part.askings),
+        tuple(requirement.name for requirement in part.requirements),
+        tuple(requirement.text for requirement in part.requirements),
         tuple(dict.fromkeys(rule.name for rule in part.rules)),
         part.considered,
         passed.tally.count,
@@ -452,27 +468,28 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Why a part is not complete or not ranked, in words."""
+    """Describe why a part is not complete or not ranked; empty if it is."""
     if passed.tally.stopped:
-        return "interrupted: the count is of what had been searched"
+        return "interrupted: the count covers only the finished part"
     if passed.searched < 1:
         share = decimal(Fraction(passed.searched), 2)
-        return f"about {passed.steps:.1e} steps and a limit of {search.limit:.1e}: a random part, {share}, was searched"
+        limit = f"{search.limit:.1e}"
+        return f"about {passed.steps:.1e} steps, above the limit of {limit}: a random share of {share} was searched"
     if passed.tally.cut:
         return f"the limit of {search.limit:.1e} steps was reached"
     if not ranked and search.runner.stopped:
-        return "interrupted: all are counted, the best are not listed"
-    return "" if ranked else f"too many to bring them all out within {search.limit:.1e} steps"
+        return "interrupted: all solutions are counted, the best are not listed"
+    return "" if ranked else f"too many solutions to list them all within {search.limit:.1e} steps"
 
 
 @dataclass(frozen=True, slots=True)
 class _Standings:
-    """Answers where an assignment stands, by counting what comes before it."""
+    """Ranks of assignments, by counting the assignments with smaller errors."""
 
     searches: tuple[PartSearch, ...]
 
     def find(self, part: int, teeth: Mapping[str, int]) -> Standing:
-        """For one part, all of whose wheels are in `teeth`."""
+        """Return the rank in one part, all of whose wheels are in `teeth`."""
         search = self.searches[part]
         own = {wheel: teeth[wheel] for wheel in search.part.domains}
         assignment = search.order.assignment(own)
@@ -482,12 +499,14 @@ class _Standings:
 
 
 def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment | None) -> list[str]:
-    """All that refuses an assignment, in words."""
+    """Return the descriptions of all constraints and requirements that reject an assignment."""
     import numpy as np
 
     columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}
     found = [
-        f"'{wheel}' is not to have {count} teeth" for wheel, count in teeth.items() if count not in part.domains[wheel]
+        f"{count} teeth are not admissible for '{wheel}'"
+        for wheel, count in teeth.items()
+        if count not in part.domains[wheel]
     ]
     found += [rule.name for rule in part.rules if not rule.holds(columns).all()]
     for requested in part.conditions:
@@ -496,16 +515,16 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
             found.append(requested.name)
     if assignment is None:
         return [*found, "the train is locked or free"]
-    askings = {asking.name: asking for asking in part.askings}
+    requirements = {requirement.name: requirement for requirement in part.requirements}
     for name, reached in assignment.outputs.items():
         if not reached.met:
-            found.append(f"{askings[name].text}: {decimal(reached.error, 3)} off")
+            found.append(f"{requirements[name].text}: error {decimal(reached.error, 3)}")
     return found
 
 
 def _rank(search: PartSearch, assignment: Assignment) -> int | None:
-    """One more than the number of assignments with a smaller error."""
-    if not assignment.error or not search.part.askings:
+    """Return one plus the number of assignments with a smaller error; None if the count is not complete."""
+    if not assignment.error or not search.part.requirements:
         return 1
     passed = search.run(assignment.error, 0, strict=True)
     return passed.tally.count + 1 if passed.complete else None

@@ -1,4 +1,4 @@
-"""`geartrain teeth train FILE`: the free wheels of a train."""
+"""Command `geartrain teeth train FILE`: search for the tooth counts of the free wheels of a train."""
 
 from __future__ import annotations
 
@@ -17,42 +17,48 @@ Flag = bool
 def run(
     file: File,
     free: Annotated[
-        str, typer.Option("--free", help="Which wheels: search, uncertain, or wheels by name with commas.")
+        str, typer.Option("--free", help="Wheels to vary: search, uncertain, or names separated by commas.")
     ] = "search",
     state: StateName = None,
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres, change.")
+        str, typer.Option("--by", help="Order of the solutions: error, total, largest, distinct, change.")
     ] = "error",
-    planets: Annotated[str | None, typer.Option("--planets", help="Equal planets: 3, or carrier=3,...")] = None,
+    planets: Annotated[
+        str | None, typer.Option("--planets", help="Number of equal planets: 3, or carrier=3,...")
+    ] = None,
     clearance: Annotated[
-        str | None, typer.Option("--clearance", help="Room between the tips of neighbouring planets, in modules.")
+        str | None,
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
     ] = None,
     undercut: Annotated[
-        str | None, typer.Option("--undercut", help="No wheel is undercut at this pressure angle.")
+        str | None, typer.Option("--undercut", help="Pressure angle at which no wheel may be undercut.")
     ] = None,
     interference: Annotated[
-        str | None, typer.Option("--interference", help="Tips keep to the involute of their mates at this angle.")
+        str | None, typer.Option("--interference", help="Pressure angle at which tips must not interfere.")
     ] = None,
     largest_radius: Annotated[
-        str | None, typer.Option("--largest-radius", help="Of a free wheel: a length, or modules.")
+        str | None, typer.Option("--largest-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
     ] = None,
-    addendum: Annotated[str | None, typer.Option("--addendum", help="Of wheels, in modules.")] = None,
-    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Of rings, in modules.")] = None,
+    addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels [modules].")] = None,
+    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings [modules].")] = None,
     minimum: Annotated[int | None, typer.Option("--minimum", help="Minimum tooth count of a free wheel.")] = None,
-    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Most teeth of a free wheel.")] = None,
+    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Maximum tooth count of a free wheel.")] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Half modules by which centre distances may differ.")
+        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
     ] = 0,
     coaxial: Annotated[
-        bool | None, typer.Option("--coaxial/--no-coaxial", help="Wheels between the same axes fit in one module.")
+        bool | None,
+        typer.Option("--coaxial/--no-coaxial", help="Require equal centre distances between the same axes."),
     ] = None,
-    hunting: Annotated[Flag, typer.Option("--hunting", help="Wheels that mesh have no common divisor.")] = False,
-    different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
-    closure: Annotated[Flag, typer.Option("--closure", help="Teeth of loops meet at the declared positions.")] = False,
+    hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
+    different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
+    closure: Annotated[
+        Flag, typer.Option("--closure", help="Require that teeth of loops mesh at the declared positions.")
+    ] = False,
     where: Annotated[
-        Names, typer.Option("--where", help="Where an assignment stands: wheel=32,wheel=50; may be repeated.")
+        Names, typer.Option("--where", help="Report the rank of an assignment: wheel=32,wheel=50; may be repeated.")
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
@@ -63,7 +69,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Counts of the free wheels of a train that meet all its targets at once, under the rules given."""
+    """Find tooth counts of the free wheels of a train that satisfy all its targets and the given constraints."""
     from geartrain.search.constraints.constraint_options import read_constraint_options
     from geartrain.search.tooth_numbers_report import assignment_rows, describe_assignments
     from geartrain.search.train.train_search import TrainSearchRequest, answer_search
@@ -109,7 +115,7 @@ def run(
 
 
 def _assignment(text: str) -> dict[str, int]:
-    """`o1=32,o2=50`."""
+    """Parse an assignment such as `o1=32,o2=50`."""
     try:
         pairs = (part.split("=") for part in text.split(","))
         return {name.strip(): int(count) for name, count in pairs}
@@ -118,13 +124,13 @@ def _assignment(text: str) -> dict[str, int]:
 
 
 def _check_kept(file: str, out: Path | None) -> None:
-    """A solution extends the train: it cannot take its place, and a table must not."""
+    """Raise `typer.BadParameter` if the output file is the train itself, which a solution extends."""
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
         raise typer.BadParameter(f"'{out}' is the train itself; write to another file", param_hint="-o")
 
 
 def _parent(file: str, out: Path | None) -> str:
-    """What a solution extends, as seen from the file it is written to."""
+    """Return the train that a solution extends, relative to the file to be written."""
     import os
 
     from geartrain.train.declaration_files import shipped

@@ -43,10 +43,7 @@ if TYPE_CHECKING:
 _SLOPE = 1e-12  # relative tolerance, over the mean ratio, of tables of the speed that are differentiated
 _DEGREE = 9
 _LEAP = 1e-7  # relative to the larger of the input's and the link's maximum speed: smaller jumps are rounding
-_MANY, _TABLES = (
-    8,
-    1e-11,
-)  # trains with more pairs than this use tables of the transmission functions, with this tolerance [pitches]
+_MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of their functions, tolerance in pitches
 _NUMBERS = 1 << 22  # maximum number of matrix entries in one batch
 
 FlankArms = tuple[Callable[["Floats"], "Floats"], Callable[["Floats"], "Floats"]]
@@ -95,33 +92,33 @@ class InertialContacts:
         if tolerance is None and len(moving.circuits) > _MANY:
             tolerance = _TABLES
         self.motion = Motion(moving, outputs, tolerance)
-        self.sources: tuple[PairErrorSource, ...] = self.motion.ahead.sources
+        self.sources: tuple[PairErrorSource, ...] = self.motion._forward.sources
 
     # ----------------------------------------------------------------------------------------------- what it is made of
 
     @property
     def pairs(self) -> tuple[str, ...]:
         """Names of pairs and couplings."""
-        return self.motion.spread.pairs
+        return self.motion._propagation.pairs
 
     @cached_property
     def _response(self) -> Floats:
         """Response R: angles of links to a unit error of each single pair. Shape (links, pairs)."""
-        return self.motion.spread.errors(np.eye(len(self.pairs)))
+        return self.motion._propagation.errors(np.eye(len(self.pairs)))
 
     @cached_property
     def _gain(self) -> Floats:
         """Gain G: driver's angle of each source by the error of each pair. Shape (sources, pairs)."""
         rows = np.zeros((len(self.sources), len(self.pairs)))
         for row, source in enumerate(self.sources):
-            for link, sign in self.motion.ahead.turned_by(source):
+            for link, sign in self.motion._forward.turned_by(source):
                 rows[row] += sign * self._response[link]
         return rows
 
     @cached_property
     def _coupling(self) -> ErrorCoupling:
         of_pair = {source.pair: at for at, source in enumerate(self.sources)}
-        blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion.spread.parts]
+        blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion._propagation.parts]
         return ErrorCoupling(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
 
     @cached_property
@@ -155,8 +152,7 @@ class InertialContacts:
     # ----------------------------------------------------------------------------------------------------- at positions
 
     def _state(self, turns: Floats) -> _State:
-        # errors of `motion` refer to outputs with offsets, which are removed here
-        composition = self.motion.ahead
+        composition = self.motion._forward
         found = self.motion.at(turns)
         offsets = np.array(composition.offsets or (0.0,) * len(self.motion.outputs))
         error = found.error - offsets[:, None]
@@ -215,9 +211,7 @@ class InertialContacts:
             yield self._senses[:, None] * self._coupling.torques(state.arm, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Subtract the driving torque of the crank that keeps the input turning, so that it supplies all
-        virtual work.
-        """
+        """Subtract the driving torque of the crank, which supplies all virtual work."""
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested

@@ -7,7 +7,6 @@ impulse decides.
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, tau
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import ToothImpact
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.numerics.arrays import Floats
-    from geartrain.report.document import Section
+    from geartrain.report.document import Document, Section
     from geartrain.simulation.contacts.inertial_contacts import InertialContacts
     from geartrain.simulation.contacts.link_inertia import LinkInertia
 
@@ -184,6 +183,8 @@ class SeparationRates(Result):
     geartrain.simulation.find_separation : Returns such an object.
     """
 
+    PAGE = "simulation.contacts.separation_rate:separation_document"
+
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
@@ -221,14 +222,16 @@ class SeparationRates(Result):
         """Links that turn and whose inertia is unknown."""
         return tuple(each.link for each in self.inertias if each.source == "unknown")
 
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(each.pair)}</td><td>{rate}</td><td>{at}</td></tr>"
-            for each, rate, at in ((each, *separation_words(each)) for each in self.pairs)
-        )
-        head = f"<tr><th>pair</th><th>separates from (turn/s)</th><th>at (turns of {html.escape(self.input)})</th></tr>"
-        text = f"rate of {html.escape(self.input)} above which flanks separate, in {self.turns:g} turns"
-        return f"<p>{text}</p><table>{head}{rows}</table>"
+    def _summary(self) -> str:
+        first = "never" if self.first is None else f"from {self.first.rate:.5g} turn/s of {self.input} at {self.pair}"
+        return f"teeth separate {first}, {len(self.pairs)} pairs"
+
+
+def separation_document(found: SeparationRates) -> Document:
+    """Return the rates of all pairs as a document."""
+    from geartrain.report.document import Document
+
+    return Document("Motion in time", (), (separation_section(found),))
 
 
 def separation_section(found: SeparationRates) -> Section:
@@ -271,8 +274,8 @@ def _first_separation(found: SeparationRates) -> str:
             "in contact."
         )
     return (
-        f"The motion is valid up to {first.rate:.5g} turn/s of '{found.input}': above this rate the teeth of {first.pair} separate, "
-        f"first {where}, because the driven side runs ahead."
+        f"The motion is valid up to {first.rate:.5g} turn/s of '{found.input}': above this rate the teeth of "
+        f"{first.pair} separate, first {where}, because the driven side runs ahead."
     )
 
 
@@ -287,7 +290,7 @@ def find_separation_rates(
     # without a common period one revolution is searched
     whole = 1.0 if period is None else float(period)
     if turns is None:
-        kinks = KinkSearch(contacts.motion.ahead).rate
+        kinks = KinkSearch(contacts.motion._forward).rate
         most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
         turns = whole if kinks * whole <= most else most / kinks
     found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)
@@ -296,9 +299,7 @@ def find_separation_rates(
 
 
 class Separation(NamedTuple):
-    """Separation of a pair above a rate [rad/s of the input] at a position [revolutions]; `leap` if a speed jumps
-    there.
-    """
+    """Separation of a pair above a rate [rad/s] at a position [revolutions]; `leap` if a speed jumps there."""
 
     pair: str
     rate: float

@@ -107,7 +107,7 @@ class TrainModel:
     def sources(self) -> Mapping[str, PairErrorSource]:
         """Pairs and pins with variable ratios, with their initial phases."""
         names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
-        return {source.id: source for source in self.motion.with_sources(names).sources}
+        return {source.id: source for source in self.motion._with_sources(names).sources}
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -295,14 +295,14 @@ class TrainModel:
         way = self.problem.way
         forward = way * (source.forward if source else 1)
         sense = way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
-        path = self.motion.path(circuit.id)
+        path = self.motion._path(circuit.id)
         signs, names = self.problem.signs, self.problem.system.links
         own, mate, base = (signs.get(names[at], 1) * self.speeds[at] for at in path[:3])
         return _sparse(forward * (own - base)), _sparse(sense * (mate - base))
 
     def _even(self, circuit: Circuit) -> ExactRatio:
         """Return the transmission function of a pair with a constant ratio."""
-        path = self.motion.path(circuit.id)
+        path = self.motion._path(circuit.id)
         own = circuit.b if path.coefficient == circuit.a else circuit.a
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 

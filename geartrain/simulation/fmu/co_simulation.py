@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from geartrain.errors import MissingExtraError
+from geartrain.numerics.results import Shown
 from geartrain.train.declaration_files import write_declaration
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ _MODULE = "geartrain_slave"
 
 
 @dataclass(frozen=True)
-class CoSimulationCase:
+class CoSimulationCase(Shown):
     """Conditions of a co-simulation unit. Every field except the state may be None; the declared value is used then.
 
     See Also

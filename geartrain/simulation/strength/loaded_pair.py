@@ -222,11 +222,10 @@ class PairUnderLoad:
 
     @property
     def _helical_bending_factor(self) -> float:
-        """Bending stress of a helical tooth over that of a spur tooth with its transverse section and the whole load at
-        one tip.
+        """Bending stress of a helical tooth over that of a spur tooth with its transverse section.
 
-        Each element of width carries its part of the lines of contact. In the normal section the tooth is thinner and
-        the load is larger.
+        The whole load of the spur tooth is at one tip. Each element of width carries its part of the lines of contact.
+        In the normal section the tooth is thinner and the load is larger.
         """
         load = self.load
         return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, HelicalContactLoad) else 1.0

@@ -7,18 +7,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.results import Result
-from geartrain.report.document import Document, Section, Table, figure, filled_table
+from geartrain.report.document import Document, Section, Table, figure, filled_table, result_table
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.simulation.strength.strength_results import (
         ArborStrength,
+        FlankStrength,
         PairStrength,
         PinContact,
         PointContact,
         TrainStrength,
         WearRange,
-        WheelForce,
+        WheelStrength,
     )
 
 _FORCES = (
@@ -81,6 +82,8 @@ class StrengthReport(Result):
     describe_strength : Its document.
     """
 
+    PAGE = "simulation.strength.strength_report:describe_strength"
+
     name: str
     """Name of the train."""
     title: str
@@ -140,12 +143,19 @@ def describe_strength(found: StrengthReport) -> Document:
     return Document(f"Strength of {found.name}", (f"Train '{found.name}'.",), tuple(sections))
 
 
+def strength_document(found: TrainStrength) -> Document | None:
+    """Return the output of `geartrain strength` for one state; None if the train is not known."""
+    declared = found._declaration
+    return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
+
+
 def strength_sections(found: TrainStrength) -> Iterator[Section]:
     """Yield the sections of one state."""
     head = "" if found.state is None else f"State {found.state}: "
     yield Section(_title(head, "Strength"), tuple(_verdict(found)))
     if found.forces:
-        yield Section(_title(head, "Forces"), (_FORCES,), (_forces(found.forces),))
+        forces = result_table(found.forces, "pair", "wheel", "radius:5", "tangential:4", "axial:4", "radial:4")
+        yield Section(_title(head, "Forces"), (_FORCES,), (forces,))
     if not found.pairs and not found.arbors and not found.points and not found.pins:
         return
     pairs = tuple(found.pairs.values())
@@ -189,19 +199,6 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
         yield "The train has no loaded gear pair."
 
 
-def _forces(forces: Sequence[WheelForce]) -> Table:
-    header = ("pair", "wheel", "radius (mm)", "tangential (N)", "axial (N)", "radial (N)")
-    rows = [
-        (*(each.pair, each.wheel, figure(each.radius, 5)), *(figure(part, 4) for part in _parts(each)))
-        for each in forces
-    ]
-    return Table(header, rows)
-
-
-def _parts(force: WheelForce) -> tuple[float, float, float | None]:
-    return force.tangential, force.axial, force.radial
-
-
 def _contact(pair: PairStrength) -> Table:
     rows = [
         (
@@ -217,41 +214,23 @@ def _contact(pair: PairStrength) -> Table:
 
 
 def _points(points: Sequence[PointContact]) -> Iterator[Table]:
-    rows = [
-        (
-            *(each.pair, figure(each.contact_ratio, 4), figure(each.normal_force, 4), figure(each.longer, 3)),
-            *(figure(each.shorter, 3), figure(each.pressure, 4)),
-        )
-        for each in points
-    ]
-    header = ("pair", "contact ratio", "force (N)", "semi-axes (mm)", "", "pressure (MPa)")
-    yield Table(header, rows)
-    wheels = [
-        (
-            *(wheel.wheel, wheel.material, figure(wheel.tip_stress, 4), _strength(wheel.strength, wheel.spread)),
-            *(figure(wheel.root_safety, 3), figure(wheel.safety, 3)),
-        )
-        for each in points
-        for wheel in each.wheels
-    ]
-    header = ("wheel", "material", "at the tip (MPa)", "strength (MPa)", "safety of root", "safety of flank")
-    yield Table(header, wheels)
+    yield result_table(
+        points,
+        *("pair", "contact_ratio:4", "force (N)=normal_force:4", "semi-axes (mm)=longer:3", "=shorter:3", "pressure:4"),
+    )
+    yield result_table(
+        (wheel for each in points for wheel in each.wheels),
+        *("wheel", "material", "at the tip (MPa)=tip_stress:4", ("strength (MPa)", _strength)),
+        *("safety of root=root_safety:3", "safety of flank=safety:3"),
+    )
 
 
 def _pins(pins: Sequence[PinContact]) -> Table:
-    header = (
-        *("pins of", "disc", "material", "pins", "width", "force (N)", "radius (mm)", "pressure (MPa)"),
-        *("strength (MPa)", "safety of disc", "stress of pin (MPa)", "safety of pin"),
+    return result_table(
+        pins,
+        *("pins of=name", "disc", "material", "pins", "width:4", "force:4", "radius:4", "pressure:4", "strength:4"),
+        *("safety of disc=contact_safety:3", "stress of pin (MPa)=pin_stress:4", "safety of pin=pin_safety:3"),
     )
-    rows = [
-        (
-            *(each.name, each.disc, each.material, str(each.pins), figure(each.width, 4), figure(each.force, 4)),
-            *(figure(each.radius, 4), figure(each.pressure, 4), figure(each.strength, 4)),
-            *(figure(each.contact_safety, 3), figure(each.pin_stress, 4), figure(each.pin_safety, 3)),
-        )
-        for each in pins
-    ]
-    return Table(header, rows)
 
 
 def _teeth(pairs: Sequence[PairStrength]) -> Table:
@@ -263,7 +242,7 @@ def _teeth(pairs: Sequence[PairStrength]) -> Table:
         (
             *(pair.pair, wheel.wheel, wheel.material, figure(pair.module, 4), figure(pair.face_width, 4)),
             *(figure(pair.tangential, 4), figure(wheel.lewis or None, 4), figure(wheel.tip_stress, 4)),
-            *(figure(wheel.shared_stress, 4), figure(wheel.pressure, 4), _strength(wheel.strength, wheel.spread)),
+            *(figure(wheel.shared_stress, 4), figure(wheel.pressure, 4), _strength(wheel)),
             *(figure(wheel.root_safety, 3), figure(wheel.contact_safety, 3)),
         )
         for pair in pairs
@@ -272,10 +251,8 @@ def _teeth(pairs: Sequence[PairStrength]) -> Table:
     return filled_table(header, rows, 9)
 
 
-def _strength(strength: float | None, spread: float | None) -> str:
-    if strength is None:
-        return "-"
-    return figure(strength, 4) + (f" +- {100 * spread:.0f} %" if spread else "")
+def _strength(wheel: WheelStrength | FlankStrength) -> str:
+    return figure(wheel.strength, 4) + (f" +- {100 * wheel.spread:.0f} %" if wheel.spread else "")
 
 
 def _iso(pairs: Sequence[PairStrength]) -> Iterator[Table]:
@@ -322,16 +299,8 @@ def _range(found: WearRange) -> str:
 
 
 def _arbors(arbors: Sequence[ArborStrength]) -> Table:
-    rows = [
-        (
-            *(each.link, each.material, figure(each.force, 4), figure(each.thrust, 4), figure(each.bending, 4)),
-            *(figure(each.torsion, 4), figure(each.stress, 4), figure(each.pivot_pressure, 4)),
-            *(figure(each.shoulder_pressure, 4), figure(each.safety, 3)),
-        )
-        for each in arbors
-    ]
-    header = (
-        *("arbor", "material", "force (N)", "thrust", "bending", "torsion", "both (MPa)", "pivot", "shoulder"),
-        "safety",
+    return result_table(
+        arbors,
+        *("arbor=link", "material", "force:4", "thrust:4", "bending:4", "torsion:4", "both (MPa)=stress:4"),
+        *("pivot_pressure:4", "shoulder_pressure:4", "safety:3"),
     )
-    return Table(header, rows)

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.results import Result, Tabular
+from geartrain.numerics.results import Result, Tabular, TrainResult
 from geartrain.simulation.strength.contact_pressure import YIELD_AT, ContactPlace
 from geartrain.simulation.strength.iso_6336 import IsoContact, IsoRoot
 
@@ -28,7 +28,7 @@ NO_WEAR = WearRange(0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class TrainStrength(FrozenFields, Tabular, Result):
+class TrainStrength(FrozenFields, Tabular, TrainResult):
     """Pressures, stresses, safety factors and wear of a train in one state (docs/strength.md).
 
     See Also
@@ -52,6 +52,15 @@ class TrainStrength(FrozenFields, Tabular, Result):
     >>> round(pair.tangential, 2), round(pair.iso.stress[0], 2), round(pair.wheels[0].iso.stress, 2)
     (1176.47, 706.85, 87.99)
     """
+
+    ROW = "WheelStrength"
+    MEANINGS: ClassVar = {
+        "pair": "Gear pair.",
+        "root_safety": "Strength over the stress at the root [1].",
+        "contact_safety": "Pressure at which yielding begins over the pressure in the contact [1].",
+    }
+
+    PAGE = "simulation.strength.strength_report:strength_document"
 
     KEYS = (
         *("state", "verdict", "over", "forces", "pairs", "points", "pins", "arbors", "weakest", "turns"),
@@ -82,6 +91,11 @@ class TrainStrength(FrozenFields, Tabular, Result):
     """
     pins: Mapping[str, PinContact] = field(default_factory=dict)
     """Lobes on pins, and pins in holes, by pair or coupling."""
+
+    def _summary(self) -> str:
+        weakest = self.weakest
+        found = "" if weakest is None else f", minimum safety {weakest.safety:.4g} ({weakest.what} of {weakest.part})"
+        return f"{self._named}: {self.verdict.kind}{found}, {len(self.pairs)} gear pairs".strip()
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -206,8 +206,7 @@ class RunFigures:
         """Angle by which each output is ahead of the motion in which all drive flanks touch [rad]."""
         motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
         names = list(motion.outputs)
-        # the last entry is the error at the start, which is subtracted
-        at = motion.at(np.append(turns, 0.0)).error if motion.ahead.used else np.zeros((len(names), len(turns) + 1))
+        at = motion.at(np.append(turns, 0.0)).error if motion._forward.used else np.zeros((len(names), len(turns) + 1))
         found = {}
         for name, link, base in self.outputs:
             parts = []

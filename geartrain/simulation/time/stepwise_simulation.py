@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, suggest
+from geartrain.numerics.results import Shown
 from geartrain.simulation.steps.contact_solution import IMPACT_ENERGY, TIME_APART, UNSOLVED, RunRecord
 from geartrain.simulation.steps.simulation import (
     StepPlan,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 _EARLY = 1e-6  # relative to a step: a time this little before the end of a step counts as its end
 
 
-class Simulation:
+class Simulation(Shown):
     """Simulation of a train that is coupled to other programs, with a drive and loads that may change.
 
     The time step is constant whatever times are requested. Between two steps angles are extrapolated linearly, so that
@@ -110,6 +111,9 @@ class Simulation:
         self.torques, self.apart, self.impact_energy = (dict.fromkeys(self._names, 0.0) for _ in range(3))
         self.unsolved = 0
         self._set_torques()
+
+    def _summary(self) -> str:
+        return f"at {self.time:.6g} s, step {self.step:.4g} s, {self.drive_kind} {self.drive:.4g} at {self.drive_link}"
 
     def anew(
         self,
@@ -276,8 +280,9 @@ class Simulation:
         self._read(record, steps)
 
     def _apply_new_speed(self) -> int:
-        """Set prescribed coordinates to a new speed; return 1 if it changes, which requires a correction of the first
-        step.
+        """Set prescribed coordinates to a new speed; return 1 if it changes.
+
+        A change requires a correction of the momentum in the first step.
         """
         if self.drive_kind != "rate":
             return 0

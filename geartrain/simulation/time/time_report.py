@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.exact import percent_text, watts_text
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
-from geartrain.report.torque_report import turns_text
+from geartrain.report.torque_report import energy_table, turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -33,6 +33,8 @@ class TimeReport(Result):
     --------
     collect_time_report : Returns such an object.
     """
+
+    PAGE = "simulation.time.time_report:describe_time_run"
 
     KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
 
@@ -111,6 +113,15 @@ def describe_time_run(found: TimeReport) -> Document:
     ['Separation rate', 'Contacts', 'Drive and outputs']
     """
     return Document(f"Motion in time of {found.run.train}", list(_summary(found.run)), list(_sections(found)))
+
+
+def time_document(run: TimeRun) -> Document | None:
+    """Return the output of `geartrain dynamics` for a run; None if the train is not known."""
+    from geartrain.analysis.gear_train import GearTrain
+
+    if run._declaration is None:
+        return None
+    return describe_time_run(collect_time_report(GearTrain(run._declaration), run, run._without))
 
 
 def _sections(found: TimeReport) -> Iterator[Section]:
@@ -277,20 +288,15 @@ def _energy(run: TimeRun) -> Section:
         "increase of kinetic energy": energy.kinetic,
         "increase of elastic energy of teeth": energy.elastic,
     }
-    rows = [
-        (name, figure(value, 6), percent_text(value / whole) if whole else "-")
-        for name, value in amounts.items()
-        if abs(value) > 1e-12 * whole
-    ]
-    # a balance cannot be better than rounding
+    table = energy_table("J", amounts, whole, 6)
     closure = max(energy.closure, 1e-15)
-    if not rows:
+    if not table.rows:
         return Section(
             "Energy", ("No energy is supplied, lost or stored: the train has no load, and no inertia is accelerated.",)
         )
     claim = f"the tolerance is {_SURE:.0e}" if closure <= _SURE else f"this exceeds the tolerance of {_SURE:.0e}"
     text = f"The energy balance closes to a relative error of {closure:.0e}; {claim}."
-    return Section("Energy", (text,), (Table(("over the run", "J", "of the input"), rows),))
+    return Section("Energy", (text,), (table,))
 
 
 def _converged(run: TimeRun) -> Section:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import tau
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.numerics.files import csv_text
-from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
+from geartrain.numerics.results import Key, Pictured, Result, Tabular, TrainResult, group
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class TimeRun(Tabular, Pictured, Result):
+class TimeRun(Tabular, Pictured, TrainResult):
     """Motion of a train in time with a constant time step; all data are of the run with the shorter step.
 
     See Also
@@ -34,6 +33,18 @@ class TimeRun(Tabular, Pictured, Result):
     >>> round(run.torque * 1000, 6), run.energy.closure < 1e-12
     (0.666667, True)
     """
+
+    MEANINGS: ClassVar = {
+        "time (s)": "Time of the sample [s].",
+        "turns": "Turns of the driving input [turn].",
+        "* angle (rad)": "Angle of the link [rad].",
+        "* speed (rad/s)": "Speed of the link [rad/s].",
+        "* torque (N m)": "Torque on the driven side of the contact or where power enters, mean between samples [N m].",
+        "* gap (rad)": "Distance of the driven side from its flank [rad].",
+        "* ahead (rad)": "Angle by which the output is ahead of its motion without inertia [rad].",
+    }
+
+    PAGE = "simulation.time.time_report:time_document"
 
     FIGURE = "time_run_figure"
     DRAWN_IN = "simulation"
@@ -131,6 +142,15 @@ class TimeRun(Tabular, Pictured, Result):
     """Estimates that replace missing declarations."""
     restitution: float = 0.0
     """Maximum coefficient of restitution of the contacts."""
+    _without: tuple[str, ...] = field(default=(), kw_only=True, repr=False, compare=False)
+
+    def _summary(self) -> str:
+        state = "" if self.state is None else f" state {self.state}"
+        rate = f"{abs(self.rate) / tau:.4g} turn/s of {self.driving_link}"
+        apart = max((each.apart for each in self.contacts), default=0.0)
+        figures = [f"{self.duration:.4g} s", f"mean torque {self.torque:.4g} N m at {self.link}"]
+        figures.append(f"teeth apart at most {100 * apart:.3g} % of the time")
+        return f"{self.train}{state}: {rate}, {', '.join(figures)}" + ("" if self.complete else ", incomplete")
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
         """Return the angles of a link [rad], or the figures of a contact."""
@@ -169,18 +189,6 @@ class TimeRun(Tabular, Pictured, Result):
         """
         columns = self.columns
         return csv_text([*columns], zip(*columns.values(), strict=True))
-
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(each.name)}</td><td>{100 * each.apart:.3g}</td><td>{100 * each.coast:.3g}</td>"
-            f"<td>{each.impact_rate:.4g}</td><td>{1e3 * each.power:.3g}</td></tr>"
-            for each in self.contacts
-        )
-        head = (
-            "<tr><th>contact</th><th>apart (%)</th><th>coast (%)</th><th>impacts (1/s)</th><th>impacts (mW)</th></tr>"
-        )
-        text = f"{html.escape(self.train)}: {self.rate / tau:.4g} turn/s of {html.escape(self.driving_link)}"
-        return f"<p>{text}</p><table>{head}{rows}</table>"
 
 
 # ------------------------------------------------------------------------------------------------------- parts of a run

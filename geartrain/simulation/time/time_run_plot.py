@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from math import degrees, tau
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.drawing.style import (
-    BLACK,
     BLUE,
     FINE,
     PALE,
     RED,
     SMALL,
-    WIDTH,
     Axes,
     Figure,
+    curve_panels,
     headed,
     kept_extremes,
     legend_above,
-    plain,
+    name_axes,
     series_look,
     short,
     write,
@@ -46,6 +46,7 @@ _NAMES = 8  # maximum number of labelled lines of a spectrum
 _DEEPEST = 3e-5  # lower limit of the axis, relative to the maximum amplitude
 _DECADES = 40.0  # maximum ratio of the limits of an axis with labels between powers of ten
 _CLEAR = 1.09  # minimum ratio of two labelled frequencies
+_name = partial(name_axes, size=SMALL, parse_math=False)
 
 
 def time_run_figure(run: TimeRun, title: str = "") -> Figure:
@@ -82,17 +83,14 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
     moving = _moving(run)
     leading = [each.output for each in run.deviations if degrees(max(each.ahead, each.behind)) > _FLAT]
-    tall = [1.0] * (len(pairs) + len(stops)) + [1.5] * bool(leading) + [2.0] * bool(moving)
+    tall = [1.25] * (len(pairs) + len(stops)) + [1.875] * bool(leading) + [2.5] * bool(moving)
     if not tall:
         what, why = (
             f"the plot of '{run.train}' would be empty",
             "no pair has backlash, and no output deviates from its mean motion",
         )
         raise QuestionError(Problem(what, why, "declare tooth forms with backlash, or an escapement"))
-    figure = Figure(figsize=(WIDTH, 0.9 + 1.25 * sum(tall)), dpi=100, layout="constrained")
-    panels = list(figure.subplots(len(tall), 1, squeeze=False, gridspec_kw={"height_ratios": tall})[:, 0])
-    for panel in panels:
-        plain(panel)
+    figure, panels = curve_panels(tall, 0.9, share=False)
     if moving:
         _spectrum(panels.pop(), run, moving)
     if leading:
@@ -105,14 +103,9 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     for panel in panels[:-1]:
         panel.tick_params(labelbottom=False)
     if panels:
-        panels[-1].set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
+        _name(panels[-1], _across_text(run))
         _key(panels[0], bool(pairs))
     return headed(figure, title)
-
-
-def _head(panel: Axes, text: str) -> None:
-    """Write the title of a panel above it, where it hides no line."""
-    panel.set_title(text, fontsize=SMALL, loc="left", color=BLACK, parse_math=False)
 
 
 def _key(panel: Axes, gaps: bool) -> None:
@@ -181,8 +174,8 @@ def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
     panel.set_ylim(-0.12 * top, top)
     panel.set_xlim(at[0], at[-1])
     apart = next(each.apart for each in run.contacts if each.name == pair)
-    panel.set_ylabel("gap (deg)", fontsize=SMALL)
-    _head(panel, f"{short(pair)}: apart {100 * apart:.3g} % of the time; coast flank from {back.min():.3g} deg")
+    words = f"{short(pair)}: apart {100 * apart:.3g} % of the time; coast flank from {back.min():.3g} deg"
+    _name(panel, y="gap (deg)", title=words)
 
 
 def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
@@ -191,8 +184,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
     panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
     _impacts(panel, run, stop, stretch)
     panel.set_xlim(at[0], at[-1])
-    panel.set_ylabel("speed (rad/s)", fontsize=SMALL)
-    _head(panel, f"{short(stop)}: speed between the beats of the escapement")
+    _name(panel, y="speed (rad/s)", title=f"{short(stop)}: speed between the beats of the escapement")
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
@@ -231,9 +223,7 @@ def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     if first < len(across):
         panel.set_xlim(across[first], across[-1])
     legend_above(panel, 4)
-    panel.set_ylabel("ahead (deg)", fontsize=SMALL)
-    _head(panel, "outputs: ahead of the motion with touching teeth")
-    panel.set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
+    _name(panel, _across_text(run), "ahead (deg)", "outputs: ahead of the motion with touching teeth")
 
 
 def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
@@ -257,9 +247,7 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
             over = max(float(size[abs(heard / at - 1) < _CLEAR - 1].max(initial=0.0)) for heard, size in drawn)
             if panel.get_xlim()[0] < at < panel.get_xlim()[1] and amplitude > _DEEPEST * top:
                 write(panel, at, 1.4 * over, source, rotation=60, ha="left", va="bottom", fontsize=FINE)
-    panel.set_ylabel("amplitude (deg)", fontsize=SMALL)
-    panel.set_xlabel("frequency (Hz)", fontsize=SMALL)
-    _head(panel, f"spectrum; lines of {short(moving[0])} are labelled")
+    _name(panel, "frequency (Hz)", "amplitude (deg)", f"spectrum; lines of {short(moving[0])} are labelled")
 
 
 def _minor_numbers(panel: Axes) -> None:

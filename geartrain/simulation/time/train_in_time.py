@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import html
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, tau
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 from geartrain.numerics.labelled_array import labelled_array
-from geartrain.numerics.results import Result
+from geartrain.numerics.results import Result, Tabular
 from geartrain.simulation.contacts.compliant_train import CompliantTrain
 from geartrain.simulation.contacts.link_inertia import find_link_inertias
 from geartrain.simulation.contacts.time_case import PowerInput, find_time_case
@@ -256,13 +255,19 @@ def radians_per_second(rate: str | float | None) -> float | None:
 
 
 @dataclass(frozen=True)
-class VibrationModes(Result):
+class VibrationModes(Tabular, Result):
     """Vibration modes of a train about contact: solutions of K phi = w^2 M phi, with speed ratios at their means.
 
     See Also
     --------
     geartrain.simulation.find_vibration_modes : Returns such an object.
     """
+
+    MEANINGS: ClassVar = {
+        "mode": "Number of the mode, in the order of frequencies.",
+        "frequency": "Natural frequency of the mode [Hz].",
+        "* angle": "Angle of the link, normalised to a maximum of 1 in each mode.",
+    }
 
     train: str
     """Name of the train."""
@@ -279,16 +284,20 @@ class VibrationModes(Result):
     assumed: tuple[str, ...]
     """Estimates that replace missing declarations."""
 
-    def _repr_html_(self) -> str:
-        links = self.shapes.labels[0]
-        head = "".join(f"<th>{html.escape(each)}</th>" for each in ("mode", "Hz", "damping", *links))
-        rows = "".join(
-            f"<tr><td>{at + 1}</td><td>{frequency:.6g}</td><td>{damping:.4g}</td>"
-            + "".join(f"<td>{angle:.4g}</td>" for angle in self.shapes.values[:, at])
-            + "</tr>"
-            for at, (frequency, damping) in enumerate(zip(self.frequencies, self.damping, strict=True))
-        )
-        return f"<p>{html.escape(self.train)}: angles of links in each mode</p><table><tr>{head}</tr>{rows}</table>"
+    def _summary(self) -> str:
+        shown = ", ".join(f"{each:.4g}" for each in self.frequencies[:4])
+        return f"{self.train}: {len(self.frequencies)} modes, {shown}{' ...' * (len(self.frequencies) > 4)} Hz"
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """Columns with a row for each mode: number, frequency, damping, and the angles of links."""
+        angles = zip(self.shapes.labels[0], self.shapes.values.tolist(), strict=True)
+        return {
+            "mode": [*range(1, len(self.frequencies) + 1)],
+            "frequency": self.frequencies.tolist(),
+            "damping": self.damping.tolist(),
+            **{f"{link} angle": row for link, row in angles},
+        }
 
 
 def find_modes(of: CompliantTrain) -> VibrationModes:

@@ -1,17 +1,17 @@
-"""Conjugate teeth from their path of contact, spur and bevel at once: profiles, sliding, stress, heat, loss.
+"""Conjugate gear teeth, spur and bevel, computed from their path of contact: profiles, sliding, stress, heat, loss.
 
-The path is where contact happens in the fixed frame: at the signed distance d from the pitch point along a normal that
-makes the pressure angle psi with the pitch line. One function, psi(d), gives both profiles and every result; a tooth
-form is a choice of it.
+The path of contact is the locus of contact in the fixed frame. A contact is at the signed distance d from the pitch
+point along a normal that makes the pressure angle psi with the pitch line. The function psi(d) determines both
+profiles and every result. Each tooth form is a choice of psi(d).
 
-wheel_pair                tooth counts of a pair, how its axes stand, and whether there is such a pair
+wheel_pair                tooth counts of a pair, position of its axes, and checks of its existence
 pitch_surfaces            cylinders, cones and rings that roll on each other
-path_of_contact           pieces psi(d), the sides made of them, and contact at every instant (velocities, curvatures)
+path_of_contact           pieces psi(d), sides made of pieces, and contact at every instant (velocities, curvatures)
 closed_form_sides         cycloids, round pins, the source's extremal
-optimal_sides             uniform stress, uniform temperature, least friction (Chebyshev collocation, Newton's method)
+optimal_sides             uniform stress, uniform temperature, minimum friction (Chebyshev collocation, Newton's method)
 involute_geometry         involute wheels cut by a rack: thickness, working pressure angle, arcs
 admissibility             undercut, pointed tips, contact ratio, interference
-path_losses                loss, stress, heat, flash temperature, depth; efficiency exact in friction
+path_losses               loss, stress, heat, flash temperature, depth; efficiency exact in friction
 conjugate_form            base class of the forms, and checks of a declaration
 conjugate_transmission    the pair as designed, and its transmission function
 displaced_contact         displaced flanks, and axles at another centre distance

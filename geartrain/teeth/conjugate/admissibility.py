@@ -1,7 +1,7 @@
-"""Whether teeth with a path of contact can be made and can drive: undercut, pointed tips, contact ratio.
+"""Checks that teeth with a path of contact can be made and can drive: undercut, pointed tips, contact ratio.
 
-For involutes also: thick teeth, tips too long for roots or mates, undercut by the rack, and tips of a pinion and its
-ring that collide after their teeth have parted.
+Involutes have further checks: backlash, tips too long for the mate's roots or flanks, undercut by the rack, and tips
+of a pinion and its ring gear that collide after their teeth have left contact.
 """
 
 from __future__ import annotations
@@ -23,24 +23,27 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair
 
 Halves = tuple[float, float]
-"""Half the thickness of a tooth of each gear on its pitch surface, as X; infinite for pins, which have no point."""
+"""Half the tooth thickness of each gear on its pitch surface, as pitch-line displacement X; infinite for pins."""
 
-_SCAN = 257  # contacts of a side: a speed that is below 0 between two of them only is not seen
-_LEAVES = 12.5  # teeth below which clockmakers cut cycloids
+_SCAN = 257  # contacts sampled on a side; a speed below 0 only between two samples is not detected
+_LEAVES = 12.5  # tooth number below which clockmakers cut cycloids
 _ROUNDING = 1e-12  # modules
 
 
 def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:
-    """All reasons why teeth with this path cannot run; empty if they can. `halves` default to a quarter pitch."""
-    return (*_undercuts(path), *_pointed(path, halves), *_broken(path))
+    """Return all reasons why teeth with this path cannot run; empty if they can.
+
+    `halves` default to a quarter pitch.
+    """
+    return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
 
 def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the contact would stand still on a profile: U = 0, a cusp, and undercut beyond it."""
+    """Yield a fault where the contact speed U along a profile reaches 0: a cusp, with undercut beyond it."""
     for recess in (False, True):
         if not (span := path.span(recess)):
             continue
-        # not from the pitch point itself, where U is 0 for psi = 0, as of a cycloid
+        # the pitch point itself is excluded: U is 0 there for psi = 0, as for a cycloid
         d = span[0] + (span[1] - span[0]) * np.linspace(0, 1, _SCAN)[1:]
         contact = path.along(d, recess)
         for gear, U in ((1, contact.U1), (2, contact.U2)):
@@ -53,14 +56,14 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
                     gear,
                     X,
                     f"gear {gear} is undercut",
-                    f"in {where} the contact stands still on its dedendum {abs(angle):.6g} deg from the pitch point",
-                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or take more teeth or a larger "
+                    f"in {where} the contact speed on its dedendum is 0 at {abs(angle):.6g} deg from the pitch point",
+                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or use more teeth or a larger "
                     "pressure angle",
                 )
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """X at the first distance where U of one gear is 0."""
+    """Return X at the first distance where the contact speed U of one gear is 0."""
     at = int(np.argmax(U <= 0))
     if at == 0:
         return 0.0
@@ -75,45 +78,48 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
 
 
 def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]:
-    """Where the two flanks of a tooth would meet before its tip."""
+    """Yield a fault where the two flanks of a tooth would intersect before its tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
-        if X and (room := tip_thickness(path, gear, halves)) < 0:
+        if X and (thickness := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.teeth_of(gear)
             name = "recess" if X > 0 else "approach"
-            point = _point(path, gear, X, halves)
+            point = _flank_crossing(path, gear, X, halves)
             end = "end" if (X > 0) == (gear == 1) else "begin"
             shorter = (
-                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or take a smaller pressure angle"
+                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
             )
             yield ToothFault(
                 "pointed",
                 gear,
                 X,
                 f"the teeth of gear {gear} come to a point before their tips",
-                f"their flanks would cross by {-degrees(room):.4g} deg of its {360 / z:.4g} deg pitch",
-                shorter if point else "leave its teeth some thickness: give less backlash, or shift it outwards",
+                f"their flanks would cross by {-degrees(thickness):.4g} deg of its {360 / z:.4g} deg pitch",
+                shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
             )
 
 
-def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
-    """X of the contact at which the flanks of a tooth cross; 0 where they do from the first."""
+def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
+    """Return X of the contact at which the flanks of a tooth intersect; 0 if they do so from the first contact."""
 
-    def room(x: float) -> float:
+    def thickness(x: float) -> float:
         return _thickness(path, gear, x, halves)
 
     foot, _ = path.ends(gear)
-    foot = foot if foot * X > 0 else 0.0  # contact on one side of the pitch point keeps off it
-    at_foot, at_tip = room(foot), room(X)
-    return root(room, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
+    foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
+    at_foot, at_tip = thickness(foot), thickness(X)
+    return root(thickness, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
 
 
 def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
-    """Angle (rad) of the top land of a gear's tooth; negative where its flanks cross. `halves` as in `faults`."""
+    """Return the angle (rad) of the top land of a gear's tooth; negative if its flanks cross.
+
+    `halves` are as in `faults`.
+    """
     return _thickness(path, gear, path.ends(gear)[1], halves)
 
 
 def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
-    """Angle (rad) between the flanks of a tooth where they touch at X."""
+    """Return the angular thickness (rad) of a tooth at the contact X."""
     reach = path.pitch.reach_of(gear)
     half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
     points = path.flank(gear, np.array([X]))[0]
@@ -121,22 +127,22 @@ def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) 
 
 
 def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
-    """How far (rad) a body point is from the direction of the pitch point, towards the middle of its flank's tooth."""
+    """Return the azimuth (rad) of a body point from the pitch point, positive towards the middle of its tooth."""
     _, forwards = path.pitch.polar(gear, point)
     return float(-forwards if gear == 1 else forwards)  # a driver's tooth is behind its flank
 
 
-def _broken(path: PathOfContact) -> Iterator[ToothFault]:
+def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
     ratio = path.contact_ratio
-    # arcs of a pitch in all add up to 1 but for rounding
+    # arcs with a sum of one pitch give 1 except for rounding
     if ratio < 1 - 1e-12:
         yield ToothFault(
             "contact ratio",
             0,
             float("nan"),
             f"the contact ratio is {ratio:.6g}",
-            "one pair of teeth parts before the next one meets",
-            "lengthen approach or recess until they are a pitch together",
+            "one tooth pair leaves contact before the next one enters it",
+            "lengthen approach or recess until their sum is at least one pitch",
         )
 
 
@@ -144,11 +150,12 @@ def _broken(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def tip_gap(path: PathOfContact) -> float:
-    """Angle (rad of the ring) between the tip of a pinion's tooth and that of the ring's it has driven.
+    """Return the angle (rad of the ring gear) between the tip of a pinion's tooth and the tip of the driven ring tooth.
 
-    Taken where the pinion's tip, the faster, leaves the ring's tip circle; negative where it would have run into the
-    ring's tooth; where it never leaves, on the far side, where the teeth have slipped by half their difference.
-    Infinite for any pair but a spur pinion in a ring with parted tip circles.
+    It is taken where the pinion's tip, which is faster, leaves the ring's tip circle, and is negative if the tip would
+    have run into the ring's tooth. If the pinion's tip never leaves, it is taken on the far side, where the teeth have
+    slipped by half the difference of the tooth numbers. It is infinite unless the pair is a spur pinion in a ring gear
+    with intersecting tip circles.
     """
     pitch = path.pitch
     if pitch.bevel or pitch.R2 > 0:
@@ -158,6 +165,7 @@ def tip_gap(path: PathOfContact) -> float:
         _polar(flank(np.array([X]))[0], R)
         for flank, X, R in ((path.flank1, path.arcs[1], -pitch.R1), (path.flank2, -path.arcs[0], pitch.R2))
     )
+    # coaxial wheels (a = 0) have concentric tip circles, which do not intersect
     cosine = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1) if a > 0 else 2.0
     if cosine >= 1:
         return inf
@@ -167,13 +175,13 @@ def tip_gap(path: PathOfContact) -> float:
 
 
 def _polar(point: Floats, height: float) -> tuple[float, float]:
-    """Distance from a centre at `height` over the pitch point, and azimuth from straight up, forwards."""
+    """Return distance from a centre at `height` above the pitch point, and azimuth (rad) from straight up, forwards."""
     x, y = float(point[0]), float(point[1]) - height
     return (x * x + y * y) ** 0.5, atan2(x, y)
 
 
 def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault, ...]:
-    """All reasons why these wheels cannot run; empty if they can."""
+    """Return all reasons why these involute wheels cannot run; empty if they can."""
     others = (fault for fault in faults(path, pair.halves) if fault.kind != "undercut")
     return (*_jam(pair), *_interference(pair, path), *_undercut(pair, path), *others, *_bottom(pair), *ring_tips(path))
 
@@ -191,12 +199,12 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
             "the teeth jam",
             f"at the centre distance {pair.distance:.6g} modules they are thicker than the spaces by "
             f"{-pair.backlash:.4g}",
-            f"{apart}thin them with `backlash`, or shift the wheels less",
+            f"{apart}thin the teeth with `backlash`, or reduce the profile shifts",
         )
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the tip of the mate goes past the point at which the line of action touches the base circle."""
+    """Yield a fault where the mate's tip passes the point at which the line of action touches the base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
         limit = hypot(mate.base, across)
@@ -210,63 +218,63 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
             gear,
             X,
             f"the tips of gear {3 - gear} run into the roots of gear {gear}",
-            f"their contact would go on past {degrees(_tangent(pair, path, gear) / reach):.6g} deg from the pitch "
+            f"their contact would continue past {degrees(_tangent(pair, path, gear) / reach):.6g} deg from the pitch "
             f"point, where the involute of gear {gear} begins at its base circle",
-            f"give gear {3 - gear} an addendum of at most {most:.4g} modules, shift gear {gear} outwards, or take more "
+            f"give gear {3 - gear} an addendum of at most {most:.4g} modules, shift gear {gear} outwards, or use more "
             "teeth or a larger pressure angle",
         )
 
 
 def _tangent(pair: InvolutePair, path: PathOfContact, gear: int) -> float:
-    """Arc from the pitch point to where the line of action touches a gear's base circle: R tan psi."""
+    """Return the arc from the pitch point to the tangent point of line of action and base circle: R tan psi."""
     R = path.pitch.R1 if gear == 1 else path.pitch.R2
     sine = sin(pair.psi)
     return float(R * sine / (1 - sine * sine) ** 0.5)
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the rack's corner has cut away what the mate's tip should work on."""
+    """Yield a fault where the rack's corner has cut away part of the flank that the mate's tip needs."""
     for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
-        gone = wheel.undercut()
+        cut_radius = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
         lowest = hypot(wheel.base, max(R * sin(pair.psi) - arc * cos(pair.psi), 0.0))
-        if gone > lowest + _ROUNDING:
+        if cut_radius > lowest + _ROUNDING:
             minimum = wheel.cut - wheel.r * sin(wheel.psi) ** 2
-            # a whole number that rounding has raised a little is that number
+            # an integer raised slightly by rounding must not become the next integer
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
-            other = ", or take `form: cycloidal`, which suits few leaves" if 2 * wheel.r <= _LEAVES else ""
+            other = ", or use `form: cycloidal`, which suits pinions of few leaves" if 2 * wheel.r <= _LEAVES else ""
             yield ToothFault(
                 "undercut",
                 gear,
                 (-1 if gear == 1 else 1) * arc,
                 f"gear {gear} is undercut",
-                f"the rack's corner cuts its involute away up to a radius of {gone:.6g} modules, and contact goes down "
-                f"to {lowest:.6g}",
+                f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules, but contact "
+                f"extends down to {lowest:.6g}",
                 f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}",
             )
 
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
-    """Where tips touch the bottom of the mate's spaces."""
+    """Yield a fault where tips touch the bottom of the mate's tooth spaces."""
     first, second = pair.first, pair.second
     if second.ring:
-        room = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
+        gaps = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
     else:
-        room = pair.distance - first.tip - second.root, pair.distance - second.tip - first.root
-    for gear, left in zip((1, 2), room, strict=True):
-        if left < -_ROUNDING:
+        gaps = pair.distance - first.tip - second.root, pair.distance - second.tip - first.root
+    for gear, gap in zip((1, 2), gaps, strict=True):
+        if gap < -_ROUNDING:
             yield ToothFault(
                 "clearance",
                 gear,
                 float("nan"),
                 f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}",
-                f"they are {-left:.4g} modules too long",
+                f"they are {-gap:.4g} modules too long",
                 f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or more centre distance",
             )
 
 
 def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
-    """Where the tips of a pinion run into those of its ring after they have parted."""
+    """Yield a fault where the tips of a pinion collide with the tips of its ring gear after the teeth left contact."""
     gap = tip_gap(path)
     if gap < 0:
         pitch = path.pitch
@@ -275,6 +283,6 @@ def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
             0,
             path.arcs[1],
             "the tips of the pinion run into the tips of the ring",
-            f"they cross {degrees(-gap):.4g} deg of the ring too far, of its pitch of {360 / pitch.z2:.4g} deg",
-            "give the ring more teeth, or both shorter addenda",
+            f"they overlap by {degrees(-gap):.4g} deg of the ring, whose pitch is {360 / pitch.z2:.4g} deg",
+            "give the ring more teeth, or both wheels shorter addenda",
         )

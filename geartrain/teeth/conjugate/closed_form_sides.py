@@ -1,16 +1,16 @@
-"""Sides in closed form: cycloids, round pins, and the source's own extremal of least friction.
+"""Sides of a path of contact in closed form: cycloids, round pins, and the source's extremal of minimum friction.
 
 Cycloids: the path of contact is the rolling circle itself, in the plane and on the sphere.
 
-Lantern wheels (spur only): the path of contact is that of the pin's centre, shortened by the pin's radius towards the
-pitch point. In letters of the source, W. D. Smith (1993), equations (12) to (16): pins of radius B at distance A from
-the axle, R the pitch radius, L = d + B the distance of the pin's centre from the pitch point. Where the contact would
-stand still on the mate's flank, the envelope of the pins has a cusp, and pins cut away part of the flank on their way
-in: `flank_start` finds where the flank really begins.
+Lantern wheels (spur only): the path of contact is the path of the pin's centre, shortened by the pin's radius
+towards the pitch point. The letters are those of the source, W. D. Smith (1993), equations (12) to (16): pins of
+radius B at distance A from the axle, R the pitch radius, L = d + B the distance of the pin's centre from the pitch
+point. Where the contact speed along the mate's flank is 0, the envelope of the pins has a cusp, and the pins cut
+away part of the flank on their way in. `flank_start` returns the first contact of the remaining flank.
 
-The extremal keeps off the pitch point. Of all paths between two given contacts it rubs least: S dX/dd = D. In the plane
-it is a circle of diameter D centred on the pitch line. Its flanks are regular for pressure angles above 45 degrees
-only, and it never reaches the pitch point.
+The extremal does not reach the pitch point. It has the minimum sliding loss of all paths between two given contacts:
+S dX/dd = D. In the plane it is a circle of diameter D centred on the pitch line. Its flanks are regular for pressure
+angles above 45 degrees only.
 """
 
 from __future__ import annotations
@@ -32,68 +32,69 @@ if TYPE_CHECKING:
     Points = NDArray[np.complex128]
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_SCAN, _NARROWED = 129, 6  # positions in a bracket, and how often it is narrowed, by 64 each time
-_FARTHEST = 0.6  # of the way to the far side of the lantern
+_SCAN, _NARROWED = 129, 6  # positions in a bracket, and number of refinements, each by a factor of 64
+_FARTHEST = 0.6  # fraction of the angle to the far side of the lantern
 
 
 class ConeCirclePiece(PathPiece):
-    """A small circle through the pitch point, centred over it: the path of a rolling cone of half-angle `rho` (rad).
+    """Small circle through the pitch point: the path of contact of a rolling cone of half-angle `rho` (rad).
 
-    In the triangle of its pole, the pitch point and the contact tan(d/2) = tan(rho) sin(psi), and the cone has turned
-    by X / sin(rho) where sin(d/2) = sin(rho) sin(X / (2 sin rho)).
+    Its pole is above the pitch point. In the triangle of pole, pitch point and contact tan(d/2) = tan(rho) sin(psi).
+    The cone has turned by X / sin(rho) where sin(d/2) = sin(rho) sin(X / (2 sin rho)).
     """
 
     def __init__(self, rho: float, end: float) -> None:
         self.rho, self.start, self.end = rho, 0.0, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """tan(d/2) / tan(rho)."""
+        """Return the sine of the pressure angle, tan(d/2) / tan(rho)."""
         return np.tan(np.asarray(d) / 2) / tan(self.rho)
 
     def slope(self, d: Floats) -> Floats:
-        """1 / (2 tan(rho) cos^2(d/2))."""
+        """Return the slope 1 / (2 tan(rho) cos^2(d/2))."""
         return 1 / (2 * tan(self.rho) * np.cos(np.asarray(d) / 2) ** 2)
 
     def travel(self, d: Floats) -> Floats:
-        """2 sin(rho) arcsin(sin(d/2) / sin(rho))."""
+        """Return the displacement 2 sin(rho) arcsin(sin(d/2) / sin(rho))."""
         return 2 * sin(self.rho) * np.arcsin(np.sin(np.asarray(d) / 2) / sin(self.rho))
 
 
 def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
-    """The side of a rolling circle (modules) or cone (rad) over an arc X.
+    """Return the side of a rolling circle (modules) or cone (rad) over an arc X.
 
-    Raises `RangeError` where the arc is longer than half the rolling circle.
+    Raises `RangeError` if the arc is longer than half the rolling circle.
     """
     longest = pi * sin(rho) if pitch.bevel else pi * rho
-    # at half the circle itself the pressure angle is a right angle, and its cosine 0
+    # at exactly half the circle the pressure angle is a right angle, with cosine 0
     if longest * (1 - 1e-9) <= X:
         raise RangeError(
             Problem(
                 f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
                 f"half of it is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
-                "ask for a shorter arc or a larger rolling circle",
+                "use a shorter arc or a larger rolling circle",
             )
         )
     return PathSide((ConeCirclePiece(rho, cone_end(rho, X)) if pitch.bevel else CirclePiece(rho, circle_end(rho, X)),))
 
 
 def cone_end(rho: float, X: float) -> float:
-    """Distance d at which a small circle has travelled X."""
+    """Return the distance d at which a small circle has the displacement X."""
     return 2 * asin(sin(rho) * sin(X / (2 * sin(rho))))
 
 
 def circle_reach(R: float, rho: float, tip: float) -> float:
-    """Distance d at which the addendum of a gear of pitch radius R ends at its `tip` radius; a ring's R is negative.
+    """Return the distance d at which the addendum of a gear with pitch radius R ends at its tip radius `tip`.
 
-    On the circle |P - O|^2 = R^2 + d^2 (1 + R / rho).
+    R is negative for a ring gear. On the circle |P - O|^2 = R^2 + d^2 (1 + R / rho).
     """
     return sqrt((tip * tip - R * R) / (1 + R / rho))
 
 
 def cone_reach(R: float, rho: float, tip: float) -> float:
-    """The same on the sphere, in polar angles: cos tip = cos d cos R - sin d sin psi sin R, sin psi = tan(d/2)/tan rho.
+    """Return the distance d at which the addendum of a bevel gear with pitch cone R ends at its tip cone `tip` (rad).
 
-    With 2 sin^2(d/2) = v it is linear: cos tip = cos R - v (cos R + sin R / tan rho).
+    cos tip = cos d cos R - sin d sin psi sin R with sin psi = tan(d/2)/tan rho. This is linear in v = 2 sin^2(d/2):
+    cos tip = cos R - v (cos R + sin R / tan rho).
     """
     v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
     return 2 * atan(sqrt(v / 2) / sqrt(1 - v / 2))
@@ -103,9 +104,10 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
 
 
 class PinPiece(PathPiece):
-    """Contact of a round pin: sin psi = (L^2 + R^2 - A^2) / (2 R L), with L = B + d outside and B - d `inside`.
+    """Path of contact of a round pin: sin psi = (L^2 + R^2 - A^2) / (2 R L).
 
-    Outside, beyond the pitch point, the mate's addendum works; inside, its dedendum, up to its undercut.
+    L = B + d outside and B - d `inside`. Outside, beyond the pitch point, the mate's addendum works; inside, its
+    dedendum works as far as its undercut.
     """
 
     def __init__(self, R: float, A: float, B: float, end: float, inside: bool = False) -> None:
@@ -116,46 +118,50 @@ class PinPiece(PathPiece):
         return self.B + self.sign * np.asarray(d, dtype=float)
 
     def sin_psi(self, d: Floats) -> Floats:
-        """(L^2 + R^2 - A^2) / (2 R L), which is L / 2R for pins on the pitch circle."""
+        """Return (L^2 + R^2 - A^2) / (2 R L), which is L / 2R for pins on the pitch circle."""
         L = self._length(d)
         found: Floats = (L + (self.R - self.A) * (self.R + self.A) / L) / (2 * self.R)
         return found
 
     def slope(self, d: Floats) -> Floats:
-        """(1 - (R^2 - A^2) / L^2) / 2R, its sign turned inside."""
+        """Return the slope (1 - (R^2 - A^2) / L^2) / 2R, with the sign reversed inside."""
         L = self._length(d)
         found: Floats = self.sign * (1 - (self.R - self.A) * (self.R + self.A) / L**2) / (2 * self.R)
         return found
 
     def travel(self, d: Floats) -> Floats:
-        """R (beta - beta at the pitch point), beta the angle of the pin's centre from the line of centres."""
-        # the half-angle form of the cosine rule; rounding may put L a little inside |A - R|, on the line of centres
+        """Return the displacement R (beta - beta0), beta0 at the pitch point.
+
+        beta is the angle of the pin's centre from the line of centres.
+        """
+        # half-angle form of the cosine rule; on the line of centres rounding may make L smaller than |A - R|
         half = np.sqrt(np.maximum(self._length(d) ** 2 - (self.A - self.R) ** 2, 0) / (4 * self.A * self.R))
         found: Floats = self.sign * self.R * (2 * np.arcsin(half) - pin_angle(self.R, self.A, self.B))
         return found
 
 
 def pin_angle(R: float, A: float, B: float) -> float:
-    """Angle (rad) of a pin's centre from the line of centres while the pin touches the pitch point."""
+    """Return the angle (rad) of a pin's centre from the line of centres while the pin touches the pitch point."""
     return 2 * asin(sqrt((B - A + R) * (B + A - R) / (4 * A * R)))
 
 
 def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> PathSide:
-    """One side of a lantern's path over an arc X; `inside` is the side on which the mate's dedendum works.
+    """Return one side of the path of contact of a lantern wheel over an arc X.
 
-    Raises `RangeError` where the arc passes the line of centres (inside) or half a turn of the lantern.
+    `inside` selects the side on which the mate's dedendum works. Raises `RangeError` if the arc passes the line of
+    centres (inside) or exceeds half a turn of the lantern.
     """
     first = pin_angle(R, A, B)
     beta = first - X / R if inside else first + X / R
     most = first if inside else 3.14 - first
-    # a little short of half a turn, where the arc sine in `travel` would lose half its digits
+    # slightly less than half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
-        side, fix = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
+        side, limit = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
         raise RangeError(
             Problem(
                 f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long",
-                f"it ends at {fix}, before {degrees(most):.6g} deg",
-                "ask for a shorter arc",
+                f"it must end before {limit}, at {degrees(most):.6g} deg",
+                "use a shorter arc",
             )
         )
     L = sqrt((A - R) ** 2 + 4 * A * R * sin(beta / 2) ** 2)
@@ -163,15 +169,16 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
 
 
 def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
-    """Distance d at which the mate's addendum ends at its `tip` radius; `mate` its pitch radius, negative for a ring.
+    """Return the distance d at which the mate's addendum ends at its tip radius `tip`.
 
-    |P - O|^2 = mate^2 + d^2 + 2 mate d sin psi, and d sin psi = d (L^2 + R^2 - A^2) / (2 R L) is monotone in d.
+    `mate` is the mate's pitch radius, negative for a ring gear. |P - O|^2 = mate^2 + d^2 + 2 mate d sin psi, where
+    d sin psi = d (L^2 + R^2 - A^2) / (2 R L) is monotonic in d.
     """
 
     def off(d: float) -> float:
         L = d + B
         sine = (L * L + (R - A) * (R + A)) / (2 * R * L)
-        # without the squares of both radii, whose difference would cancel
+        # factored, because the difference of the squares of both radii would cancel
         return d * (d + 2 * mate * sine) - (tip - abs(mate)) * (tip + abs(mate))
 
     most = A + R - B
@@ -179,8 +186,8 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     if (at_pitch > 0) == (at_most > 0):
         raise RangeError(
             Problem(
-                f"no contact of these pins reaches the tip radius {tip:.6g}",
-                "the pins are past the far side of the lantern before",
+                f"the contact of these pins does not reach the tip radius {tip:.6g}",
+                "the pins pass the far side of the lantern first",
                 "give the mate a shorter addendum",
             )
         )
@@ -188,32 +195,35 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
 
 
 def pin_arc(R: float, A: float, B: float, d: float) -> float:
-    """Arc (X) from the pitch point to the distance d, on the mate's addendum."""
+    """Return the arc (pitch-line displacement X) from the pitch point to the distance d on the mate's addendum."""
     return float(PinPiece(R, A, B, d).travel(np.array(d)))
 
 
-# ------------------------------------------------------------------------------------------- extremal of least friction
+# ----------------------------------------------------------------------------------------- extremal of minimum friction
 
 
 class ExtremalPiece(PathPiece):
-    """Docs/shapes.md (10): S = D cos psi; X = D ln d, or D ln tan(d/2), from the first contact."""
+    """Extremal of minimum friction, docs/shapes.md (10): S = D cos psi.
+
+    X = D ln d, or D ln tan(d/2) on cones, counted from the first contact.
+    """
 
     def __init__(self, pitch: PitchSurfaces, D: float, start: float, end: float) -> None:
         self.pitch, self.D, self.start, self.end = pitch, D, start, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """sqrt(1 - (S / D)^2)."""
+        """Return the sine sqrt(1 - (S / D)^2) of the pressure angle."""
         S = self.pitch.S(d) / self.D
-        # not 1 - S^2, which cancels where the pressure angle is small
+        # factored, because 1 - S^2 cancels at small pressure angles
         return np.sqrt((1 - S) * (1 + S))
 
     def slope(self, d: Floats) -> Floats:
-        """-S S' / (D^2 sin psi)."""
+        """Return the slope -S S' / (D^2 sin psi)."""
         found: Floats = -self.pitch.S(d) * self.pitch.S_slope(d) / (self.D**2 * self.sin_psi(d))
         return found
 
     def travel(self, d: Floats) -> Floats:
-        """D ln(d / start), or D ln(tan(d/2) / tan(start/2))."""
+        """Return the displacement D ln(d / start), or D ln(tan(d/2) / tan(start/2)) on cones."""
         d = np.asarray(d, dtype=float)
         if self.pitch.bevel:
             return self.D * np.log(np.tan(d / 2) / tan(self.start / 2))
@@ -221,7 +231,7 @@ class ExtremalPiece(PathPiece):
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
-    """The side of arc X whose pressure angle falls from `first` to `last` (rad)."""
+    """Return the side of arc X whose pressure angle decreases from `first` to `last` (rad)."""
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
         return PathSide((ExtremalPiece(pitch, D, D * cos(first), D * cos(last)),))
@@ -233,9 +243,9 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
         start, end = ends(D)
         return D * log(tan(end / 2) / tan(start / 2)) - X
 
-    # just short of where the arc sine of the end is not defined; at D = 0 the arc is 0
+    # just below the limit of the arc sine of the end; at D = 0 the arc is 0
     high = (1 - 1e-12) / cos(last)
-    # -inf stands for -X, the limit there: `root` halves while a value is not finite
+    # -inf replaces -X, the limit there; `root` bisects while a value is not finite
     D = root(off, 1e-9 * X, high, -inf, off(high))
     return PathSide((ExtremalPiece(pitch, D, *ends(D)),))
 
@@ -244,10 +254,11 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
 
 
 def flank_start(R: float, A: float, B: float, mate: float) -> float:
-    """X, from the pitch point outwards, of the first contact that the pins leave of the mate's flank; -inf for all.
+    """Return X of the first contact that the pins leave of the mate's flank; -inf if nothing is cut away.
 
-    R, A, B   pitch radius, distance from the axle and radius of the pins; `mate` the pitch radius of the mate, negative
-    for a ring. Below 0 the flank reaches inside the pitch point.
+    R, A and B are pitch radius, distance from the axle and radius of the pins. `mate` is the pitch radius of the mate,
+    negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank reaches inside the pitch
+    point.
     """
     first = pin_angle(R, A, B)
     far = first + _FARTHEST * (acos(-1.0) - first)
@@ -258,7 +269,7 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
         point, spans = _flank(R, A, B, mate, beta), ((-far, -beta), (-beta, 0.0), (0.0, cusp))
         return min(_nearest(R, A, mate, point, *span) for span in spans) - B
 
-    # the farther out the less is cut: from the cusp outwards in growing steps to where nothing is
+    # the cut depth decreases outwards: search from the cusp in growing steps for the first uncut contact
     step, low, high = 0.05 * first, cusp, far
     while cusp + step < far:
         if left(cusp + step) > 0:
@@ -266,14 +277,14 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
             break
         low, step = cusp + step, 1.5 * step
     at_high = left(high)
-    # at the cusp itself nothing is asked: a pin on its pitch circle may stand at the pitch point there
+    # the cusp itself is not evaluated: a pin on its pitch circle may be at the pitch point there
     if low == cusp or at_high <= 0 or (at_low := left(low)) >= 0:
         return R * ((cusp if at_high > 0 else far) - first) if found or at_high <= 0 else -inf
     return R * (root(left, low, high, at_low, at_high) - first)
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """The greatest angle of the pin at which its contact stands still on the mate; None where it never does."""
+    """Return the maximum angle of the pin at which its contact has zero speed along the mate; None if it never has."""
 
     def speed(beta: float) -> float:
         L = sqrt((A - R) ** 2 + 4 * A * R * float(np.sin(beta / 2)) ** 2)
@@ -283,24 +294,24 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
     grid = np.linspace(0, far, _SCAN)[1:]
     speeds = np.array([speed(beta) for beta in grid])
-    still = np.flatnonzero(speeds <= 0)
-    if still.size == 0:
-        # at 0 itself L is |A - R|, which may be 0: then the speed is not defined
+    reversed_speeds = np.flatnonzero(speeds <= 0)
+    if reversed_speeds.size == 0:
+        # at 0 itself L is |A - R|, which may be 0, and the speed is then undefined
         minimum = 1e-9 * far
         return root(speed, minimum, grid[0], speed(minimum), speeds[0]) if speed(minimum) < 0 else None
-    at = int(still[-1])
+    at = int(reversed_speeds[-1])
     return far if at == len(grid) - 1 else root(speed, grid[at], grid[at + 1], speeds[at], speeds[at + 1])
 
 
 def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
-    """Point of the mate that a pin at the angle beta touches, from the mate's axle."""
+    """Return the point of the mate that a pin at the angle beta touches, from the mate's axle."""
     at = np.array([beta])
     G = _centre(R, A, at)
     return complex(_turned(R, mate, G * (1 - B / np.abs(G)) + 1j * mate, at)[0])
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Least distance from a point of the mate to the centres of pins between two angles."""
+    """Return the minimum distance from a point of the mate to the centres of pins between two angles."""
     distance = inf
     for _ in range(_NARROWED):
         t = np.linspace(low, high, _SCAN)
@@ -312,12 +323,12 @@ def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: 
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:
-    """Centre of the pin from the pitch point, as x + iy."""
+    """Return the centre of the pin from the pitch point, as x + iy."""
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
     return found
 
 
 def _turned(R: float, mate: float, point: Points, beta: Floats) -> Points:
-    """A point from the mate's axle as the mate bears it when the lantern has turned by beta."""
+    """Return a point in the body frame of the mate, from its axle, after the lantern has turned by beta."""
     found: Points = point * np.exp(1j * R / mate * beta)
     return found

@@ -1,7 +1,6 @@
-"""The base class of conjugate tooth forms: from a declaration to a pair of wheels and its
-transmission function.
+"""Base class of conjugate tooth forms: from a declaration to a pair of wheels and its transmission function.
 
-With the checks that these forms share: arcs, pressure angles, kinds of wheels, and which wheel is gear 1.
+It includes the checks that these forms share: arcs, pressure angles, kinds of wheels, and the numbering of the gears.
 """
 
 from __future__ import annotations
@@ -30,28 +29,28 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import PairFigures
 
-_DESIGN = 1e-9  # of a centre distance: nearer to the design is at it
+_DESIGN = 1e-9  # relative difference of centre distances that counts as rounding
 
 
 class ConjugateToothForm(ToothForm):
-    """A conjugate tooth form: a path of contact for any two wheels, and the thickness of their teeth.
+    """Conjugate tooth form: gives any two wheels a path of contact and a tooth thickness.
 
     See Also
     --------
-    geartrain.teeth.Involute, geartrain.teeth.Cycloidal : two of them.
+    geartrain.teeth.Involute, geartrain.teeth.Cycloidal : Two examples.
     """
 
     conjugate: ClassVar[bool] = True
     matched: ClassVar[str] = ""
-    """How it is matched to other forms where they are compared, beyond its arcs, in words."""
+    """Text on the quantities, other than arcs, that are matched in a comparison with other forms."""
 
     backlash: Length = Field(
         "0",
         validate_default=True,
-        description="Play on the pitch circle, in modules or with a unit; both teeth thinned",
+        description="Backlash on the pitch circle, in modules or with a unit; the teeth of both wheels are thinned",
     )
     centre_distance: Length | None = Field(
-        None, description="Distance of the two axes, in modules or with a unit; default that of the design"
+        None, description="Centre distance, in modules or with a unit; default the design distance"
     )
 
     @model_validator(mode="after")
@@ -61,18 +60,20 @@ class ConjugateToothForm(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """With those of the path of contact."""
+        """Return the class of figures that includes the path of contact."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateFigures
 
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving; a ring is gear 2 of the form whichever the pair names first.
+        """Build the mesh of a pair, its first wheel driving.
+
+        A ring gear is gear 2 of the form in either order of the pair.
 
         Returns
         -------
         GearMesh
-            What a train asks of the pair.
+            Mesh as used in the analysis of a train.
         """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
@@ -91,35 +92,35 @@ class ConjugateToothForm(ToothForm):
         )
         mesh = ConjugateMesh(wheels, self, wheels.driver, transmission)
         if not mesh.rigid:
-            _ = mesh.faults  # teeth too far apart to touch raise: here, where the pair is named
+            _ = mesh.faults  # raises if the teeth are too far apart to touch, where the pair is named in the message
         return mesh
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Why a maker's play does not hold for this pair: declared play wins.
+        """Explain why a maker's backlash does not apply to this pair, if the pair declares its own.
 
         Returns
         -------
         Problem or None
-            None where no play is declared.
+            None if no backlash is declared.
         """
         if "backlash" not in self.model_fields_set:
             return None
-        why = f"it declares {self.backlash.text}, and what is declared wins"
-        fix = "leave --backlash out, or take the `backlash` out of the file"
-        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+        why = f"its declared backlash {self.backlash.text} takes precedence over --backlash"
+        fix = "omit --backlash, or remove `backlash` from the file"
+        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
 
     def thinned(self, backlash: Quantity) -> Self:
-        """The same teeth with this play.
+        """Return a copy of the form with the given backlash.
 
         Returns
         -------
         ConjugateToothForm
-            A copy.
+            Copy with the backlash replaced.
         """
         return self.model_copy(update={"backlash": backlash})
 
     def slant_pressure(self, wheels: WheelPair) -> float:
-        """Force on the teeth of helical wheels over its part across their axes.
+        """Return the ratio of the force on helical teeth to its component in the transverse plane.
 
         Parameters
         ----------
@@ -135,95 +136,95 @@ class ConjugateToothForm(ToothForm):
         return 1.0
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Room under the mate's tip at the root of one gear.
+        """Return the bottom clearance between the root of one gear and the mate's tip.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+            Tooth numbers, position of the axes, and module if a length gives it.
         gear : {1, 2}
-            Whose root.
+            Gear whose root is meant.
 
         Returns
         -------
         float or None
-            Modules; None where the form does not say.
+            Modules; None if the form does not define it.
         """
         del wheels, gear
         return None
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Play of axes that stand too far apart.
+        """Return the backlash at a centre distance that differs from the design.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+            Tooth numbers, position of the axes, and module if a length gives it.
         gap : float
-            By how much [module]; below 0 they stand too near.
+            Excess of the centre distance [module]; below 0 the axes are too near.
 
         Returns
         -------
         float or None
-            On the pitch circle [module], below 0 where the teeth jam; None for forms that run as designed at their
-            own distance only.
+            Backlash on the pitch circle [module], below 0 if the teeth jam. None for forms that run as designed at
+            their own distance only.
         """
         del wheels, gap
         return None
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
-        """The round pins that one wheel has for teeth.
+        """Return the round pins that form the teeth of one wheel.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+            Tooth numbers, position of the axes, and module if a length gives it.
 
         Returns
         -------
         LanternPins or None
-            None where both have teeth.
+            None if both wheels have teeth.
         """
         del wheels
         return None
 
     @abstractmethod
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair of wheels as designed, whatever their distance.
+        """Return the pair of wheels as designed, regardless of the declared centre distance.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+            Tooth numbers, position of the axes, and module if a length gives it.
 
         Returns
         -------
         ConjugatePair
-            Path of contact, thickness of the teeth, and what keeps them from running.
+            Path of contact, tooth thickness, and faults that prevent the pair from running.
 
         Raises
         ------
         GearTrainError
-            Where there is no such pair.
+            If no such pair exists.
         """
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """The pair whose arcs of contact are given; raises `GearTrainError` where there is none.
+        """Return the pair with given arcs of contact. Raises `GearTrainError` if no such pair exists.
 
         Parameters
         ----------
         wheels : WheelPair
             The two wheels.
         arcs : tuple of float
-            Of approach and recess, gear 1 driving [pitch].
+            Arcs of approach and recess, gear 1 driving [pitch].
         given : mapping
-            What else the form declares; what is left out is as by default.
+            Other declared parameters of the form; the rest have their defaults.
 
         Returns
         -------
         ConjugatePair
-            Path of contact, thickness of the teeth, and what keeps them from running.
+            Path of contact, tooth thickness, and faults that prevent the pair from running.
         """
         return conjugate_pair_of(cls.declared({"arcs": [repr(float(arc)) for arc in arcs], **given}), wheels)
 
@@ -237,30 +238,31 @@ class ConjugateToothForm(ToothForm):
         pitch_distance: float | None = None,
         helix: float = 0.0,
     ) -> PathOfContact:
-        """The path of contact of a pair.
+        """Return the path of contact of a pair.
 
         Parameters
         ----------
         z1, z2 : int
             Teeth of gear 1 and gear 2, 3 or more.
         internal : bool
-            Gear 2 is a ring.
+            True if gear 2 is a ring gear.
         shaft_angle : float, optional
-            Angle of the axes [rad], for bevels; parallel without.
+            Shaft angle [rad] of bevels; None for parallel axes.
         pitch_distance : float, optional
-            Half the module of each wheel times its teeth, summed, for a ring too [m]; only lengths with a unit need it.
+            Half the sum of module times teeth of both wheels, also for a ring gear [m]. Only lengths with a unit need
+            it.
         helix : float
             Helix angle of helical wheels [rad], 0 or more; their lengths are in transverse modules.
 
         Returns
         -------
         PathOfContact
-            Lengths in modules; of bevels rad on the unit sphere.
+            Lengths in modules; for bevels rad on the unit sphere.
 
         Raises
         ------
         GearTrainError
-            Where the form gives no such pair.
+            If the form gives no such pair.
         """
         return conjugate_pair_of(self, WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance, helix)).path
 
@@ -276,7 +278,7 @@ class ConjugateToothForm(ToothForm):
         shaft_angle: float | None = None,
         helix: float = 0.0,
     ) -> ConjugateTransmission | OffDesignTransmission:
-        """The transmission function of a pair.
+        """Return the transmission function of a pair.
 
         Parameters
         ----------
@@ -285,22 +287,22 @@ class ConjugateToothForm(ToothForm):
         friction : float
             Coefficient of friction, 0 or more.
         driver : {1, 2}
-            Which gear drives.
+            The gear that drives.
         direction : {1, -1}
-            -1 turns back, on the other flanks.
+            Direction of rotation; with -1 the opposite flanks drive.
         pitch_distance, internal, shaft_angle, helix
             As in `path`.
 
         Returns
         -------
         ConjugateTransmission or OffDesignTransmission
-            The second where the axes stand at another distance than the teeth are made for; the `verdict` of either
-            says whether the pair can run.
+            The second if the axes are at a distance other than the design distance. The `verdict` of either reports
+            whether the pair can run.
 
         Raises
         ------
         GearTrainError
-            Where the form gives no such pair.
+            If the form gives no such pair.
         """
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
@@ -314,45 +316,48 @@ class ConjugateToothForm(ToothForm):
         return OffDesignTransmission(pair, distance, friction, driver, direction)
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """The declared centre distance, where it is not that of the design.
+        """Return the declared centre distance if it differs from the design distance.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+            Tooth numbers, position of the axes, and module if a length gives it.
 
         Returns
         -------
         float or None
-            Modules; None at the distance of the design.
+            Modules; None at the design distance.
 
         Raises
         ------
         GearTrainError
-            For bevel wheels, which have none.
+            If the wheels are bevels, which have no centre distance.
         """
         if self.centre_distance is None:
             return None
         if wheels.bevel:
-            raise refused("bevel wheels have no centre distance", "their axes meet", "leave out centre_distance")
+            raise refused("bevel wheels have no centre distance", "their axes meet", "omit centre_distance")
         given, design = wheels.modules(self.centre_distance, "centre_distance"), wheels.distance
         return given if abs(given - design) > _DESIGN * design else None
 
     def _standard(self, path: PathOfContact, wheels: WheelPair) -> ConjugatePair:
-        """A pair whose teeth share the pitch equally, less half the backlash each."""
+        """Return a pair whose teeth share the pitch equally, each thinned by half the backlash."""
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
         half = path.pitch.p / 4 - self._backlash(path.pitch, wheels) / 4
         return ConjugatePair(path, (half, half))
 
     def _backlash(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
-        """The declared backlash as X: of a bevel pair a module is p / pi on the unit sphere."""
+        """Return the declared backlash as pitch-line displacement X.
+
+        For a bevel pair one module is p / pi on the unit sphere.
+        """
         return wheels.modules(self.backlash, "backlash") * pitch.p / pi
 
 
 @lru_cache(maxsize=1024)
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
-    """The pair of a form, made once."""
+    """Return the pair of a form; the result is cached."""
     return form.pair(wheels)
 
 
@@ -360,44 +365,48 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Arcs declared in pitches, as X."""
+    """Convert arcs declared in pitches to X."""
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
 
 def check_arcs(arcs: tuple[Figure, Figure]) -> None:
-    """Raises pydantic's error for arcs below 0, or both 0."""
+    """Raise pydantic's error if an arc is below 0 or both are 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
-        raise bad("arcs", f"arcs [{text}] are none", "give those of approach and recess in pitches, a pitch in all")
+        raise bad(
+            "arcs",
+            f"arcs [{text}] are out of range",
+            "give arcs of approach and recess in pitches, with a sum of at least 1",
+        )
 
 
 def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
-    """Raises pydantic's error for a backlash below 0, or a distance not above 0."""
+    """Raise pydantic's error if the backlash is below 0 or the centre distance is not above 0."""
     if backlash.value < 0:
         raise bad("backlash", f"backlash {backlash.text} would jam the teeth", "write 0 or more")
     if centre_distance is not None and centre_distance.value <= 0:
-        raise bad("length", f"centre_distance {centre_distance.text} is no length", "write it above 0")
+        raise bad("length", f"centre_distance {centre_distance.text} is not above 0", "give a distance above 0")
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
-    """Raises pydantic's error for a pressure angle outside 0 to `below` of a turn, an eighth or a quarter."""
+    """Raise pydantic's error if a pressure angle is not between 0 and `below` turns (an eighth or a quarter)."""
     turns = angle.si / tau
     if not 0 < turns < below:
         raise bad(
             "pressure_angle",
             f"{name} {angle.text} is outside 0 to {360 * below:g} deg",
-            f"a pressure angle of these teeth lies between 0 and {360 * below:g} deg; 20 deg is usual",
+            f"give a pressure angle between 0 and {360 * below:g} deg; 20 deg is usual",
         )
 
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-    """Raises `GearTrainError` for wheels of kinds that cannot have conjugate teeth of this form."""
+    """Raise `GearTrainError` if the kinds of wheels cannot have conjugate teeth of this form."""
     why, fix = _refusal(wheels.kinds), IDEAL
     if "helical" in wheels.kinds:
         if _are_skew(shaft_angle):
-            why = "helical teeth on skew axes touch at a point, and slide along each other"
+            why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
-            why = "its wheels are helical, and only involutes are known to work there"
+            why = "its wheels are helical, and only involute teeth are supported on helical wheels"
             fix = "give it `tooth_form: involute`"
     if why:
         raise refused(f"it cannot have {form.words} teeth", why, fix)
@@ -405,47 +414,47 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 def _refusal(kinds: tuple[str, str]) -> str:
     if "worm" in kinds:
-        return "a worm's thread slides along the wheel, and rolls on no pitch surface"
+        return "a worm's thread slides along the wheel and has no rolling pitch surface"
     if set(kinds) >= {"bevel", "contrate"}:
         return "a bevel and a contrate wheel have no pair of pitch cones"
     return ""
 
 
 def wheel_specific_parameters(form: ToothForm) -> list[str]:
-    """Parameters that tell the two wheels apart."""
+    """Return the names of parameters whose values differ between the two wheels."""
     given = {name: getattr(form, name) for name in type(form).model_fields}
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
     return uneven + [name for name in ("pins",) if name in form.model_fields_set]
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raises `GearTrainError` for a form whose wheels differ on a pair that names its ring first."""
+    """Raise `GearTrainError` if the form's wheels differ and the pair names its ring gear first."""
     if uneven := wheel_specific_parameters(form):
         ring, pinion = pair
         raise refused(
-            f"it is not plain whose {' and '.join(uneven)} is whose",
+            f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",
             f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
             f"name the pinion first: `pair: [{pinion}, {ring}]`",
         )
 
 
 def _are_skew(shaft_angle: ShaftAngle) -> bool:
-    """Whether the axes of two helical wheels are not parallel."""
+    """Return whether the axes of two helical wheels are not parallel."""
     try:
         return shaft_angle() is not None
     except RangeError:
-        return True  # they pass each other, as those of helical wheels may
+        return True  # the axes are skew, as helical wheels permit
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
-    """The angle of a bevel pair (rad); None for wheels that mesh as spur wheels do."""
+    """Return the shaft angle of a bevel pair (rad); None for wheels that mesh like spur wheels."""
     if {"contrate", "helical"} & set(wheels.kinds):
         return None
     angle = shaft_angle()
     if angle is None and "bevel" in wheels.kinds:
         raise refused(
             f"it cannot have {form.words} teeth",
-            "nothing says how the axes of its bevels meet",
+            "the shaft angle of its bevel wheels is not declared",
             f"declare `axes` with the `direction` of both, or {IDEAL}",
         )
     return angle

@@ -1,7 +1,7 @@
-"""Conjugate teeth of a gear pair of a train, spur, ring or bevel.
+"""Mesh of a gear pair with conjugate teeth in a train: spur, internal or bevel.
 
-Which wheel is gear 1 of the form, why the pair does not turn, its figures (arcs and contact ratio of the design, error,
-backlash, efficiency), and its design: sizes, path of contact, costs, outlines of the wheels.
+It determines which wheel is gear 1 of the form, why the pair does not turn, its figures (arcs and contact ratio of the
+design, transmission error, backlash, efficiency), and its design (sizes, path of contact, losses, wheel outlines).
 """
 
 from __future__ import annotations
@@ -34,39 +34,39 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
 
 _WORDS = (
-    "Conjugate teeth keep the ratio of tooth counts at every instant where their axes are as far apart as they are "
-    "made for, involutes at any distance; others have an error there. Arcs of the driver's approach and recess, "
-    "and contact ratio, in pitches, as designed; error and play in degrees of the driven wheel; mean efficiency "
-    "at constant driver torque, exact in friction, as the pair is driven and driven back, teeth in contact sharing "
-    "the load equally."
+    "Conjugate teeth have a constant speed ratio at their design centre distance, involutes at any distance; other "
+    "forms have a transmission error elsewhere. Arcs of the driver's approach and recess, and contact ratio, in "
+    "pitches, as designed; transmission error and backlash in degrees of the driven wheel; mean efficiency at constant "
+    "driver torque, exact in friction, as the pair is driven and driven back, teeth in contact sharing the load "
+    "equally."
 )
 _HEADER = (
     *("pair", "drives", "teeth", "arcs", "contact ratio"),
-    *("error p-p (deg)", "play (deg)", "efficiency", "driven back", "verdict"),
+    *("error p-p (deg)", "backlash (deg)", "efficiency", "driven back", "verdict"),
 )
 
 
 class ConjugateDetails(NamedForm, Protocol):
-    """What such a mesh asks of its form besides the name: see the methods of the form."""
+    """Interface of the tooth form that such a mesh uses, besides its name; see the methods of the form."""
 
     more_contact: ClassVar[str]
-    """What raises the contact ratio."""
+    """Advice on how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """What is free under the mate's tip (modules)."""
+        """Return the bottom clearance under the mate's tip (modules)."""
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Play of axes that stand too far apart (modules)."""
+        """Return the backlash at a larger centre distance (modules)."""
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
-        """Round pins in place of teeth."""
+        """Return the round pins that replace teeth, if any."""
 
 
 @dataclass(frozen=True)
 class ConjugateMesh(GearMesh):
-    """A gear pair with conjugate teeth; a ring is gear 2 of its law in whichever order the pair is named.
+    """Gear pair with conjugate teeth; a ring gear is gear 2 of its transmission function in either order of the pair.
 
-    At another distance than they are made for, all but involutes have a law that is not rigid.
+    At a centre distance other than the design's, the speed ratio varies for all forms except involutes.
     """
 
     tooth_form: ConjugateDetails
@@ -74,29 +74,29 @@ class ConjugateMesh(GearMesh):
 
     @cached_property
     def reversed(self) -> ConjugateTransmission | OffDesignTransmission:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
         return self.transmission.reversed
 
     @property
     def verdict(self) -> PairVerdict:
-        """Whether these teeth can turn."""
+        """Verdict on whether these teeth can turn."""
         return self.transmission.verdict
 
     @property
     def stands(self) -> float:
-        """Half a tooth of both wheels: the driven angle is counted from where flanks touch."""
+        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
 
     @property
     def gears(self) -> tuple[str, str]:
-        """The wheels that are gear 1 and gear 2 of the law."""
+        """Names of the wheels that are gear 1 and gear 2 of the transmission function."""
         first, second = self.gear.pair
         return (second, first) if self.wheels.internal[0] else (first, second)
 
     @property
     def path(self) -> PathOfContact:
-        """The path of contact at the design distance."""
+        """Path of contact at the design distance."""
         return self.transmission.path
 
     @property
@@ -106,19 +106,19 @@ class ConjugateMesh(GearMesh):
 
     @property
     def wheel_pair(self) -> WheelPair:
-        """The two wheels as the form knows them, axes taken as parallel."""
+        """Wheels of the pair as the form uses them, with axes taken as parallel."""
         pitch, helix = self.transmission.path.pitch, abs(self.wheels.helix[0])
         return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module, helix=helix)
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """Lengths of the law are modules already."""
+        """Return the size of the pair, whose lengths are already in modules; None for bevels."""
         del tips
         if self.transmission.path.pitch.bevel:
             return None
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """The flank of the design, with a root that lets the mate pass."""
+        """Return the requirement on a tooth: the flank of the design, and a root that lets the mate pass."""
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -129,30 +129,33 @@ class ConjugateMesh(GearMesh):
         )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """The flank of the design over a root of the blank's sizes; by default as deep as the form says."""
+        """Return the outline of a wheel: the flank of the design above a root of the blank's sizes.
+
+        The default depth of the root is the one that the form defines.
+        """
         from geartrain.teeth.outlines.wheel_outline import outline
 
         wheels, own = self.wheel_pair, self.gears.index(self.gear.pair[gear - 1]) + 1
         free = self.tooth_form.bottom_clearance(wheels, own)
         if cut.clearance is None and free is not None:
             if free < 0:
-                raise QuestionError(_shallow(own, -free))
+                raise QuestionError(_shallow_root(own, -free))
             cut = replace(cut, clearance=free * cut.module)
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
     def backlash_apart(self, gap: float) -> float | None:
-        """As the form has it: involutes run at any distance."""
+        """Return the backlash at another centre distance, as the form defines it."""
         return self.tooth_form.backlash_apart(self.wheel_pair, gap)
 
     @property
     def label(self) -> str:
-        """The pair, with which wheel is which gear."""
+        """Name of the pair with the names of gear 1 and gear 2."""
         first, second = self.gears
         return f"pair '{self.name}' (gear 1 is '{first}', gear 2 '{second}')"
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Of the design; axles that stand elsewhere displace all flanks alike."""
+        """Contact of the design with displaced flanks; another centre distance displaces all flanks equally."""
         from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 
         pitch, transmission = self.transmission.path.pitch, self.transmission
@@ -160,17 +163,17 @@ class ConjugateMesh(GearMesh):
         return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
-        """Arcs and contact ratio of its design, error, play and efficiency."""
+        """Report arcs and contact ratio of the design, transmission error, backlash and efficiency."""
         figures = _figures(self)
         return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
 
 
-def _shallow(gear: int, overlap: float) -> Problem:
-    """What is said of a root that the mate's tip would run into; `overlap` in modules."""
+def _shallow_root(gear: int, overlap: float) -> Problem:
+    """Return the problem of a root that the mate's tip would run into; `overlap` in modules."""
     return Problem(
-        f"the root of gear {gear} stands in the way of its mate's tip",
+        f"the root of gear {gear} interferes with its mate's tip",
         f"they overlap by {overlap:.4g} modules at this centre distance",
-        "give a greater --dedendum or a smaller --addendum",
+        "give a larger --dedendum or a smaller --addendum",
         "--dedendum",
     )
 
@@ -180,7 +183,7 @@ def _shallow(gear: int, overlap: float) -> Problem:
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Figures of a pair with conjugate teeth, with those of its path of contact as designed."""
+    """Figures of a pair with conjugate teeth, including its path of contact as designed."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -193,21 +196,21 @@ class ConjugateFigures(PairFigures):
     )
 
     arcs: tuple[float, float]
-    """Of the driver's approach and recess (pitches)."""
+    """Arcs of the driver's approach and recess (pitches)."""
     contact_ratio: float
     """Length of the path of contact, in pitches."""
     pressure_angle: float
-    """At the pitch point (rad)."""
+    """Pressure angle at the pitch point (rad)."""
     shaft_angle: float | None
-    """Between the axes (rad); None where they are parallel."""
+    """Shaft angle (rad); None for parallel axes."""
     helix_angle: float | None = None
-    """Of helical wheels (rad); None of straight teeth."""
+    """Helix angle of helical wheels (rad); None for straight teeth."""
     overlap_ratio: float | None = None
-    """Pitches by which helical teeth lead along their width; None where that is not known."""
+    """Overlap ratio of helical teeth; None if it is not known."""
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Of a pair as it is driven; involutes keep their motion where they cannot run."""
+    """Compute the figures of a pair as driven; involutes keep their motion figures even if they cannot run."""
     transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)
     approach, recess = _driver_arcs(transmission)
@@ -226,7 +229,7 @@ def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
 
 
 def _overlap_ratio(wheels: MeshingWheels) -> float | None:
-    """Width times tan helix over the transverse pitch."""
+    """Return the overlap ratio: face width times tan(helix angle) over the transverse pitch."""
     if not wheels.helix[0] or wheels.width is None or wheels.module is None:
         return None
     return wheels.width * tan(abs(wheels.helix[0])) / (pi * wheels.module)
@@ -247,7 +250,7 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
 
 
 def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
-    """The driver's approach and recess (X)."""
+    """Return the arcs of approach and recess with respect to the driver, as pitch-line displacements X."""
     approach, recess = transmission.path.arcs
     return (approach, recess) if transmission.driver == 1 else (recess, approach)
 
@@ -257,33 +260,33 @@ def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) ->
 
 @dataclass(frozen=True)
 class DesignLosses(Result):
-    """What a path of contact costs."""
+    """Losses and loads of a path of contact, and its sliding."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
     """Loss, stress, heat, flash, depth."""
     sliding: float
-    """Greatest sliding over the pitch-line speed."""
+    """Maximum sliding over the pitch-line speed."""
     specific_sliding: float
-    """Greatest sliding over the slower of the contact's speeds along the flanks; infinite where it stands still."""
+    """Maximum sliding over the slower contact speed along the flanks; infinite where that speed is 0."""
 
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of sliding where pairs of teeth in contact share the load."""
+    """Efficiency of sliding if the tooth pairs in contact share the load."""
 
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Exact in friction."""
+    """Efficiency, exact in friction."""
     assumption: str = SHARED
-    """The same in words."""
+    """Assumption on load sharing, in words."""
 
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """A pair with conjugate teeth as designed; gear 1 first, lengths in modules (bevel: rad), angles in rad."""
+    """Pair with conjugate teeth as designed; gear 1 first, lengths in modules (bevels: rad), angles in rad."""
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
@@ -298,44 +301,44 @@ class PairDesign(Result):
     )
 
     mesh: ConjugateMesh
-    """The pair, as it is driven."""
+    """Mesh of the pair as driven."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Wheels that were cut."""
+    """Outlines of the wheels that were cut."""
 
     @property
     def path(self) -> PathOfContact:
-        """The path of contact."""
+        """Path of contact of the design."""
         return self.mesh.path
 
     @property
     def runs(self) -> bool:
-        """True if the teeth can run, be it that friction locks them."""
+        """True if the teeth can run, even if friction locks them."""
         return bool(self.mesh.verdict)
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Teeth of gear 1 and of gear 2."""
+        """Tooth numbers of gear 1 and gear 2."""
         return int(self.path.pitch.z1), int(self.path.pitch.z2)
 
     @property
     def pitch_radii(self) -> tuple[float, float]:
-        """Of both gears; negative for a ring."""
+        """Pitch radii of both gears; negative for a ring gear."""
         return self.path.pitch.R1, self.path.pitch.R2
 
     @cached_property
     def flanks(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Radii between which the flanks of each gear work, root end first."""
+        """Radii that bound the active flanks of each gear, root end first."""
         return self.path.radii(1), self.path.radii(2)
 
     @property
     def thickness(self) -> tuple[float, float]:
-        """Of a tooth, or pin, on the pitch circle (pitches)."""
+        """Thickness of a tooth or pin of each gear on the pitch circle (pitches)."""
         first, second = self.mesh.transmission.pair.halves
         return 2 * first / self.path.pitch.p, 2 * second / self.path.pitch.p
 
     @cached_property
     def top_lands(self) -> tuple[float | None, float | None]:
-        """Angle of the land at the tip of a tooth (rad); None for round pins."""
+        """Angle of the top land of a tooth of each gear (rad); None for round pins."""
         pair = self.mesh.transmission.pair
         first, second = (
             tip_thickness(self.path, gear, pair.halves) if solid else None for gear, solid in enumerate(pair.solid, 1)
@@ -350,19 +353,19 @@ class PairDesign(Result):
 
     @property
     def pressure_angles(self) -> tuple[float, float, float]:
-        """At the first contact, the pitch point and the last contact."""
+        """Pressure angles at the first contact, the pitch point and the last contact."""
         approach, recess = self.path.arcs
         first, middle, last = (float(self.path.at(X).psi) for X in (-approach, 0.0, recess))
         return first, middle, last
 
     @cached_property
     def losses_and_stresses(self) -> DesignLosses | None:
-        """What the path costs; None for teeth that cannot run."""
+        """Losses and stresses of the path; None for teeth that cannot run."""
         return DesignLosses(measure(self.path), *sliding(self.path)) if self.runs else None
 
     @property
     def efficiency(self) -> SharedEfficiency | None:
-        """Exact in friction; None for teeth that cannot run."""
+        """Efficiency, exact in friction; None for teeth that cannot run."""
         return SharedEfficiency(self.mesh.efficiency(self.mesh.driver)) if self.runs else None
 
     @property

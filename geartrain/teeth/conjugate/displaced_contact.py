@@ -1,13 +1,13 @@
 """Conjugate teeth away from their design: displaced flanks, and axles at another centre distance.
 
-A flank that stands out by n along its normal where it touches turns the driven wheel ahead by n over the moment arm of
-the normal, docs/cut-by-hand.md (1). The normal passes the pitch point under the pressure angle psi, so that the arm is
-R2 cos psi on cylinders and sin R2 cos psi on cones: of an involute, the radius of its base circle. Beyond the ends of
-the path a tip still touches, its corner against the mate's flank: the driven wheel then falls behind, and how far
-follows from the law of cosines.
+A flank that protrudes by n along its normal at the contact turns the driven wheel ahead by n over the moment arm of
+the normal, docs/cut-by-hand.md (1). The normal passes the pitch point under the pressure angle psi, so the arm is
+R2 cos psi on cylinders and sin R2 cos psi on cones; for an involute it is the base radius. Beyond the ends of the path
+the corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from the law of
+cosines.
 
-At a centre distance they were not made for, the transmission function follows from the contact of both outlines: the
-flanks of the design, each continued straight beneath its last designed contact.
+At a centre distance other than the design's, the transmission function follows from the contact of both outlines.
+These are the flanks of the design, each continued straight beneath its last designed contact.
 """
 
 from __future__ import annotations
@@ -33,20 +33,21 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_STRAIGHT = 0.5  # modules of root beneath a flank, and not beyond a third of the way to the axle
-_NODES = 257  # of the tables along the path and beyond its ends; linear between them
-_SMALL = 1e-12  # of a radian of contact beyond an end: none
-_END_STEP = 1e-4  # of the arc of contact: over which it is told how a tip's radius changes
-_BLUNT = radians(10)  # half the aperture, at least: of teeth with parallel sides no fraction could be taken
+_STRAIGHT = 0.5  # modules of root beneath a flank, at most a third of its radius
+_NODES = 257  # of the tables along the path and beyond its ends, with linear interpolation
+_SMALL = 1e-12  # rad: shorter contact beyond an end is neglected
+_END_STEP = 1e-4  # of the arc of contact: step of the difference quotient of the tip's radius
+_BLUNT = radians(10)  # lower bound of the half aperture, by which errors are divided; it is 0 for parallel sides
 
 
 Value = TypeVar("Value")
 
 
 def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Floats:
-    """The azimuth (rad, 0 or greater) of points `own` from the axle of a gear and `other` from its mate's.
+    """Return the azimuth (rad, 0 or more) of points at distance `own` from a gear's axle and `other` from its mate's.
 
-    The law of cosines, plane or spherical; NaN where there is none. A ring's mate has its axle on the other side.
+    The method is the law of cosines, plane or spherical. The result is NaN if no such point exists. The axle of a ring
+    gear's mate is on the other side.
     """
     D = pitch.R1 + pitch.R2
     if gear == 2:
@@ -60,11 +61,11 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
     return found
 
 
-def kink_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """How far both gears have turned (as X) while the tip of `gear` touches its mate's flank at points of it.
+def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
+    """Return the rotations of both gears while the tip of `gear` touches given points of its mate's flank.
 
-    The points are polar in the mate's X = 0 position. The tip of gear 1 touches beyond the recess, that of gear 2
-    before the approach.
+    Rotations are given as pitch-line displacements X. The points are polar in the mate's X = 0 position. The tip of
+    gear 1 touches beyond the recess, the tip of gear 2 before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)
@@ -75,15 +76,15 @@ def kink_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats
     return (own, other) if gear == 1 else (other, own)
 
 
-def _touched(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
-    """The flank that the tip of `gear` touches beyond the end of the path, from there on: polar points of its mate."""
+def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
+    """Return polar points of the mate's flank that the tip of `gear` touches beyond the end of the path."""
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
-    # closer towards the end of the path, where the corner leaves it along a parabola
+    # quadratic spacing, as the corner leaves the path along a parabola
     part = np.linspace(0, 1, _NODES) ** 2
     if pair.solid[mate - 1]:
         return pitch.polar(mate, path.flank(mate, first + (last - first) * part))
-    # a round pin goes on beyond its flank, as far as its outermost point
+    # a round pin extends beyond its flank to its outermost point
     radius, azimuth = (float(each) for each in pitch.polar(mate, path.flank(mate, first)))
     reach = pitch.reach_of(mate)
     middle = reach * np.exp(1j * pair.halves[mate - 1] / reach * (-1 if mate == 1 else 1))
@@ -95,29 +96,29 @@ def _touched(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
 
 
 def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """How far the flank of a gear moves along the normal at its contact X where it turns about its pitch point.
+    """Return the displacement of a flank along the normal at contact X per 1 rad of rotation about its pitch point.
 
-    For 1 rad, anticlockwise with X to the right and gear 2 above: z . ((P - P0) x n), on the sphere P0 . (P x n).
+    The rotation is anticlockwise with X to the right and gear 2 above: z . ((P - P0) x n), on the sphere P0 . (P x n).
     """
     pitch, at = path.pitch, path.at(X)
     middle = np.zeros((len(X), 3 if pitch.bevel else 2))
     if pitch.bevel:
         middle[:, 2] = 1.0
     P0 = (pitch.on_gear1 if gear == 1 else pitch.on_gear2)(middle, -X)
-    # P lies on the normal, or P x n is the pole of its great circle: both as at the pitch point
+    # P is on the normal (bevel: P x n is the pole of its great circle), so the values at the pitch point apply
     return np.asarray(P0[:, 1] * at.cos_psi - P0[:, 0] * at.sin_psi)
 
 
 @dataclass(frozen=True)
-class KinkLag:
-    """How far (rad) the driven wheel falls behind while a tip touches beyond an end of the path, over even steps."""
+class CornerLag:
+    """Lag (rad) of the driven wheel while a tip touches beyond an end of the path, tabulated at even steps."""
 
     step: float
-    """Of the driver's angle beyond the end (rad); the last lag is where the corner has no flank left."""
+    """Step of the driver's angle beyond the end (rad); at the last lag the corner reaches the end of the flank."""
     lags: Floats
 
     def __call__(self, beyond: Floats) -> Floats:
-        """The lag (rad) at angles beyond the end; 0 before it, infinite where the corner touches no more."""
+        """Return the lag (rad) at angles beyond the end; 0 before it, infinite where the corner no longer touches."""
         at = np.maximum(beyond, 0.0) / self.step
         low = np.minimum(at.astype(np.int64), len(self.lags) - 2)
         first = self.lags[low]
@@ -126,22 +127,21 @@ class KinkLag:
 
     @property
     def most(self) -> float:
-        """The angle (rad) over which the corner touches."""
+        """Driver angle (rad) over which the corner touches."""
         return self.step * (len(self.lags) - 1)
 
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """What fractions of one wheel's errors are of, lengths in modules (cones: rad on the unit sphere)."""
+    """Reference sizes for the errors of one wheel. Lengths in modules (cones: rad on the unit sphere)."""
 
     z: int
     depth: float
-    """Between the radii at which its flank works."""
+    """Radial extent of the active flank."""
     half_angle: float
-    """Of the chord of its flank, from where it begins to work to its tip, with the middle of its tooth, at least 10
-    degrees (rad)."""
+    """Angle between the chord of the active flank and the middle of its tooth (rad), at least 10 degrees."""
     modules: float = 1.0
-    """In one of these lengths."""
+    """Number of modules in one unit of these lengths."""
 
     @property
     def pitch(self) -> float:
@@ -151,11 +151,11 @@ class DisplacedWheelSizes:
 
 @dataclass(frozen=True, eq=False)
 class DisplacedContact:
-    """One couple of teeth of a pair as it turns through its contact, and what displaced flanks change.
+    """Contact of one tooth pair throughout its engagement, and the effects of displaced flanks.
 
-    Lengths are modules; on cones they are angles on the unit sphere. All columns are rad of the driven wheel's lag for
-    one unit, at even steps of the driver's angle x past its place from `start` to `end` (rad). Of the driver (1) and of
-    the driven wheel (2):
+    Lengths are in modules; on cones they are angles on the unit sphere. All columns are the lag of the driven wheel
+    (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). Pairs of columns
+    are for the driver and the driven wheel, in this order.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
@@ -163,29 +163,29 @@ class DisplacedContact:
     start: float
     end: float
     across: tuple[Floats, Floats]
-    """Of a wheel whose teeth stand off its axle across the line of centres (the way it moves), and along."""
+    """Lag for teeth displaced from their axle across the line of centres, in the direction of motion."""
     along: tuple[Floats, Floats]
-    """Of a wheel whose teeth stand off its axle across the line of centres (the way it moves), and along."""
+    """Lag for teeth displaced from their axle along the line of centres."""
     tilt: tuple[Floats, Floats]
-    """Of a flank that is flatter by 1 rad, turned about its pitch point."""
+    """Lag for a flank that is flatter by 1 rad, rotated about its pitch point."""
     apart: Floats
-    """Of axles farther apart, or a wider shaft angle."""
+    """Lag for a larger centre distance or shaft angle."""
     normal: Floats
-    """Of a flank lower by 1 along its normal: 1 over the moment arm."""
-    entering: KinkLag
-    """Of tips beyond the ends of the path."""
-    leaving: KinkLag
-    """Of tips beyond the ends of the path."""
+    """Lag for a flank lower by 1 along its normal: the reciprocal of the moment arm."""
+    entering: CornerLag
+    """Lag while a tip touches before the start of the path."""
+    leaving: CornerLag
+    """Lag while a tip touches beyond the end of the path."""
     longer: tuple[float, float]
-    """How far (rad of the driver) a tip higher by 1 moves the end (the driver's) or the start."""
+    """Shift (rad of the driver) of the end (driver's tip) and of the start (driven tip) for a tip higher by 1."""
     backlash: float
-    """Rad of the driven wheel."""
+    """Backlash (rad of the driven wheel)."""
     stands: float
-    """Where a driven tooth stands when its angle is 0 (rad past the line of centres)."""
+    """Position of a driven tooth at driven angle 0 (rad past the line of centres)."""
     even: Floats
-    """The lag of even wheels, as that of axles which do not stand as designed (rad), along the same steps."""
+    """Lag (rad) of error-free wheels at the same steps, caused by axles that are not at their design distance."""
     distance: float
-    """Of the axles; infinite where they are not parallel."""
+    """Centre distance; infinite if the axles are not parallel."""
 
     @property
     def ratio(self) -> Fraction:
@@ -198,19 +198,19 @@ class DisplacedContact:
         return 2 * pi / self.wheels[0].z, 2 * pi / self.wheels[1].z
 
     def apart_by(self, shift: float) -> DisplacedContact:
-        """The same teeth, their axles farther apart by so much."""
+        """Return the same teeth at a centre distance larger by `shift`."""
         return replace(self, even=self.even + shift * self.apart, distance=self.distance + shift)
 
 
 @lru_cache(maxsize=256)
 def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> DisplacedContact:
-    """The contact of a conjugate pair, one of its gears driving; `gap`: by how much its axles are farther apart."""
+    """Return the contact of a conjugate pair driven by gear `driver`, at a centre distance larger by `gap`."""
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
         raise RangeError(
-            Problem("these teeth do not reach each other", "no flank can be displaced", "give them longer arcs")
+            Problem("these teeth do not reach each other", "displaced flanks need an arc of contact", "use longer arcs")
         )
-    # gear 2 drives the same contacts the other way round
+    # with gear 2 driving, the same contacts occur in reverse order
     sense = 1.0 if driver == 1 else -1.0
     first, last = path.ends(driver)
     X = np.linspace(first, last, _NODES)
@@ -218,24 +218,24 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     own, other = (pitch.reach_of(gear) for gear in gears)
     normal = 1 / (other * at.cos_psi)
     tangent, radial = normal * at.cos_psi, normal * at.sin_psi
-    # from the axle of a gear to the pitch point; a ring's is that of the other wheel
+    # direction from the axle of a gear to the pitch point; for a ring that of the other wheel
     ring = not pitch.bevel and pitch.R2 < 0
     up = {1: sense, 2: sense if ring else -sense}
-    # cones: a wheel whose axis leans moves its teeth across by the cosine of its cone, docs/cut-by-hand.md (3)
+    # cones: a displaced axis moves the teeth across by the cosine of the pitch cone, docs/cut-by-hand.md (3)
     lean = {1: cos(pitch.R1), 2: cos(pitch.R2)} if pitch.bevel else {1: 1.0, 2: 1.0}
-    lead = pair.halves[driver - 1]
+    half_tooth = pair.halves[driver - 1]
     found = DisplacedContact(
-        wheels=_both(gears, lambda gear: _sizes(pair, gear)),
-        start=(sense * first - lead) / own,
-        end=(sense * last - lead) / own,
-        across=_both(gears, lambda gear: tangent * lean[gear]),
-        along=_both(gears, lambda gear: radial * up[gear]),
-        tilt=_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
+        wheels=_for_both(gears, lambda gear: _sizes(pair, gear)),
+        start=(sense * first - half_tooth) / own,
+        end=(sense * last - half_tooth) / own,
+        across=_for_both(gears, lambda gear: tangent * lean[gear]),
+        along=_for_both(gears, lambda gear: radial * up[gear]),
+        tilt=_for_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
         apart=-radial if ring else radial,
         normal=normal,
-        entering=_kink(pair, 3 - driver, driver),
-        leaving=_kink(pair, driver, driver),
-        longer=_both(gears, lambda gear: _end_shift(path, gear) / own),
+        entering=_corner_lag(pair, 3 - driver, driver),
+        leaving=_corner_lag(pair, driver, driver),
+        longer=_for_both(gears, lambda gear: _end_shift(path, gear) / own),
         backlash=pair.backlash / other,
         stands=sum(pair.halves) / other,
         even=np.zeros(_NODES),
@@ -244,31 +244,34 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     return found.apart_by(gap) if gap else found
 
 
-def _both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Value, Value]:
-    """A value of the driver, and of the driven wheel."""
+def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Value, Value]:
+    """Return a value for the driver and one for the driven wheel."""
     return value(gears[0]), value(gears[1])
 
 
-def _kink(pair: ConjugatePair, gear: int, driver: int) -> KinkLag:
-    """The lag of the driven gear while the tip of one gear touches: the driver's where it leaves, else as it enters."""
+def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
+    """Return the lag of the driven gear while the tip of one gear touches beyond the path.
+
+    The driver's tip touches as the teeth leave contact, the driven tip as they enter it.
+    """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)
-    turned = kink_contact(path, gear, *_touched(pair, gear))
+    turned = corner_contact(path, gear, *_touched_flank(pair, gear))
     lag = (turned[0] - turned[1]) / pitch.reach_of(3 - driver)
     beyond = (turned[driver - 1] - first) / pitch.reach_of(driver) * (1.0 if gear == 1 else -1.0)
     good = np.isfinite(beyond) & np.isfinite(lag) & (beyond >= 0)
     beyond, lag = np.append(0.0, beyond[good]), np.append(0.0, lag[good])
-    # as far as the corner goes on; where it turns round it has left the flank
+    # up to the first reversal of the corner, where it has left the flank
     rising = np.flatnonzero(np.diff(beyond) < 0)
     stop = int(rising[0]) + 1 if len(rising) else len(beyond)
     beyond, lag = beyond[:stop], np.maximum.accumulate(lag[:stop])
     most = max(float(beyond[-1]), _SMALL)
     even = np.linspace(0.0, most, _NODES)
-    return KinkLag(most / (_NODES - 1), np.interp(even, beyond, lag))
+    return CornerLag(most / (_NODES - 1), np.interp(even, beyond, lag))
 
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
-    """How much longer (X) a tip that is higher by 1 lets the contact last."""
+    """Return the increase of contact length (pitch-line displacement X) for a tip higher by 1."""
     foot, tip = path.ends(gear)
     step = _END_STEP * (foot - tip)
     radius, _ = path.pitch.polar(gear, path.flank(gear, np.array([tip, tip + step])))
@@ -292,61 +295,61 @@ def _sizes(pair: ConjugatePair, gear: int) -> DisplacedWheelSizes:
 
 
 class OffDesignTransmission(OutlineTransmission):
-    """The transmission function of a pair of conjugate teeth at another centre distance than they are made for.
+    """Transmission function of a conjugate pair at a centre distance other than its design distance.
 
     Parameters
     ----------
     pair : ConjugatePair
-        As designed.
+        The pair as designed.
     distance : float
-        Of the axles [module].
+        Centre distance [module].
     friction, driver, direction
-        As of `ConjugateTransmission`.
+        As in `ConjugateTransmission`.
 
     See Also
     --------
-    geartrain.teeth.Involute : every conjugate form has a method `transmission` that gives it.
+    geartrain.teeth.Involute : Every conjugate form has a method `transmission` that returns one.
     """
 
     def __init__(
         self, pair: ConjugatePair, distance: float, friction: float = 0.0, driver: int = 1, direction: int = 1
     ) -> None:
         self.pair, self.path = pair, pair.path
-        super().__init__(_gears(pair, distance), friction, driver, direction)
+        super().__init__(_outline_gears(pair, distance), friction, driver, direction)
 
     @property
     def reversed(self) -> OffDesignTransmission:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
         return OffDesignTransmission(self.pair, self.distance, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> OffDesignTransmission:
-        """The law of the other flanks; angles keep their sense and decrease."""
+        """Return the transmission function of the opposite flanks; angles keep their sign convention and decrease."""
         return OffDesignTransmission(self.pair, self.distance, self.friction, self.driver, -self.direction)
 
 
 @lru_cache(maxsize=64)
-def _gears(pair: ConjugatePair, distance: float) -> OutlineGears:
-    """Made once, so that what is found of it is."""
+def _outline_gears(pair: ConjugatePair, distance: float) -> OutlineGears:
+    """Return the outlines of a pair at a distance; cached, so that their results are reused."""
     return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
 
 
 @lru_cache(maxsize=64)
 def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
-    """Outlines of both wheels of a spur pair, for `geartrain.teeth.contact`.
+    """Return the outlines of both wheels of a spur pair, for `geartrain.teeth.contact`.
 
     Parameters
     ----------
     pair : ConjugatePair
-        As designed.
+        The pair as designed.
 
     Returns
     -------
     tuple of GearOutline
-        Of gear 1 and gear 2, lengths in modules; the roots are straight beneath the last designed contact.
+        Outlines of gear 1 and gear 2, lengths in modules. The roots are straight beneath the last designed contact.
 
     Examples
     --------
-    Two involute wheels touch without error at a greater distance than the design's 30 modules.
+    Two involute wheels touch without transmission error at a distance larger than the design's 30 modules.
 
     >>> import numpy as np
     >>> from geartrain.teeth import Involute
@@ -362,23 +365,23 @@ def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
 
 
 def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
-    """One wheel: the side that its driver, or its driven wheel, touches, and its mirror image."""
+    """Return the outline of one wheel: its working flank and the mirror image of it."""
     half = pair.halves[gear - 1] / abs(R)
     turn = np.exp(-1j * half)
 
     def flank(X: Floats) -> Floats:
-        points = _body(pair.path, gear, X)
+        points = _body_points(pair.path, gear, X)
         place = (points[:, 0] + 1j * points[:, 1]) * turn
         return np.stack([place.real, place.imag], axis=1)
 
     foot, tip = pair.path.ends(gear)
     cuts = sorted({0.0, foot, tip, *_joints(pair.path)}, reverse=foot > tip)
     curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
-    return GearOutline((ToothFlanks.symmetric((_straight(flank, foot, tip), *curves)),), z, ring=R < 0)
+    return GearOutline((ToothFlanks.symmetric((_root_line(flank, foot, tip), *curves)),), z, ring=R < 0)
 
 
-def _body(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Points of a flank from the wheel's axle: x towards the space that the tooth leads into, y outwards."""
+def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
+    """Return points of a flank from the wheel's axle: x towards the space that the tooth leads into, y outwards."""
     points = path.flank(gear, X)
     if gear == 1:
         return np.asarray(points + np.array([0.0, path.pitch.R1]))
@@ -387,15 +390,15 @@ def _body(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 def _joints(path: PathOfContact) -> list[float]:
-    """X at the ends of the pieces of a path."""
+    """Return X at the ends of the pieces of a path."""
     ends = ((-1.0, path.approach), (1.0, path.recess))
     return [sign * float(side.travel(np.array(d))) for sign, side in ends for d in side.joints]
 
 
-def _straight(flank: object, foot: float, tip: float) -> OutlineCurve:
-    """The root: straight on from the foot of a flank."""
+def _root_line(flank: object, foot: float, tip: float) -> OutlineCurve:
+    """Return the root of a tooth: a straight line that continues the foot of its flank."""
     assert callable(flank)
-    # near enough for the tangent, far enough that the difference is not rounding
+    # small enough for the tangent, large enough that the difference exceeds rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
     way = start - near
     length = min(_STRAIGHT, float(np.hypot(*start)) / 3)

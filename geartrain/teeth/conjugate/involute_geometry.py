@@ -1,7 +1,7 @@
-"""Involute wheels as a rack cuts them: sizes, thickness, the angle at which a pair works, its arcs. Lengths in modules.
+"""Involute wheels cut by a rack: sizes, tooth thickness, working pressure angle of a pair, arcs. Lengths in modules.
 
-The rack is shifted out by `shift` modules. A ring is the space of an outer wheel of its tooth number; its shift counts
-outwards too, so that it widens the ring's spaces.
+The rack is shifted outwards by `shift` modules. A ring gear has the tooth spaces of an external wheel's teeth. Its
+shift also counts outwards, so that it widens the spaces of the ring.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ _ROUNDING = 1e-12  # modules
 
 
 def inv(angle: float) -> float:
-    """The involute function tan x - x, x in rad."""
+    """Return the involute function tan x - x of an angle in rad."""
     return tan(angle) - angle
 
 
 def inv_angle(value: float) -> float:
-    """The angle (rad) whose involute function is `value`, 0 or more."""
+    """Return the angle (rad) whose involute function is `value`, 0 or more."""
     # the tangent is infinite at a right angle
     high = pi / 2 - 1e-9
     return root(lambda x: inv(x) - value, 0.0, high, -value, inv(high) - value) if value else 0.0
@@ -30,7 +30,7 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """One wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad)."""
+    """Involute wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad)."""
 
     z: float
     psi: float
@@ -38,7 +38,7 @@ class InvoluteWheel:
     addendum: float
     dedendum: float
     cut: float
-    """Depth to which the rack's flank is straight: undercut begins where that is too deep."""
+    """Depth to which the rack's flank is straight; undercut begins where this depth is too large."""
     ring: bool = False
 
     @property
@@ -62,89 +62,94 @@ class InvoluteWheel:
         return self.r + self.shift + (self.dedendum if self.ring else -self.dedendum)
 
     def half(self, psi: float) -> float:
-        """Half the thickness of a tooth (rad) on the circle where the pressure angle is `psi`."""
+        """Return half the tooth thickness (rad) on the circle where the pressure angle is `psi` (rad)."""
         sign = -1 if self.ring else 1
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Radius up to which the rack's corner cuts the involute away; 0 where it does not, and for a ring."""
+        """Return the radius up to which the rack's corner cuts the involute away; 0 without undercut and for a ring
+        gear.
+        """
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
             return 0.0
-        # at the base circle itself a square root may be of rounding below 0
+        # at the base circle itself rounding may make the radicand negative
         low = max(self.base, self.r - u) * (1 + 1e-12)
-        at_low, at_high = self._left(low), self._left(self.r)
-        return root(self._left, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
+        at_low, at_high = self._corner_offset(low), self._corner_offset(self.r)
+        return root(self._corner_offset, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
 
-    def _left(self, radius: float) -> float:
-        """Azimuth of the corner's trochoid over that of the involute at a radius: below 0 the corner cuts it."""
+    def _corner_offset(self, radius: float) -> float:
+        """Return the azimuth of the corner's trochoid less that of the involute at a radius; negative if the corner
+        cuts.
+        """
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
         X = -u * tan(psi) - sqrt(radius**2 - below**2)
-        kink = atan2(u * tan(psi) + X, below) - X / r
+        corner = atan2(u * tan(psi) + X, below) - X / r
         roll = (sqrt(radius**2 - self.base**2) - r * sin(psi)) / cos(psi)
         P = roll * cos(psi)
-        return kink - (atan2(P * cos(psi), r + P * sin(psi)) - roll / r)
+        return corner - (atan2(P * cos(psi), r + P * sin(psi)) - roll / r)
 
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Two wheels at a centre distance, the first driving; the second may be a ring."""
+    """Involute wheels at a centre distance, the first driving; the second may be a ring gear."""
 
     first: InvoluteWheel
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """How much thinner than a rack without play cuts them the teeth of both wheels are, summed, as X."""
+    """Total thinning of the teeth of both wheels from a cut without backlash, as pitch-line displacement X."""
 
     @property
     def psi(self) -> float:
-        """Operating pressure angle (rad): cos psi_w = (base radii summed, or their difference) / distance."""
+        """Operating pressure angle (rad): cos psi_w = (sum or difference of the base radii) / distance."""
         bases = self.second.base - self.first.base if self.second.ring else self.second.base + self.first.base
         return acos(bases / self.distance)
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """The operating pitch circles."""
+        """Operating pitch circles of both wheels."""
         z1, z2 = self.first.z, self.second.z
         scale = self.distance / (z2 - z1 if self.second.ring else z1 + z2)
         return PitchSurfaces(z1, z2, z1 * scale, (-z2 if self.second.ring else z2) * scale)
 
     @property
     def halves(self) -> tuple[float, float]:
-        """Half the thickness of a tooth of each wheel on the operating pitch circles, as X."""
+        """Half the tooth thickness of each wheel on the operating pitch circles, as pitch-line displacement X."""
         pitch, psi = self.pitch, self.psi
         first, second = self.first.half(psi) * pitch.R1, self.second.half(psi) * abs(pitch.R2)
         return first - self.thinned / 4, second - self.thinned / 4
 
     @property
     def backlash(self) -> float:
-        """Play of the teeth, as X; negative where they jam."""
+        """Backlash on the operating pitch circle, as pitch-line displacement X; negative if the teeth jam."""
         return self.pitch.p - 2 * sum(self.halves)
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess (X), from the tip circles.
+        """Arcs of approach and recess from the tip circles, as pitch-line displacements X.
 
-        One is negative where the tips of a wheel keep off the operating pitch circle: contact is on one side of the
-        pitch point only. Raises `RangeError` where the tips do not reach each other at all.
+        One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one
+        side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
         """
         pitch, psi = self.pitch, self.psi
         found = []
         for wheel, R in ((self.second, pitch.R2), (self.first, pitch.R1)):
             sign = -1 if wheel.ring else 1
             over = sign * (sqrt(max(wheel.tip**2 - wheel.base**2, 0.0)) - abs(R) * sin(psi))
-            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))  # 0 but for rounding is no negative arc
+            # an arc that is 0 except for rounding must not be negative
+            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
-            raise _apart(self.first, self.second, self.distance)
+            raise _no_contact_error(self.first, self.second, self.distance)
         return found[0], found[1]
 
 
 def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
-    """The centre distance without play: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
+    """Return the centre distance without backlash: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
 
-    In a ring the pinion's z1 and x1 count negative.
-    Raises `GearTrainError` where the shifts are too far inwards for any.
+    With a ring gear the pinion's z1 and x1 count as negative. Raises `GearTrainError` if the negative shifts are too
+    large for any such distance.
     """
     psi, sign = first.psi, -1 if second.ring else 1
     teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift
@@ -152,41 +157,45 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
     if value < 0:
         raise GearTrainError(
             Problem(
-                f"no centre distance lets wheels of {first.z} and {second.z} teeth mesh without play",
+                f"no centre distance lets wheels of {first.z} and {second.z} teeth mesh without backlash",
                 f"with their shifts {first.shift:g} and {second.shift:g} the involute function of the operating angle "
-                f"would be {value:.4g}, and it is 0 or more",
-                "shift the wheels less, or give a centre_distance",
+                f"would be {value:.4g}, but it must be 0 or more",
+                "reduce the inward profile shifts, or give a centre_distance",
             )
         )
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))
 
 
-def _apart(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> RangeError:
+def _no_contact_error(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> RangeError:
     return RangeError(
         Problem(
             "the teeth do not reach each other",
-            f"at a centre distance of {distance:.6g} modules the tips, at {first.tip:.6g} and {second.tip:.6g}, part "
-            "before they meet on the line of action",
-            "give greater addenda, move the axles together, or shift the wheels less far apart",
+            f"at a centre distance of {distance:.6g} modules the tip circles, of radii {first.tip:.6g} and "
+            f"{second.tip:.6g}, leave no contact on the line of action",
+            "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer",
         )
     )
 
 
 def base_cone(R: float, psi: float) -> float:
-    """Half-angle (rad) of the base cone of a spherical involute of pitch cone R: sin base = sin R cos psi."""
+    """Return the half-angle (rad) of the base cone of a spherical involute: sin base = sin R cos psi.
+
+    R is the half-angle of the pitch cone.
+    """
     return asin(sin(R) * cos(psi))
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:
-    """Arc (X) over which a spherical involute of pitch cone R reaches its `tip` cone (rad); negative inside the pitch.
+    """Return the arc, as pitch-line displacement X, from pitch cone R to the `tip` cone (rad) of a spherical involute.
 
-    cos tip = cos d cos R - sin d sin psi sin R, with cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
+    It is negative if the tip cone is inside the pitch cone. cos tip = cos d cos R - sin d sin psi sin R, where
+    cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
     """
     base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
-    # a tip cone inside the base cone is taken for the base cone: the involute begins there
+    # the involute begins at the base cone, so a smaller tip cone is replaced by it
     return (acos(min(cos(tip) / base, 1.0)) - atan2(sin(psi) * sin(R), cos(R))) / cos(psi)
 
 
 def cone_height(R: float, z: float, height: float) -> float:
-    """Angle (rad) by which a height in modules of the large end stands over a pitch cone R."""
+    """Return the angle (rad) above a pitch cone R of a height given in modules of the large end."""
     return atan(height * 2 * sin(R) / z)

@@ -1,12 +1,12 @@
-"""Sides of the optimal shapes: uniform stress, uniform temperature and least friction; and the involute.
+"""Sides of the optimal tooth forms: uniform stress, uniform temperature and minimum friction; and the involute.
 
-A side is described with the coefficient `a` of the gear whose addendum works and `b` of the one whose dedendum does:
-a = A, b = B in recess, exchanged in approach.
+A side is described by the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the one
+whose dedendum works: a = A, b = B in recess, exchanged in approach.
 
-Uniform stress and temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. Chebyshev
-collocation finds the only solution that is bounded there (for pressure angles below 45 deg): a polynomial cannot be
-anything else. Least friction is a ray and one slow piece; docs/shapes.md, section 15, gives the conditions under which
-they are optimal.
+Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. For
+pressure angles below 45 deg exactly one solution is bounded there. Chebyshev collocation finds that solution, because
+polynomials are bounded. Minimum friction is a ray followed by one piece of minimum contact speed. Docs/shapes.md,
+section 15, gives the conditions under which these two pieces are optimal.
 """
 
 from __future__ import annotations
@@ -36,43 +36,49 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
     Weight = Callable[[Floats], Floats]
-    Made = Callable[[PitchSurfaces, "ValueAndSlope", ChebyshevSeries, float], PathPiece]
+    PieceMaker = Callable[[PitchSurfaces, "ValueAndSlope", ChebyshevSeries, float], PathPiece]
 
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
-_NODES = (24, 48, 96, 192)  # doubled until the last coefficients have fallen
-FALLEN = 1e-14  # of the greatest coefficient: less is rounding
-_UNFINISHED = 1e-5  # coefficients that have not fallen so far with the most nodes: beyond 84 deg or so
-_STEPS = 25  # of Newton's method
-_ROUGH = 1e-9  # residuals below this are left to rounding
-_CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are looked at, and their rounding
-_NEAR = 0.05  # of a side: nearer to the pitch point slopes are those of the series
-# 16 nodes leave rounding on usual sides: far more for those near a right angle
+_NODES = (24, 48, 96, 192)  # doubled until the last coefficients are small
+FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding
+_UNFINISHED = 1e-5  # upper bound of the last coefficients at the maximum number of nodes; exceeded above about 84 deg
+_STEPS = 25  # maximum number of Newton steps
+_ROUGH = 1e-9  # residuals below this are rounding
+_CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are checked, and tolerance of their rounding
+_NEAR = 0.05  # of a side: closer to the pitch point slopes are taken from the series
+# 16 nodes give rounding on usual sides; many more for pressure angles near a right angle
 _GAUSS = np.polynomial.legendre.leggauss(64)
-_TRIES, _CUTS = 20, 4  # how many ends a series is solved up to, and how many one series is cut at
-_BEYOND = 1e-7  # of a series' length: so far past its end it is as good as inside
-_CONVERGED = 1e-9  # of the end: so near, one more Newton step on the piece's own series is exact
-_FARTHER, _REACH = 0.1, 8.0  # so far past its end a series still tells where to solve next: this, or (8 / nodes)^2
-_GIVEN_UP = 1e-4  # of the end: what cannot be reached nearer than this cannot be reached
+_TRIES, _CUTS = 20, 4  # maximum number of solved ends, and of end corrections on one series
+_BEYOND = 1e-7  # of a series' length: extrapolation by this is still accurate
+_CONVERGED = 1e-9  # of the end: from here one more Newton step on the piece's own series is exact
+_FARTHER, _REACH = 0.1, 8.0  # a series predicts the next end within min(0.1, (8 / nodes)^2) beyond its own
+_GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """A constant pressure angle."""
+    """Return the side of an involute: constant pressure angle `psi` (rad) over an arc X."""
     return PathSide((RayPiece(psi, ray_end(psi, X)),))
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
-    """kr / cos psi constant: w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0."""
-    return PathSide((_reached(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
+    """Return the side of constant Hertzian pressure, kr / cos psi constant.
+
+    w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0.
+    """
+    return PathSide((_piece_over_arc(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
-    """Uniform stress, docs/shapes.md (8), for v = sin psi: S v' + f(d, v) = 0, `psi` that angle at the pitch point."""
+    """Return f(d, v) and df/dv of uniform stress, docs/shapes.md (8): S v' + f(d, v) = 0 with v = sin psi.
+
+    `psi` is the pressure angle (rad) at the pitch point.
+    """
     k = sin(psi) * cos(psi)
 
     def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
-        with np.errstate(invalid="ignore", divide="ignore"):  # NaN beyond |v| = 1: Newton's step is then halved
+        with np.errstate(invalid="ignore", divide="ignore"):  # NaN beyond |v| = 1 makes Newton's method halve its step
             cosine = np.sqrt(1 - v * v)
             under = np.sqrt(((a + b) * S) ** 2 + 4 * k * v / cosine)
             w = ((b - a) * S + under) / 2
@@ -81,21 +87,21 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
     return f
 
 
-def _reached(
+def _piece_over_arc(
     pitch: PitchSurfaces,
     f: ValueAndSlope,
     first: float,
     guess: float,
     X: float,
     start: float = 0.0,
-    made: Made | None = None,
+    piece_maker: PieceMaker | None = None,
 ) -> PathPiece:
-    """The piece that has travelled X at its end, where S v' + f = 0.
+    """Solve S v' + f = 0 for the piece whose displacement at its end is X.
 
-    The solution is one function whatever its end. So it is solved up to a guessed end, and again only where the true
-    end lies beyond; a guess that it cannot reach is drawn in.
+    The solution does not depend on the end. It is therefore solved up to a guessed end, and again only if the true end
+    lies beyond. If the guess cannot be reached, the end is bisected towards the last one that could.
     """
-    made = made or _plain
+    piece_maker = piece_maker or _sine_piece
     v: ChebyshevSeries | None = None
     low, end = start, guess
     for _ in range(_TRIES):
@@ -106,28 +112,36 @@ def _reached(
                 raise
             end = (low + end) / 2
             continue
-        low, end, piece = end, *_cut(partial(made, pitch, f, v), X, v)
+        low, end, piece = end, *_piece_to_arc(partial(piece_maker, pitch, f, v), X, v)
         if piece is not None:
             return piece
-    raise lost(end)
+    raise unreachable_end(end)
 
 
-def _cut(made: Callable[[float], PathPiece], X: float, v: ChebyshevSeries) -> tuple[float, PathPiece | None]:
-    """Where X is reached, and the piece up to there; None where the series must first be solved up to there."""
+def _piece_to_arc(
+    piece_maker: Callable[[float], PathPiece], X: float, v: ChebyshevSeries
+) -> tuple[float, PathPiece | None]:
+    """Return the distance at which X is reached, and the piece that ends there.
+
+    The piece is None if the series must first be solved up to that distance.
+    """
     end = v.end
     for _ in range(_CUTS):
-        piece = made(end)
-        found = _end(piece, X, v)
+        piece = piece_maker(end)
+        found = _corrected_end(piece, X, v)
         if found > v.end + _BEYOND * (v.end - v.start) or (v.tail > FALLEN and found < v.end * (1 - _BEYOND)):
             return found, None
         if abs(found - end) <= _CONVERGED * end:
-            return found, piece if found == end else made(found)
+            return found, piece if found == end else piece_maker(found)
         end = found
-    return end, made(end)
+    return end, piece_maker(end)
 
 
-def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
-    """Where the piece has travelled X: Newton on its own series, or one step where that would lead out of it."""
+def _corrected_end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
+    """Find the end at which the piece has the displacement X, by Newton's method on its own series.
+
+    Returns one Newton step if further steps would leave the range of the series.
+    """
     most = piece.end + min(_FARTHER, (_REACH / len(v.coefficients)) ** 2) * (piece.end - v.start)
     end, last, first = piece.end, inf, 0.0
     for _ in range(30):
@@ -135,24 +149,25 @@ def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
         if abs(sine) >= 1:
             return (piece.end + end) / 2
         step = (float(piece.travel(np.array(end))) - X) * sqrt(1 - sine * sine)
+        # the first step is the result if later ones would leave the range of the series
         first = first or step
         if not v.start < end - step <= most:
             return piece.end - first
         end -= step
-        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
+        # stop at rounding, or near it once steps no longer decrease
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         last = abs(step)
     return end
 
 
-def _plain(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
-    """sin psi is the solution itself."""
+def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
+    """Return the piece whose sin psi is the solution itself."""
     return SampledPiece(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callable[[Floats], Floats]:
-    """v' from the equation itself, but for the neighbourhood of the pitch point, where that would be 0/0."""
+    """Return v' from the equation; close to the pitch point, where that would be 0/0, from the series."""
     steep = v.derivative()
 
     def slope(d: Floats) -> Floats:
@@ -163,29 +178,32 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
     return slope
 
 
-def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
-    """The piece whose end has travelled X: Newton on the end, its slope being 1 / cos psi there."""
+def _ended_at_arc(piece_maker: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
+    """Return the piece whose displacement at its end is X, by Newton's method with slope 1 / cos psi at the end."""
     end, last = guess, inf
-    piece = made(end)
+    piece = piece_maker(end)
     for _ in range(30):
         at = np.array(end)
         step = (float(piece.travel(at)) - X) * sqrt(1 - float(piece.sin_psi(at)) ** 2)
-        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
+        # stop at rounding, or near it once steps no longer decrease
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         end, last = end - step, abs(step)
-        piece = made(end)
+        piece = piece_maker(end)
     return piece
 
 
 def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
-    """w = beta S + gamma S / cos psi with psi = 0 at the pitch point; beta = b of the hotter surface (reading b)."""
+    """Return the side of uniform heat over an arc X: w = beta S + gamma S / cos psi, psi = 0 at the pitch point.
+
+    beta is b of the hotter surface (reading b in docs/shapes.md).
+    """
     f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
-    return PathSide((_reached(pitch, f, first, _short(beta, gamma, X), X, made=_raised),))
+    return PathSide((_piece_over_arc(pitch, f, first, _guess_end(beta, gamma, X), X, piece_maker=_quotient_piece),))
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
-    """Uniform heat, docs/shapes.md (9), for g = sin psi / S: S g' + f(d, g) = 0."""
+    """Return f(d, g) and df/dg of uniform heat, docs/shapes.md (9): S g' + f(d, g) = 0 with g = sin psi / S."""
 
     def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
@@ -197,14 +215,14 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
     return f
 
 
-def _short(beta: float, gamma: float, X: float) -> float:
-    """A first guess of the end: the cycloid that touches the path at the pitch point."""
+def _guess_end(beta: float, gamma: float, X: float) -> float:
+    """Return a first guess of the end, from the cycloid tangent to the path at the pitch point."""
     rho = 1 / (beta + gamma)
     return circle_end(rho, min(X, 2 * rho))
 
 
-def _raised(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
-    """The solution is g = sin psi / S, of 2 S' g + S g' = beta + gamma / cos psi."""
+def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
+    """Return the piece whose solution is g = sin psi / S, with 2 S' g + S g' = beta + gamma / cos psi."""
     steep = _slope(pitch, f, g)
     return SampledPiece(
         lambda d: pitch.S(d) * g(d),
@@ -216,9 +234,10 @@ def _raised(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: flo
 
 
 def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: float) -> PathSide:
-    """A ray of pressure angle `psi` until the dedendum is as hot as allowed, then uniform heat; finite stress.
+    """Return a ray of pressure angle `psi` up to the maximum allowed heat of the dedendum, followed by uniform heat.
 
-    The ray ends where S / S' = sin psi / (b + gamma / cos psi). A ray that never gets so hot is the whole side.
+    Its stress is finite. The ray ends where S / S' = sin psi / (b + gamma / cos psi). If the ray never reaches that
+    heat, it is the whole side.
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
@@ -232,64 +251,65 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
             return pitch.S_slope(d) * v - b * S - gamma * S / cosine, pitch.S_slope(d) - gamma * S * v / cosine**3
 
     rest = X - first / cos(psi)
-    return PathSide((RayPiece(psi, first), _reached(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
+    return PathSide((RayPiece(psi, first), _piece_over_arc(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
 
 
 def least_friction(
     pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
 ) -> PathSide:
-    """A ray of the greatest pressure angle, then the least speed `u` along the dedendum, so that the loss is least.
+    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum speed `u` along the
+    dedendum.
 
-    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) where friction
-    depends on speed and `weight` gives mu S at distances d. Raises `RangeError` where the arc is longer than teeth
-    within both bounds reach, and where another shape than these two pieces would lose less.
+    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) if friction
+    depends on speed and `weight` gives mu S at distances d. Raises `RangeError` if the arc is longer than teeth within
+    both bounds can reach, or if a shape other than these two pieces would have less loss.
     """
     loss = pitch.S if weight is None else weight
     longest = ray_end(psi, X)
 
-    def lifted(first: float) -> tuple[Callable[[Floats], Floats], float]:
-        sine = _lifted(pitch, b, u, first, psi)
-        return sine, _lifted_end(sine, first, X - first / cos(psi), psi)
+    def second_piece(first: float) -> tuple[Callable[[Floats], Floats], float]:
+        sine = _second_sine(pitch, b, u, first, psi)
+        return sine, _second_end(sine, first, X - first / cos(psi), psi)
 
     def variation(first: float) -> float:
-        sine, end = lifted(first)
-        return _variation(pitch, sine, first, end, loss)
+        sine, end = second_piece(first)
+        return _first_variation(pitch, sine, first, end, loss)
 
     def above(first: float) -> float:
-        sine, end = lifted(first)
+        sine, end = second_piece(first)
         return float(sine(np.array(end))) - sin(psi)
 
-    # a path below psi ends no nearer than a ray, where even the lowest, of eta = u d + b (integral of S), must be below
+    # a path below psi does not end before a ray does; the lowest one, eta = u d + b (integral of S), is tested there
     if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
-        raise _too_long(pitch, X, psi, u)
-    # the bracket keeps off a ray, and a second piece, of no length
+        raise _too_long_error(pitch, X, psi, u)
+    # the bracket excludes pieces of zero length
     minimum, most = 1e-3 * longest, longest * (1 - 1e-6)
     if weight is not None and variation(minimum) * variation(most) > 0:
-        raise other_shape("no length of it would let the other piece be the best")
+        raise other_shape_error("no length of the first piece makes the second one optimal")
     first = root(variation, minimum, most, variation(minimum), variation(most))
-    if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
+    if above(first) > 0:  # the maximum pressure angle is reached before the end; a shorter ray reaches it at the end
         if above(minimum) > 0:
-            raise _too_long(pitch, X, psi, u)
+            raise _too_long_error(pitch, X, psi, u)
         first = root(above, minimum, first, above(minimum), above(first))
     elif weight is not None:
-        check_pieces(pitch, *lifted(first), first, weight)
+        check_pieces(pitch, *second_piece(first), first, weight)
     rest = X - first / cos(psi)
-    piece = _to_arc(lambda end: SteadySpeedPiece(pitch, b, u, first, sin(psi), end), lifted(first)[1], rest)
+    piece = _ended_at_arc(lambda end: SteadySpeedPiece(pitch, b, u, first, sin(psi), end), second_piece(first)[1], rest)
     return PathSide((RayPiece(psi, first), piece))
 
 
-def _too_long(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
+def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
     return RangeError(
         Problem(
             f"an arc of {X / pitch.p:.6g} pitches is too long for a margin of {u:g} at {degrees(psi):.6g} deg",
-            "before its end, even contact as slow as that rises above the greatest pressure angle",
-            "ask for a shorter arc, more teeth, a smaller margin or a larger pressure angle",
+            "before its end, even the minimum contact speed needs more than the maximum pressure angle",
+            "use a shorter arc, more teeth, a smaller margin or a larger pressure angle",
         )
     )
 
 
-def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
-    """sin psi of the second piece by itself, the same as `SteadySpeedPiece`'s without its series of travel."""
+def _second_sine(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
+    """Return sin psi of the second piece as a function of d, like `SteadySpeedPiece` without its travel series."""
     eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
 
     def sine(d: Floats) -> Floats:
@@ -299,8 +319,11 @@ def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) 
     return sine
 
 
-def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
-    """Where the second piece has travelled `rest`: Newton's method, travel by Gauss's rule."""
+def _second_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
+    """Find the end at which the second piece has the displacement `rest`.
+
+    The method is Newton's, with the displacement by Gauss-Legendre quadrature.
+    """
     x, weights = _GAUSS
     end, last = first + rest * cos(psi), inf
     for _ in range(30):
@@ -309,20 +332,23 @@ def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
         )
         step = (travelled - rest) * sqrt(1 - float(sine(np.array(end))) ** 2)
         end -= step
-        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
+        # stop at rounding, or near it once steps no longer decrease
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         last = abs(step)
     return end
 
 
-def _variation(
+def _first_variation(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float, loss: Weight
 ) -> float:
-    """Docs/shapes.md (13): the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi); or (19)."""
+    """Compute the first variation, docs/shapes.md (13) or (19).
+
+    It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi).
+    """
     x, weights = _GAUSS
     d = first + (end - first) * (x + 1) / 2
-    return float(weights @ pull(pitch, sine_of, d, end, loss))
+    return float(weights @ variation_integrand(pitch, sine_of, d, end, loss))
 
 
 # ------------------------------------------------------------------------------------------------ Chebyshev collocation
@@ -336,12 +362,14 @@ def solved(
     start: float = 0.0,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """v on [start, end] with S v' + f = 0 and v = `first` at `start`.
+    """Solve S v' + f = 0 on [start, end] with v = `first` at `start`, by Chebyshev collocation.
 
-    f      d, v -> f and its derivative by v; at the pitch point f(0, first) = 0 is what makes the solution bounded
-    near   the solution up to another end, to begin with
-    Nodes are doubled until the last coefficients have fallen to 1e-14 of the greatest. Raises `RangeError` where the
-    solution leaves what f is defined for, or comes so near that the coefficients do not fall.
+    f      function of d, v that returns f and its derivative by v; f(0, first) = 0 makes the solution bounded at the
+           pitch point
+    near   the solution up to another end, as the initial guess
+
+    The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError`
+    if the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
     """
     series = near or ChebyshevSeries.through(np.full(_NODES[0], first), start, end)
     for nodes in _NODES:
@@ -351,7 +379,7 @@ def solved(
         if series.tail < FALLEN:
             break
     if series.tail > _UNFINISHED:
-        raise lost(end)
+        raise unreachable_end(end)
     return series
 
 
@@ -364,68 +392,70 @@ def fitted(
     nodes: int,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """As `solved`, with so many nodes and no more."""
+    """Solve the same problem as `solved` with a fixed number of nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
-    # held at its last value beyond its end, where a series soon grows without bound
+    # constant beyond its end, where a series soon diverges
     guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
     return ChebyshevSeries.through(_Collocated(pitch, f, first, d).newton(guess), start, end)
 
 
 class _Collocated:
-    """The equation at the nodes d; the first of them holds what v starts with."""
+    """Collocation equations at the nodes d, with the initial condition at the first node."""
 
     def __init__(self, pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats) -> None:
         self.f, self.first, self.d = f, first, d
         self.matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
-        # the first row gives way to the condition v = first: at the pitch point S is 0, and the equation says no more
+        # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
         self.matrix[0] = 0.0
 
     def residual(self, v: Floats) -> tuple[Floats, Floats]:
-        """What is left over at each node, and the diagonal that f adds to the Jacobian."""
+        """Return the residual at each node, and the diagonal that f adds to the Jacobian."""
         off, slope = self.f(self.d, v)
         off[0], slope[0] = v[0] - self.first, 1.0
         return self.matrix @ v + off, slope
 
     def newton(self, v: Floats) -> Floats:
-        """Damped steps until rounding stops them."""
+        """Solve the equations by damped Newton steps until rounding limits them."""
         left, slope = self.residual(v)
         for _ in range(_STEPS):
             step = np.linalg.solve(self.matrix + np.diag(slope), left)
             part, size = 1.0, np.abs(left).max()
             trial, (left, slope) = v - step, self.residual(v - step)
-            # halve a step that leaves what f is defined for, or, within a thousandth, that makes the residual grow
+            # halve a step that leaves the domain of f, or, down to a thousandth, that increases the residual
             while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
                 part /= 2
                 if part < 1e-9:
-                    raise lost(float(self.d[-1]))
+                    raise unreachable_end(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
-            # at rounding, or where the residual no longer shrinks
+            # stop at rounding, or where the residual no longer decreases
             done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
             v = trial
             if done:
                 break
         if not np.abs(left).max() < _ROUGH:
-            raise lost(float(self.d[-1]))
+            raise unreachable_end(float(self.d[-1]))
         return v
 
 
-def lost(end: float) -> RangeError:
-    """What to say of an end that cannot be reached."""
+def unreachable_end(end: float) -> RangeError:
+    """Return the error for an end of the path that cannot be reached."""
     return RangeError(
         Problem(
             f"the path of contact does not reach {end:.6g} from the pitch point",
-            "its pressure angle would come to a right angle before",
-            "ask for shorter arcs, more teeth, or a smaller pressure angle",
+            "its pressure angle would reach a right angle before that distance",
+            "use shorter arcs, more teeth, or a smaller pressure angle",
         )
     )
 
 
-# --------------------------------------------------------------------------------------------- conditions of least loss
+# ------------------------------------------------------------------------------------------- conditions of minimum loss
 
 
-def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight) -> Floats:
-    """The integrand: what a higher path would lose at d less what it would win there in arc."""
+def variation_integrand(
+    pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight
+) -> Floats:
+    """Compute the integrand of the first variation: loss of a higher path at d less its gain in arc there."""
     S, sine = pitch.S(d), sine_of(d)
     cosine = np.sqrt(1 - sine**2)
     last = np.array(end)
@@ -437,24 +467,24 @@ def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, e
 def check_pieces(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], end: float, first: float, weight: Weight
 ) -> None:
-    """Raise `RangeError` where a ray and one slow piece are not the best, by the conditions of docs/shapes.md, 15."""
+    """Raise `RangeError` if a ray and one slow piece are not optimal (conditions of docs/shapes.md, section 15)."""
     d = np.linspace(0.0, end, _CHECKED)
     if (np.diff(weight(d)) < 0).any():
-        raise other_shape("there its contacts lose less the faster they slide")
+        raise other_shape_error("the friction loss of a contact decreases there with increasing sliding velocity")
     d = np.linspace(first, end, _CHECKED)
-    each = pull(pitch, sine_of, d, end, weight)
+    each = variation_integrand(pitch, sine_of, d, end, weight)
     below = np.cumsum((each[1:] + each[:-1]) / 2)
     if below.max() > _SLACK * np.abs(each).sum():
-        raise other_shape("a path that rises again before its end would lose less")
+        raise other_shape_error("a path whose pressure angle rises again before its end would have less loss")
 
 
-def other_shape(why: str) -> RangeError:
-    """What is said of a law under which two pieces are not the side of least loss."""
+def other_shape_error(why: str) -> RangeError:
+    """Return the error for a friction law whose side of minimum loss does not consist of two pieces."""
     return RangeError(
         Problem(
-            "under this law of friction teeth of least loss have other pieces than a constant pressure angle and a "
-            "slowest contact",
+            "with this friction law, teeth of minimum loss do not consist of a constant pressure angle and a minimum "
+            "contact speed",
             why,
-            "ask for another pitch_line_speed, a law that falls less steeply, or a smaller pressure angle",
+            "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle",
         )
     )

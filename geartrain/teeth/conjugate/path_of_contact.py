@@ -1,7 +1,7 @@
-"""A path of contact: pieces, the two sides made of them, and what follows for both gears at every instant.
+"""Path of contact of a gear pair: its pieces, the two sides, and the contact quantities of both gears along it.
 
-Pieces of one side, approach or recess, follow each other in order of the distance d >= 0 from the pitch point. Each is
-a function of d that gives the pressure angle.
+The pieces of one side, approach or recess, follow each other in order of the distance d >= 0 from the pitch point.
+Each piece is a function of d that gives the pressure angle.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.chebyshev import ChebyshevSeries
+from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 if TYPE_CHECKING:
@@ -27,67 +28,70 @@ if TYPE_CHECKING:
 
 
 class PathPiece(ABC):
-    """sin psi as a function of d from `start` to `end`. Arrays in, arrays out; d counts from the pitch point."""
+    """Piece of a path of contact: sin psi as a function of d from `start` to `end`.
+
+    d is the distance from the pitch point. Methods take and return arrays.
+    """
 
     start: float
     end: float
 
     @abstractmethod
     def sin_psi(self, d: Floats) -> Floats:
-        """Sine of the pressure angle."""
+        """Return the sine of the pressure angle at distances d."""
 
     @abstractmethod
     def slope(self, d: Floats) -> Floats:
-        """d(sin psi)/dd, which is also d(psi)/dX."""
+        """Return d(sin psi)/dd, which equals d(psi)/dX."""
 
     @abstractmethod
     def travel(self, d: Floats) -> Floats:
-        """Pitch-line displacement X since `start`: the integral of 1/cos psi, docs/shapes.md (1)."""
+        """Return the pitch-line displacement X since `start`: the integral of 1/cos psi, docs/shapes.md (1)."""
 
 
 class RayPiece(PathPiece):
-    """A constant pressure angle: the involute."""
+    """Straight piece of constant pressure angle: the path of contact of an involute."""
 
     def __init__(self, psi: float, end: float, start: float = 0.0) -> None:
         self.psi, self.start, self.end = psi, start, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """sin psi everywhere."""
+        """Return the constant sin psi at every d."""
         return np.full(np.shape(d), sin(self.psi))
 
     def slope(self, d: Floats) -> Floats:
-        """0 everywhere."""
+        """Return the zero slope at every d."""
         return np.zeros(np.shape(d))
 
     def travel(self, d: Floats) -> Floats:
-        """(d - start) / cos psi."""
+        """Return the displacement (d - start) / cos psi."""
         return (np.asarray(d) - self.start) / cos(self.psi)
 
 
 class CirclePiece(PathPiece):
-    """A circle through the pitch point, centred on the line of centres: the cycloid of a spur pair.
+    """Circle through the pitch point, centred on the line of centres: the path of contact of a spur pair of cycloids.
 
-    d = 2 rho sin psi, X = 2 rho psi; `rho` the radius of the rolling circle (modules).
+    d = 2 rho sin psi and X = 2 rho psi, where `rho` is the radius of the rolling circle (modules).
     """
 
     def __init__(self, rho: float, end: float) -> None:
         self.rho, self.start, self.end = rho, 0.0, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """d / 2 rho."""
+        """Return the sine d / (2 rho) of the pressure angle."""
         return np.asarray(d) / (2 * self.rho)
 
     def slope(self, d: Floats) -> Floats:
-        """1 / 2 rho."""
+        """Return the constant slope 1 / (2 rho)."""
         return np.full(np.shape(d), 1 / (2 * self.rho))
 
     def travel(self, d: Floats) -> Floats:
-        """2 rho psi."""
+        """Return the displacement 2 rho psi."""
         return 2 * self.rho * np.arcsin(np.asarray(d) / (2 * self.rho))
 
 
 class SampledPiece(PathPiece):
-    """sin psi given as a function, its travel as a Chebyshev series of 1 / cos psi."""
+    """Piece whose sin psi is a given function, and whose travel is an integrated Chebyshev series of 1 / cos psi."""
 
     def __init__(
         self,
@@ -101,23 +105,23 @@ class SampledPiece(PathPiece):
         self._travel = ChebyshevSeries.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
 
     def sin_psi(self, d: Floats) -> Floats:
-        """As given."""
+        """Return the given function sin psi at d."""
         return self._sin(d)
 
     def slope(self, d: Floats) -> Floats:
-        """As given."""
+        """Return the given derivative of sin psi at d."""
         return self._slope(d)
 
     def travel(self, d: Floats) -> Floats:
-        """By the integrated series."""
+        """Return the displacement X from the integrated Chebyshev series."""
         return self._travel(d)
 
 
 class SteadySpeedPiece(SampledPiece):
-    """A constant speed of contact along the dedendum: w - b S = u, so that sin psi = eta / S follows in closed form.
+    """Piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S is in closed form.
 
-    Docs/shapes.md (12): eta = S(start) sin psi(start) + u (d - start) + b (integral of S), b being the coefficient of
-    the gear whose dedendum it is.
+    Docs/shapes.md (12): eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
+    pitch surface of the gear whose dedendum works.
     """
 
     def __init__(self, pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> None:
@@ -136,27 +140,27 @@ class SteadySpeedPiece(SampledPiece):
 
 
 def ray_end(psi: float, X: float) -> float:
-    """Distance d at which a ray has travelled X."""
+    """Return the distance d at which a ray has the displacement X."""
     return X * cos(psi)
 
 
 def circle_end(rho: float, X: float) -> float:
-    """Distance d at which a cycloid's circle has travelled X."""
+    """Return the distance d at which the rolling circle of a cycloid has the displacement X."""
     return 2 * rho * sin(X / (2 * rho))
 
 
 @dataclass(frozen=True)
 class PathSide:
-    """Pieces that follow each other outwards, from the pitch point or from the first contact beyond it.
+    """One side of a path of contact: consecutive pieces from the pitch point, or from the first contact, outwards.
 
-    X of a side that begins beyond the pitch point counts from its first contact.
+    If a side begins beyond the pitch point, its X is counted from its first contact.
     """
 
     pieces: Sequence[PathPiece]
 
     @property
     def start(self) -> float:
-        """Distance of the first contact from the pitch point; 0 but for paths that keep off it."""
+        """Distance of the first contact from the pitch point; 0 except for paths that do not reach the pitch point."""
         return self.pieces[0].start
 
     @property
@@ -166,29 +170,29 @@ class PathSide:
 
     @cached_property
     def arc(self) -> float:
-        """Pitch-line displacement over the whole side."""
+        """Pitch-line displacement X over the whole side."""
         return float(self.travel(np.array(self.end)))
 
     @property
     def joints(self) -> tuple[float, ...]:
-        """Distances at which a piece ends."""
+        """Distances d at which the pieces end."""
         return tuple(piece.end for piece in self.pieces)
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Sine of the pressure angle at d in [0, end]."""
+        """Return the sine of the pressure angle at d in [start, end]."""
         return self._by_piece(d, lambda piece, at: piece.sin_psi(at))
 
     def slope(self, d: Floats) -> Floats:
-        """d(sin psi)/dd at d."""
+        """Return the derivative d(sin psi)/dd at d."""
         return self._by_piece(d, lambda piece, at: piece.slope(at))
 
     def travel(self, d: Floats) -> Floats:
-        """X at d, from the pitch point."""
+        """Return the displacement X at d, counted from `start`."""
         return self._by_piece(d, lambda piece, at: self._offsets[id(piece)] + piece.travel(at))
 
     @cached_property
     def _offsets(self) -> dict[int, float]:
-        """X at the start of each piece, by the piece's identity."""
+        """Displacement X at the start of each piece, by the identity of the piece."""
         total, starts = 0.0, {}
         for piece in self.pieces:
             starts[id(piece)] = total
@@ -196,34 +200,34 @@ class PathSide:
         return starts
 
     def distance(self, X: Floats) -> Floats:
-        """d at X, by Newton's method on dd/dX = cos psi."""
+        """Return the distance d at displacement X, by Newton's method with dd/dX = cos psi."""
         X = np.asarray(X, dtype=float)
         arc = self.arc
         d = self.start + (np.clip(X / arc, 0.0, 1.0) * (self.end - self.start) if arc else np.zeros(X.shape))
-        # quadratic but for sharp bends; clipped, for beyond its end a series means nothing
+        # convergence is quadratic except at sharp bends; clipped, as a series is invalid beyond its end
         for _ in range(40):
             step = (self.travel(d) - X) * np.sqrt(np.maximum(1 - self.sin_psi(d) ** 2, 0.0))
             d = np.clip(d - step, self.start, self.end)
-            # two roundings of the greatest distance
+            # two rounding errors of the maximum distance
             if np.abs(step).max(initial=0.0) <= 4e-16 * self.end:
                 break
         return d
 
-    def _by_piece(self, d: Floats, ask: Callable[[PathPiece, Floats], Floats]) -> Floats:
+    def _by_piece(self, d: Floats, evaluate: Callable[[PathPiece, Floats], Floats]) -> Floats:
         d = np.asarray(d, dtype=float)
         if len(self.pieces) == 1:
-            return ask(self.pieces[0], d)
+            return evaluate(self.pieces[0], d)
         found = np.empty(d.shape)
         which = np.clip(np.searchsorted(self.joints[:-1], d, side="right"), 0, len(self.pieces) - 1)
         for at, piece in enumerate(self.pieces):
             here = which == at
             if here.any():
-                found[here] = ask(piece, d[here])
+                found[here] = evaluate(piece, d[here])
         return found
 
 
 def none(psi: float) -> PathSide:
-    """A side without contact: the path begins or ends at the pitch point, under a pressure angle `psi` (rad)."""
+    """Return a side without contact: the path begins or ends at the pitch point with pressure angle `psi` (rad)."""
     return PathSide((RayPiece(psi, 0.0),))
 
 
@@ -231,26 +235,26 @@ def none(psi: float) -> PathSide:
 
 
 @dataclass(frozen=True)
-class PathContact:
-    """The contact at pitch-line displacements X: arrays of one shape. X < 0 is approach, X > 0 recess.
+class PathContact(Shown):
+    """Contact quantities at pitch-line displacements X, as arrays of one shape: approach at X < 0, recess at X > 0.
 
     See Also
     --------
-    PathOfContact.at : gives it.
+    PathOfContact.at : Evaluates it.
     """
 
     X: Floats
     """Pitch-line displacement [module; rad for bevels]."""
     d: Floats
-    """Signed distance from the pitch point [module; rad]."""
+    """Signed distance from the pitch point [module; rad for bevels]."""
     sin_psi: Floats
     """Sine of the pressure angle."""
     cos_psi: Floats
     """Cosine of the pressure angle."""
     q: Floats
-    """d(psi)/dX."""
+    """Derivative d(psi)/dX."""
     w: Floats
-    """d(S sin psi)/dd."""
+    """Derivative d(S sin psi)/dd."""
     U1: Floats
     """Speed of the contact along the profile of gear 1, over the pitch-line speed."""
     U2: Floats
@@ -262,15 +266,15 @@ class PathContact:
     kr: Floats
     """Relative curvature k1 - k2."""
     H: Floats
-    """Kr / cos psi: the Hertz pressure is proportional to its square root."""
+    """Ratio kr / cos psi; the Hertzian pressure is proportional to its square root."""
     Q1: Floats
     """Frictional heat per area of the profile of gear 1, over friction times tangential force."""
     Q2: Floats
     """Frictional heat per area of the profile of gear 2, over friction times tangential force."""
     flash: Floats
-    """F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature of like materials is proportional."""
+    """F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|; Blok's flash temperature of like materials is proportional to it."""
     rub: Floats
-    """|S| / cos psi; the loss is proportional to its integral over X."""
+    """|S| / cos psi; the friction loss is proportional to its integral over X."""
 
     @property
     def psi(self) -> Floats:
@@ -280,12 +284,12 @@ class PathContact:
 
 
 @dataclass(frozen=True)
-class PathOfContact:
-    """Where contact happens: one side before the pitch point, one after. Lengths in modules; of bevels rad.
+class PathOfContact(Shown):
+    """Path of contact of a pair: an approach side and a recess side. Lengths in modules; rad for bevels.
 
     See Also
     --------
-    geartrain.teeth.Involute : every conjugate form has a method `path` that gives it.
+    geartrain.teeth.Involute : Every conjugate form has a method `path` that returns one.
 
     Examples
     --------
@@ -303,21 +307,23 @@ class PathOfContact:
     recess: PathSide
     """The side after the pitch point."""
     real: tuple[float, float] | None = None
-    """Arcs of approach and recess (X) in which the teeth touch, where they are shorter than the sides; one is
-    negative where contact begins, or ends, beyond the pitch point. None for the arcs of the sides."""
+    """Arcs of approach and recess (pitch-line displacements X) of actual contact, if shorter than the sides.
+
+    One is negative if contact begins or ends beyond the pitch point. None for the arcs of the sides.
+    """
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and of recess (X) in which the teeth really touch; one may be negative."""
+        """Actual arcs of approach and recess, as pitch-line displacements X; one may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
-        """Distances d on one side between which the teeth touch; None where they do not.
+        """Return the range of distances d in which the teeth touch on one side, or None if they do not touch there.
 
         Parameters
         ----------
         recess : bool
-            Which side.
+            True for the recess side, False for the approach side.
         low, high : float
             Bounds of X.
         """
@@ -327,39 +333,42 @@ class PathOfContact:
         if far <= max(near, 0.0) or side.arc == 0:
             return None
         start = side.start if near <= 0 else float(side.distance(np.array(near)))
-        # a whole side ends where it says, not where an inversion puts it
+        # a complete side ends exactly at its end, without the rounding of an inversion
         end = side.end if far >= side.arc else float(side.distance(np.array(far)))
         return (start, end) if end > start else None
 
     @property
     def contact_ratio(self) -> float:
-        """Pitches of displacement while one pair touches; below 0 where no contact is in reach."""
+        """Contact ratio: displacement X during which one tooth pair touches, in pitches.
+
+        It is negative if the teeth do not reach each other.
+        """
         return sum(self.arcs) / self.pitch.p
 
     def ends(self, gear: int) -> tuple[float, float]:
-        """Displacements X at which the root end of a gear's flank touches, and its tip.
+        """Return the displacements X at which the root end and the tip of a gear's flank touch.
 
         Parameters
         ----------
         gear : {1, 2}
-            Which gear.
+            Number of the gear.
         """
         approach, recess = self.arcs
         return (-approach, recess) if gear == 1 else (recess, -approach)
 
     def radii(self, gear: int) -> tuple[float, float]:
-        """Radii (modules; half-angles of cones, rad) between which a gear's flank works, root end first.
+        """Return the radii (modules; half-angles of cones, rad) that bound the active flank of a gear, root end first.
 
         Parameters
         ----------
         gear : {1, 2}
-            Which gear.
+            Number of the gear.
         """
         (low, high), _ = self.pitch.polar(gear, self.flank(gear, np.array(self.ends(gear))))
         return float(low), float(high)
 
     def at(self, X: ArrayLike) -> PathContact:
-        """The contact at given displacements.
+        """Return the contact quantities at given displacements.
 
         Parameters
         ----------
@@ -369,7 +378,7 @@ class PathOfContact:
         Returns
         -------
         PathContact
-            Arrays of that shape.
+            Arrays of the shape of `X`.
         """
         X = np.asarray(X, dtype=float)
         recess = X >= 0
@@ -384,33 +393,36 @@ class PathOfContact:
         return self._contact(X, d, sine, q)
 
     def along(self, d: ArrayLike, recess: bool) -> PathContact:
-        """The contact at given distances from the pitch point.
+        """Return the contact quantities at given distances from the pitch point.
 
         Parameters
         ----------
         d : array_like
             Distances, 0 or more.
         recess : bool
-            Which side.
+            True for the recess side, False for the approach side.
         """
         side, sign = (self.recess, 1.0) if recess else (self.approach, -1.0)
         d = np.asarray(d, dtype=float)
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Docs/shapes.md (2) to (5): U1 = w + A S, U2 = w - B S; k_i = T_i / U_i; kr = (A + B) sin psi / (U1 U2)."""
+        """Compute contact speeds and curvatures, docs/shapes.md (2) to (5).
+
+        U1 = w + A S, U2 = w - B S; k_i = T_i / U_i; kr = (A + B) sin psi / (U1 U2).
+        """
         pitch = self.pitch
         A, B = pitch.A, pitch.B
         S, slope = pitch.S(d), pitch.S_slope(d)
-        # rounding may put a sine beyond 1 where the pressure angle is a right angle
+        # rounding may make a sine exceed 1 where the pressure angle is a right angle
         cosine = np.sqrt(np.maximum(1 - sine * sine, 0.0))
         w = slope * sine + S * q
         U1, U2 = w + A * S, w - B * S
         bend = S * sine if pitch.bevel else 0.0
-        # U is 0 at a cusp, where curvature and pressure are infinite, and below 0 beyond it, where its root is NaN
+        # U is 0 at a cusp, with infinite curvature and pressure, and negative beyond it, where its root is NaN
         with np.errstate(divide="ignore", invalid="ignore"):
             k1, k2 = ((q + A) * slope - bend) / U1, ((q - B) * slope - bend) / U2
-            # psi = 0 at the pitch point, as of a cycloid, makes U 0 there too: 0/0, whose limit is infinite
+            # at the pitch point psi = 0, as for a cycloid, makes U 0 too; the limit of 0/0 is infinite
             kr = np.where(sine > 0, (A + B) * sine / (U1 * U2), np.inf)
             H = kr / cosine
             rub = np.abs(S) / cosine
@@ -419,7 +431,7 @@ class PathOfContact:
         return PathContact(X, d, sine, cosine, q, w, U1, U2, k1, k2, kr, H, Q1, Q2, flash, rub)
 
     def flank1(self, X: ArrayLike) -> Floats:
-        """Points of gear 1's profile in its X = 0 position.
+        """Return points of gear 1's profile in its X = 0 position.
 
         Parameters
         ----------
@@ -429,31 +441,31 @@ class PathOfContact:
         Returns
         -------
         ndarray
-            (..., 2) from the pitch point, or of bevels (..., 3) on the unit sphere.
+            (..., 2) from the pitch point, or (..., 3) on the unit sphere for bevels.
         """
         X = np.asarray(X, dtype=float)
         return self.pitch.on_gear1(self._points(X), X)
 
     def flank2(self, X: ArrayLike) -> Floats:
-        """Points of gear 2's profile, likewise.
+        """Return points of gear 2's profile in its X = 0 position.
 
         Parameters
         ----------
         X : array_like
-            As of `flank1`.
+            Displacements at which the points touch.
         """
         X = np.asarray(X, dtype=float)
         return self.pitch.on_gear2(self._points(X), X)
 
     def flank(self, gear: int, X: ArrayLike) -> Floats:
-        """Points of the profile of one gear, likewise.
+        """Return points of the profile of one gear in its X = 0 position.
 
         Parameters
         ----------
         gear : {1, 2}
-            Which gear.
+            Number of the gear.
         X : array_like
-            As of `flank1`.
+            Displacements at which the points touch.
         """
         return self.flank1(X) if gear == 1 else self.flank2(X)
 

@@ -1,4 +1,4 @@
-"""The two wheels of a pair with conjugate teeth, and whether there can be such a pair."""
+"""Wheels of a conjugate gear pair, and checks that such a pair exists."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import cos, pi
 from typing import TYPE_CHECKING
 
+from geartrain.numerics.results import Shown
 from geartrain.teeth.tooth_form import refused
 
 if TYPE_CHECKING:
@@ -13,16 +14,16 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 FEWEST, MOST_TEETH = 3, 10**9
-_MINIMUM_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, and cones lost in rounding
+_MINIMUM_ANGLE = 1e-6  # rad: axes at a smaller angle are practically parallel, and their cones vanish in rounding
 
 
 @dataclass(frozen=True, slots=True)
-class WheelPair:
-    """The two wheels of a pair with conjugate teeth.
+class WheelPair(Shown):
+    """Wheels of a pair with conjugate teeth.
 
     See Also
     --------
-    geartrain.teeth.Involute : its method `pair` takes them.
+    geartrain.teeth.Involute : Its method `pair` takes a `WheelPair`.
 
     Examples
     --------
@@ -33,15 +34,15 @@ class WheelPair:
     """
 
     z1: float
-    """Tooth count of the first wheel; not whole for a virtual wheel that represents a bevel."""
+    """Tooth number of the first wheel; not an integer for the virtual spur wheel of a bevel."""
     z2: float
-    """Tooth count of the second wheel; not whole for a virtual wheel that represents a bevel."""
+    """Tooth number of the second wheel; not an integer for the virtual spur wheel of a bevel."""
     internal: bool = False
-    """The second is a ring."""
+    """True if the second wheel is a ring gear."""
     shaft_angle: float | None = None
-    """Angle of the axes [rad], for bevels; None for parallel axes."""
+    """Shaft angle of bevels [rad]; None for parallel axes."""
     module: float | None = None
-    """Transverse module [m], as all lengths of the pair are transverse; None where no length gives it."""
+    """Transverse module [m]; all lengths of the pair are transverse. None if no length gives it."""
     helix: float = 0.0
     """Helix angle of helical wheels [rad], 0 or more."""
 
@@ -55,18 +56,18 @@ class WheelPair:
         pitch_distance: float | None,
         helix: float = 0.0,
     ) -> WheelPair:
-        """Wheels whose module follows from their pitch distance.
+        """Build the pair with the module that follows from its pitch distance.
 
         Parameters
         ----------
         z1, z2 : int
-            Tooth counts.
+            Tooth numbers.
         internal : bool
-            The second is a ring.
+            True if the second wheel is a ring gear.
         shaft_angle : float or None
-            Angle of the axes [rad]; None for parallel axes.
+            Shaft angle [rad]; None for parallel axes.
         pitch_distance : float or None
-            Half the module of each wheel times its teeth, summed, for a ring too [m]; None where nothing gives it.
+            Half the sum of module times teeth of both wheels, also for a ring gear [m]; None if unknown.
         helix : float
             Helix angle [rad].
         """
@@ -80,7 +81,7 @@ class WheelPair:
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """The pitch surfaces at the design distance. Raises `GearTrainError` where there are none."""
+        """Pitch surfaces at the design distance. Raises `GearTrainError` if the wheels cannot be a pair."""
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
         self.check()
@@ -94,55 +95,57 @@ class WheelPair:
         return (self.z2 - self.z1 if self.internal else self.z1 + self.z2) / 2
 
     def check(self) -> None:
-        """Raises `GearTrainError` for wheels that cannot be a pair."""
+        """Raise `GearTrainError` if the wheels cannot be a pair."""
         for z in (self.z1, self.z2):
             if z < FEWEST:
                 raise refused(
                     f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no conjugate teeth",
-                    "so few leave no arc on which one pair takes over from the last",
+                    "so small a number leaves no arc on which the next tooth pair can take over",
                     f"give at least {FEWEST} teeth, or another tooth_form",
                 )
         if self.internal and self.z2 <= self.z1:
             raise refused(
-                f"a ring of {self.z2} teeth does not hold a wheel of {self.z1}",
+                f"a ring of {self.z2} teeth cannot contain a wheel of {self.z1} teeth",
                 "its pitch circle is not the larger one",
                 "give the ring more teeth",
             )
         if self.internal and self.bevel:
-            raise refused("a ring's axis is parallel to its pinion's", "", "give the pair no shaft angle")
+            raise refused(
+                "a ring cannot have a shaft angle", "its axis is parallel to its pinion's", "omit the shaft angle"
+            )
         if max(self.z1, self.z2) > MOST_TEETH:
             raise refused(
-                f"a wheel of {max(self.z1, self.z2)} teeth",
-                "its teeth are lost in the rounding of its radius",
+                f"a wheel of {max(self.z1, self.z2)} teeth has too many teeth",
+                "a tooth would be smaller than the rounding error of the radius",
                 f"give at most {MOST_TEETH:g} teeth",
             )
         if self.shaft_angle is not None and not _MINIMUM_ANGLE <= self.shaft_angle <= pi - _MINIMUM_ANGLE:
             raise refused(
-                f"a shaft angle of {self.shaft_angle:.6g} rad is none",
-                f"bevel axes meet between 0 and 180 deg, and {_MINIMUM_ANGLE:g} rad from either at least",
-                "give parallel axes to a spur pair",
+                f"a shaft angle of {self.shaft_angle:.6g} rad is out of range",
+                f"bevel axes meet at an angle between 0 and 180 deg, at least {_MINIMUM_ANGLE:g} rad from either",
+                "use parallel axes for a spur pair",
             )
 
     def modules(self, length: Quantity, name: str) -> float:
-        """A declared length in transverse modules, a plain number being in normal ones.
+        """Convert a declared length to transverse modules; a plain number is in normal modules.
 
         Parameters
         ----------
         length : Quantity
-            As declared.
+            Length as declared.
         name : str
-            Of the field, for the error.
+            Name of the field, for the error message.
 
         Raises
         ------
         GearTrainError
-            Where no module is known.
+            If no module is known.
         """
         if length.unit is None:
             return float(length.value) * cos(self.helix)
         if self.module is None:
             raise refused(
-                f"the {name} {length.text} has nothing to be compared with",
+                f"the {name} {length.text} cannot be converted to modules",
                 "the wheels declare no module with a unit",
                 f"give the `module` of both wheels, --module to `export`, or the {name} as a plain number of modules",
             )

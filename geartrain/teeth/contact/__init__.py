@@ -1,15 +1,15 @@
 """Contact of two outlines of any shape: driven angle, backlash, teeth in contact, transmission function over a period.
 
-No normals or paths of contact are used: the driven wheel stands where the last point of the driver's outline lets it.
-This gives an independent check of teeth that are derived in other ways, and a transmission function to teeth that are
-worn, misplaced or displaced.
+Neither normals nor paths of contact are used: the driven angle is the maximum that any point of the driver's outline
+requires. This gives an independent check of teeth that are derived in other ways, and a transmission function to teeth
+that are worn, misplaced or displaced.
 
 gear_outline              curves, teeth made of them, a wheel
-flank_table               flanks as polynomial pieces with rising radius
-first_touch               the furthest point of the driver's side (false position on each smooth segment)
+flank_table               flanks as polynomial pieces of increasing radius
+first_touch               first point of the driver's side to touch (false position on each smooth segment)
 outline_contact           driven angle, backlash and teeth in contact at given angles: `contact`, `solve`
 transmission_fit          the periodic transmission function as polynomials (Chebyshev nodes): `tabulate`
-outline_transmission      the same with friction and verdict
+outline_transmission      the transmission function with friction and verdict
 outline_mesh              a pair of a train with such teeth
 displaced_outlines        displaced flanks of such teeth
 """

@@ -1,9 +1,9 @@
-"""Displaced flanks of any two outlines: how far they turn the driven wheel, for teeth without a path of contact.
+"""Effect of displaced flanks on the driven wheel, for any two outlines without a path of contact.
 
-One couple of teeth alone is turned through its contact, and where it touches the common normal is found: it passes the
-point that parts the line of centres as the speeds do at that instant. A flank that stands out by n along it turns the
-driven wheel ahead by n over the moment arm of the normal about the driven axle, docs/cut-by-hand.md (1), as of
-conjugate teeth; but the lag of even wheels is not constant here.
+A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes the
+point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n along the
+normal turns the driven wheel ahead by n over the moment arm of the normal about the driven axle, docs/cut-by-hand.md
+(1), as for conjugate teeth. Unlike there, the lag of error-free wheels is not constant.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.polynomial_pieces import value
-from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, DisplacedWheelSizes, KinkLag
+from geartrain.teeth.conjugate.displaced_contact import CornerLag, DisplacedContact, DisplacedWheelSizes
 from geartrain.teeth.contact.first_touch import CandidatePairs
 from geartrain.teeth.contact.outline_contact import OutlinePair
 
@@ -25,49 +25,54 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
-_NODES = 1025  # of the tables along the contact; linear between them
-_CORNER_NODES = 257  # beyond its ends
-_SEARCHED = 2001  # of the window of a couple, for the ends of its contact
-_FARTHEST = 0.25  # of a driven pitch: a couple that lags more is held up by its neighbours
+_NODES = 1025  # of the tables along the contact, with linear interpolation
+_CORNER_NODES = 257  # of the tables beyond its ends
+_SEARCHED = 2001  # samples in the window of a tooth pair, for the ends of its contact
+_FARTHEST = 0.25  # of a driven pitch: with more lag the neighbouring pairs are in contact instead
 _NO_CORNER = 1e-9  # rad of the driver
-_AT_PITCH_POINT = 1e-6  # modules: nearer to it the normal is that of the flank
-_ROUGH = 1e-4  # rad: what is sought to rounding, among touches so near to the furthest
-_BLUNT = radians(10)  # half the aperture, at least
+_AT_PITCH_POINT = 1e-6  # modules: closer to the pitch point the normal is taken from the flank
+_ROUGH = 1e-4  # rad: touches within this margin of the first one are refined
+_BLUNT = radians(10)  # lower bound of the half aperture
 
 
 class ToothPairContact(NamedTuple):
-    """One couple alone at driver's angles x (rad past its place), the driver's axle at 0, the driven one on the x
-    axis."""
+    """Contact of a single tooth pair at driver's angles x (rad past its nominal position).
+
+    The driver's axle is at 0, the driven one on the x axis.
+    """
 
     x: Floats
     lag: Floats
-    """Of the driven wheel behind its even motion (rad)."""
+    """Lag of the driven wheel behind uniform motion (rad)."""
     point: Floats
-    """Where it touches (2, n), in modules."""
+    """Contact points (2, n), in modules."""
     normal: Floats
-    """The direction in which the driver pushes (2, n)."""
+    """Unit vectors in the direction in which the driver pushes (2, n)."""
     angle: Floats
-    """Of the driven tooth past the line of centres (rad)."""
+    """Angle of the driven tooth past the line of centres (rad)."""
     corner: Indices
-    """1 where the driver's tip touches, 2 the driven one's, 3 both, 0 neither; -1 where nothing touches."""
+    """Corners in contact: 1 for the driver's tip, 2 for the driven one, 3 for both, 0 for neither; -1 without contact.
+    """
 
 
 class ToothPairSearch:
-    """The contact of single couples of two outlines, front flanks driving."""
+    """Search for the contact of single tooth pairs of two outlines, front flanks driving."""
 
     def __init__(self, gears: OutlineGears, driver: int) -> None:
         self.first, self.second = gears.of(driver)
         self.pair = OutlinePair(self.first, self.second, gears.distance, "front")
         self.distance = gears.distance
-        self.offset = 2 * gears.lead / self.second.z
+        self.offset = 2 * gears.half_teeth / self.second.z
 
     def at(self, x: Floats) -> ToothPairContact:
-        """The contact at driver's angles."""
+        """Return the contact at given driver's angles."""
         count, none = len(x), np.zeros(len(x), int)
-        judge = self.pair.judge
+        touch_search = self.pair.touch_search
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
-        touches = judge.touch(tooth_pairs, judge.furthest(tooth_pairs, judge.segments(tooth_pairs), _ROUGH))
-        # the furthest touch of each angle comes last
+        touches = touch_search.touch(
+            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), _ROUGH)
+        )
+        # the touch of maximum angle of each pair is sorted last
         order = np.lexsort((touches.angle, touches.tooth_pair))
         last = order[np.flatnonzero(np.diff(touches.tooth_pair[order], append=count))]
         where = touches.tooth_pair[last]
@@ -75,8 +80,8 @@ class ToothPairSearch:
         corner[where] = self._corners(touches.piece1[last], touches.u[last], touches.piece2[last], touches.v[last])
         angle, point, normal = np.full(count, np.nan), np.full((2, count), np.nan), np.full((2, count), np.nan)
         angle[where] = touches.angle[last]
-        r, dr = value(judge.first.radius, touches.piece1[last], touches.u[last])
-        a, da = value(judge.first.azimuth, touches.piece1[last], touches.u[last])
+        r, dr = value(touch_search.first.radius, touches.piece1[last], touches.u[last])
+        a, da = value(touch_search.first.azimuth, touches.piece1[last], touches.u[last])
         a = a + x[where]
         point[:, where] = r * np.cos(a), r * np.sin(a)
         along = np.stack([dr * np.cos(a) - r * da * np.sin(a), dr * np.sin(a) + r * da * np.cos(a)])
@@ -85,27 +90,32 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _corners(self, piece1: Indices, u: Floats, piece2: Indices, v: Floats) -> Indices:
-        judge, found = self.pair.judge, np.zeros(len(u), int)
-        for at, (table, piece, end) in enumerate(((judge.first, piece1, u), (judge.second, piece2, v)), 1):
-            found += at * ((end == -1) & table.kinks[0][piece] | (end == 1) & table.kinks[1][piece])
+        touch_search, found = self.pair.touch_search, np.zeros(len(u), int)
+        for at, (table, piece, end) in enumerate(
+            ((touch_search.first, piece1, u), (touch_search.second, piece2, v)), 1
+        ):
+            found += at * ((end == -1) & table.corners[0][piece] | (end == 1) & table.corners[1][piece])
         return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Through the point that parts the line of centres as the speeds do; at that point, across the flank."""
+        """Return the unit normals, which pass the point that divides the line of centres in the ratio of speeds.
+
+        At that point itself the result is normal to the flank.
+        """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
             flank = np.stack([-along[1], along[0]])
             found = np.where(np.hypot(*to) > _AT_PITCH_POINT, to, flank)
             found = found / np.hypot(*found)
-        # about the driven axle, beyond, the push goes the way its near side moves
+        # the push is in the direction in which the near side of the driven wheel moves
         return np.asarray(np.where(found[1] < 0, -found, found))
 
 
 @lru_cache(maxsize=256)
 def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
-    """The contact of two outlines at their distance, one of the wheels driving, and what displaced flanks change.
+    """Return the contact of two outlines at their distance, with the effects of displaced flanks.
 
-    Raises `RangeError` where the teeth do not touch for a whole pitch.
+    Raises `RangeError` if the teeth do not touch for a whole pitch.
     """
     search = ToothPairSearch(gears, driver)
     first, second = search.first, search.second
@@ -114,13 +124,13 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
     axles = np.array([[0.0, gears.distance], [0.0, 0.0]])
     px, py = found.point
     nx, ny = found.normal
-    # 1 over the moment arm about the driven axle, the way it turns there
+    # reciprocal of the moment arm about the driven axle
     normal = 1 / np.abs((px - axles[0, 1]) * ny - py * nx)
-    working = _foremost(found, first.pitch)
+    working = _leading_places(found, first.pitch)
     sizes, levers, longer = [], [], []
     for gear, wheel in enumerate((first, second)):
         radius = np.hypot(px - axles[0, gear], py)
-        tip = (search.pair.judge.first if gear == 0 else search.pair.judge.second).reach[1]
+        tip = (search.pair.touch_search.first if gear == 0 else search.pair.touch_search.second).reach[1]
         sizes.append(_sizes(wheel, radius[working], tip, _half_widths(search, found, gear)[working]))
         pitch_x, pitch_y = _pitch_points(search, found, gear)
         levers.append(normal * ((py - pitch_y) * nx - (px - pitch_x) * ny))
@@ -147,7 +157,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """From where to where flanks touch, and before and after it tips (rad of the driver)."""
+    """Return the range in which flanks touch, and the larger range that includes tips (rad of the driver)."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -155,14 +165,15 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
     reach = np.flatnonzero(whole)
     if len(flanks) < 2 or found.x[reach[-1]] - found.x[reach[0]] < search.first.pitch:
         what = "these teeth do not touch for a whole pitch"
-        raise RangeError(Problem(what, "no flank can be displaced", "give them longer tips, or axles nearer together"))
-    # the places of the search are fine beside the tables; an end lies within
+        why = "the effect of a displaced flank is defined for a contact of at least one pitch"
+        raise RangeError(Problem(what, why, "use larger addenda or a smaller centre distance"))
+    # the search samples are finer than the tables, so no refinement of the ends is needed
     start, end, minimum, most = (float(found.x[at]) for at in (flanks[0], flanks[-1], reach[0], reach[-1]))
     return start, end, minimum, most
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """The run of true entries about a place."""
+    """Return the run of true entries that includes index `at`."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -170,22 +181,22 @@ def _around(held: Bools, at: int) -> Bools:
     return found
 
 
-def _corner(search: ToothPairSearch, end: float, last: float) -> KinkLag:
-    """How much more the driven wheel lags while a tip touches beyond an end of the contact."""
+def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
+    """Return the additional lag of the driven wheel while a tip touches beyond an end of the contact."""
     if abs(last - end) < _NO_CORNER:
-        return KinkLag(_NO_CORNER, np.zeros(2))
+        return CornerLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
-    return KinkLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
+    return CornerLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
 
 
-def _foremost(found: ToothPairContact, pitch: float) -> Indices:
-    """Where this couple holds the driven wheel, not one a pitch before or behind."""
+def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
+    """Return the indices at which this tooth pair drives the wheel, not a pair one pitch before or behind."""
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))
 
 
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Half the thickness of the tooth (modules) where it touches."""
+    """Return half the tooth thickness (modules) at the contact."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -193,15 +204,17 @@ def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) ->
 
 
 def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> DisplacedWheelSizes:
-    """Of a wheel that works at these radii, where it is so thick."""
+    """Return the reference sizes of a wheel from radii of contact and half thicknesses there."""
     foot, top = int(np.argmin(radius)), int(np.argmax(radius))
     lean = float(np.arctan2(half[foot] - half[top], radius[top] - radius[foot]))
     return DisplacedWheelSizes(wheel.z, float(tip - radius[foot]), max(lean, _BLUNT))
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Where the flank that touches crosses the pitch circle, about which it is turned."""
-    wheel, table = ((search.first, search.pair.judge.first), (search.second, search.pair.judge.second))[gear]
+    """Return the centres of flank rotation: the points at which the flank in contact crosses the pitch circle."""
+    wheel, table = ((search.first, search.pair.touch_search.first), (search.second, search.pair.touch_search.second))[
+        gear
+    ]
     radius = wheel.z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]
     azimuth = float(value(table.azimuth, piece, table.inverse(piece, np.array([radius])))[0][0])

@@ -1,10 +1,10 @@
-"""First touch of the teeth of two wheels: the driven angle that the furthest point of the driver's side requires.
+"""First touch of the teeth of two wheels: the maximum driven angle that any point of the driver's side requires.
 
-A point P of the driver's side, seen from the second axle at radius r and azimuth a (`DrivenFrame`, on parallel axes and
-on the sphere), holds a driven tooth whose own azimuth at that radius is A(r) at least at the angle G(P) = a - A(r); the
-tooth stands at the greatest of them. The side is cut where a piece of either outline begins and where its distance from
-the second axle turns, so that on each segment G is smooth; its ends are taken as they are, and within, the slope of G
-changes its sign.
+A point P of the driver's side has radius r and azimuth a about the second axle (`DrivenFrame`, on parallel axes and on
+the sphere). A driven tooth whose own azimuth at that radius is A(r) must be at the angle G(P) = a - A(r) or beyond, so
+its angle is the maximum of G. The side is divided where a piece of either outline begins and where its distance from
+the second axle is stationary, so that G is smooth on each segment. Its maximum is at an end of a segment, or at a sign
+change of its slope.
 """
 
 from __future__ import annotations
@@ -23,69 +23,72 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.flank_table import FlankTable
 
-_ASIDE = 1e-5  # of a segment: where a slope is asked for if the end has none
-_FINE = 1e-14  # of u: G itself is flat where its slope is 0, and only the speed is as good as u
-_WIDE = 2.0  # bounds from tangents are doubled
-_LEFT = 1e-8  # of u: what an inversion leaves where a curve stands still, the square root of rounding
+_ASIDE = 1e-5  # of a segment: offset at which a slope is evaluated if it is undefined at the end
+_FINE = 1e-14  # of u: at a maximum of G only the speed depends on u to first order
+_WIDE = 2.0  # safety factor of bounds from tangents
+_LEFT = 1e-8  # of u: error of an inversion where a curve is stationary, the square root of rounding
 
 
 @dataclass(frozen=True, slots=True)
 class AxlePlacement:
-    """The place of two axles.
+    """Relative position of two axles.
 
-    distance   from axle to axle; bevel: the shaft angle (rad)
-    ring       which of the two wheels has its teeth inside; 0 if none has
-    Azimuths are 0 on the line of centres, on the side where the wheels meet, and grow as both turn forward.
+    distance   centre distance; bevel: the shaft angle (rad)
+    ring       number of the wheel that is a ring gear; 0 if neither is
+    Azimuths are 0 on the line of centres, on the side where the wheels meet, and increase as both turn forward.
     """
 
     distance: float
     bevel: bool = False
     ring: Literal[0, 1, 2] = 0
 
-    def look(self, r: Floats, b: Floats) -> DrivenFrame:
-        """The view of points at radii r (bevel: polar angles) and azimuths b about the first axle."""
+    def frame(self, r: Floats, b: Floats) -> DrivenFrame:
+        """Transform points at radii r (bevel: polar angles) and azimuths b about the first axle to the second axle."""
         return DrivenFrame(self, r, b)
 
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
-        """The greatest |azimuth| at which a radius from `lowest` to `highest` is seen from `minimum` to `most`.
+        """Return the maximum |azimuth| at which a radius from `lowest` to `highest` about the first axle can be in
+        range.
 
-        Taken from samples, and widened: never too small but for rounding.
+        The range of radii about the second axle is from `minimum` to `most`. The result is taken from samples and
+        widened, so that it is never too small except for rounding. It is -1 if no point is in range.
         """
         r = np.linspace(lowest, highest, 129)[:, None]
         b = np.linspace(0, np.pi, 721)[None, :]
-        seen = DrivenFrame(self, *np.broadcast_arrays(r, b)).radius
-        # what may pass between two samples, and rounding
+        radii = DrivenFrame(self, *np.broadcast_arrays(r, b)).radius
+        # allowance for extremes between two samples, and for rounding
         slack = 2 * (highest - lowest) / 128 + 1e-9 * highest
-        inside = ((seen <= most + slack) & (seen >= minimum - slack)).any(axis=0)
+        inside = ((radii <= most + slack) & (radii >= minimum - slack)).any(axis=0)
         if not inside.any():
             return -1.0
+        # one grid step beyond the last sample in range
         return float(b[0, inside].max() + np.pi / 720)
 
 
 class DrivenFrame:
-    """Points seen from the second axle: `radius` and `azimuth`, and how both change with the points."""
+    """Polar coordinates of points about the second axle: `radius` and `azimuth`, and their derivatives."""
 
-    __slots__ = ("across", "along", "bevel", "cos_b", "height", "radius", "side", "sight", "sin_b", "tilt", "up")
+    __slots__ = ("across", "along", "axles", "bevel", "cos_b", "height", "radius", "side", "sin_b", "tilt", "up")
 
-    def __init__(self, sight: AxlePlacement, r: Floats, b: Floats) -> None:
-        self.sight, self.bevel = sight, sight.bevel
+    def __init__(self, axles: AxlePlacement, r: Floats, b: Floats) -> None:
+        self.axles, self.bevel = axles, axles.bevel
         self.sin_b, self.cos_b = np.sin(b), np.cos(b)
-        reach = np.sin(r) if sight.bevel else r
-        self.height: Floats | float = np.cos(r) if sight.bevel else 1.0
+        reach = np.sin(r) if axles.bevel else r
+        self.height: Floats | float = np.cos(r) if axles.bevel else 1.0
         self.side, self.across = reach * self.sin_b, reach * self.cos_b
-        far, self.tilt = (sin(sight.distance), cos(sight.distance)) if sight.bevel else (sight.distance, 1.0)
+        far, self.tilt = (sin(axles.distance), cos(axles.distance)) if axles.bevel else (axles.distance, 1.0)
         e, s = self._signs()
         self.along = e * far * self.height + s * self.tilt * self.across
-        if sight.bevel:
+        if axles.bevel:
             self.up = self.tilt * self.height - s * e * far * self.across
-            # not arccos of `up`, which loses half the digits near the axle
+            # arctan2, because arccos of `up` loses half the digits near the axle
             self.radius = np.arctan2(np.hypot(self.side, self.along), self.up)
         else:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Which way the second axle lies from the first, and which way the first one's radius points along it."""
-        return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.sight.ring]
+        """Return the sign of the direction to the second axle, and the sign of the first radius along it."""
+        return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
     @property
     def azimuth(self) -> Floats:
@@ -94,7 +97,7 @@ class DrivenFrame:
         return found
 
     def moved(self, dr: Floats | float, db: Floats | float) -> tuple[Floats, Floats]:
-        """Changes of radius and azimuth as the points change by dr and db."""
+        """Return the changes of radius and azimuth as the points change by dr and db."""
         e, s = self._signs()
         stretch = self.height * dr
         side, across = stretch * self.sin_b + self.across * db, stretch * self.cos_b - self.side * db
@@ -103,7 +106,7 @@ class DrivenFrame:
             h = self.radius
             radius = (self.side * side + self.along * along) / h
             return radius, (self.along * side - self.side * along) / (h * h)
-        far = sin(self.sight.distance)
+        far = sin(self.axles.distance)
         fall = -self._sine() * dr
         along = along + e * far * fall
         up = self.tilt * fall - s * e * far * across
@@ -113,7 +116,7 @@ class DrivenFrame:
         ) / (h * h)
 
     def _sine(self) -> Floats:
-        """sin r on the sphere."""
+        """Return sin r for points on the sphere."""
         found: Floats = np.hypot(self.side, self.across)
         return found
 
@@ -122,7 +125,9 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Pairs of teeth to look at: driver's angle, its tooth's shape, driven tooth's shape, its place, position."""
+    """Candidate tooth pairs: driver's angle, shape of its tooth, shape of the driven tooth, its angle, index of the
+    position.
+    """
 
     x: Floats
     tooth1: Indices
@@ -132,47 +137,47 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Parts of the driver's side on which G is smooth; n of them."""
+    """Segments of the driver's side on which G is smooth; n of them."""
 
     tooth_pair: Indices
-    """Where."""
+    """Index of the tooth pair, (n,)."""
     piece1: Indices
-    """Where."""
+    """Index of the driver's piece, (n,)."""
     piece2: Indices
-    """Where."""
+    """Index of the driven piece, (n,)."""
     u: Floats
-    """(2, n): from, to, on piece1."""
-    seen: Floats
-    """(4, 2, n): radius and azimuth about the second axle at both ends, and their slopes by u."""
+    """Parameters of piece1 at both ends, (2, n)."""
+    polar2: Floats
+    """Radius and azimuth about the second axle at both ends, and their slopes by u, (4, 2, n)."""
     v: Floats
-    """(2, n): the end of piece2 that is met at either end, -1 or 1; NaN where it is not an end."""
+    """End of piece2 that is met at either end, -1 or 1, (2, n); NaN if it is not an end."""
 
 
 @dataclass(frozen=True)
 class FlankSegmentation:
-    """Two wheels, one side each, and the place of their axles."""
+    """Division into segments of one side each of two wheels at given axles."""
 
     first: FlankTable
     second: FlankTable
-    sight: AxlePlacement
+    axles: AxlePlacement
 
     def segments(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """All segments at which the couples can touch."""
-        cells = self._unturned(tooth_pairs, self._cells(tooth_pairs))
-        low, high = cells.seen[0].min(axis=0), cells.seen[0].max(axis=0)
+        """Return all segments at which the tooth pairs can touch."""
+        cells = self._divided_at_extremes(tooth_pairs, self._cells(tooth_pairs))
+        low, high = cells.polar2[0].min(axis=0), cells.polar2[0].max(axis=0)
         tooth = tooth_pairs.tooth2[cells.tooth_pair]
         start, end = self.second.first[tooth], self.second.first[tooth + 1]
         found = []
         for local in range(int(np.diff(self.second.first).max())):
-            # all teeth at once: one with fewer pieces repeats its last, which `start + local < end` leaves out
+            # all teeth at once; a tooth with fewer pieces repeats its last one, which `start + local < end` excludes
             piece2 = np.minimum(start + local, end - 1)
             within = (low <= self.second.ends[1, piece2]) & (high >= self.second.ends[0, piece2])
             which = np.flatnonzero(within & (start + local < end) & ~self.second.flat[piece2])
             found.append(some(cells, which)._replace(piece2=piece2[which]))
-        return self._clipped(tooth_pairs, joined(found))
+        return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Stretches between nodes that may be seen at radii of the driven side, which piece of it being open."""
+        """Return the cells between nodes that may be at radii of the driven side, before a driven piece is chosen."""
         nodes = self.first.nodes
         pieces, us, begins = (
             nodes[0][tooth_pairs.tooth1],
@@ -180,74 +185,78 @@ class FlankSegmentation:
             nodes[2][tooth_pairs.tooth1, :-1],
         )
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
-        view = self.sight.look(r, a + tooth_pairs.x[:, None])
+        view = self.axles.frame(r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
-        # where the distance turns inside a cell it passes both ends by less than the slopes there would take it
+        # an extreme of the distance inside a cell exceeds the ends by less than the slopes there would give
         slack = np.where(turning, (np.abs(change[:, :-1]) + np.abs(change[:, 1:])) * np.diff(us, axis=1), 0.0)
         minimum, most = (each[tooth_pairs.tooth2][:, None] for each in self.second.span)
         here, there = view.radius[:, :-1], view.radius[:, 1:]
         low, high = np.minimum(here, there), np.maximum(here, there)
         tooth_pair, at = np.nonzero(begins & (low - slack <= most) & (high + slack >= minimum))
         ends = tooth_pair, np.stack([at, at + 1])
-        seen = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
+        polar2 = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
         piece = pieces[tooth_pair, at]
-        return FlankSegments(tooth_pair, piece, np.zeros_like(piece), us[ends], seen, np.full(seen.shape[1:], np.nan))
+        return FlankSegments(
+            tooth_pair, piece, np.zeros_like(piece), us[ends], polar2, np.full(polar2.shape[1:], np.nan)
+        )
 
-    def _unturned(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Cells, those in which the distance from the second axle turns cut in two."""
-        which = np.flatnonzero(np.sign(cells.seen[2, 0]) * np.sign(cells.seen[2, 1]) < 0)
+    def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+        """Divide cells in which the distance from the second axle has an extreme."""
+        which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
             return cells
         turning = some(cells, which)
         x = tooth_pairs.x[turning.tooth_pair]
 
         def slope(u: Floats, these: Indices) -> Floats:
-            found: Floats = self._seen(x[these], turning.piece1[these], u)[2]
+            found: Floats = self._driven_polar(x[these], turning.piece1[these], u)[2]
             return found
 
-        middle = roots_by_false_position(slope, *turning.u, *turning.seen[2])
-        seen = self._seen(x, turning.piece1, middle)
-        cells.u[1, which], cells.seen[:, 1, which] = middle, seen
-        turning.u[0], turning.seen[:, 0] = middle, seen
+        middle = roots_by_false_position(slope, *turning.u, *turning.polar2[2])
+        polar2 = self._driven_polar(x, turning.piece1, middle)
+        cells.u[1, which], cells.polar2[:, 1, which] = middle, polar2
+        turning.u[0], turning.polar2[:, 0] = middle, polar2
         return joined([cells, turning])
 
-    def _clipped(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Cells cut to the radii of their driven piece: all at once, each root being found for itself."""
+    def _clipped_to_pieces(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+        """Clip cells to the radii of their driven piece, by vectorised false position."""
         low, high = self.second.ends[:, cells.piece2]
-        u, seen = cells.u.copy(), cells.seen.copy()
+        u, polar2 = cells.u.copy(), cells.polar2.copy()
         for side in (0, 1):
-            which = np.flatnonzero((cells.seen[0, side] < low) | (cells.seen[0, side] > high))
-            above = cells.seen[0, side, which] > high[which]
+            which = np.flatnonzero((cells.polar2[0, side] < low) | (cells.polar2[0, side] > high))
+            above = cells.polar2[0, side, which] > high[which]
             goal = np.where(above, high[which], low[which])
             x, piece = tooth_pairs.x[cells.tooth_pair[which]], cells.piece1[which]
 
             def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
                 r, a = (value_alone(each, piece[these], at) for each in (self.first.radius, self.first.azimuth))
-                return self.sight.look(r, a + x[these]).radius - goal[these]
+                return self.axles.frame(r, a + x[these]).radius - goal[these]
 
-            u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.seen[0][:, which] - goal))
-            seen[:, side, which] = self._seen(x, piece, u[side, which])
+            u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.polar2[0][:, which] - goal))
+            polar2[:, side, which] = self._driven_polar(x, piece, u[side, which])
             cells.v[side, which] = np.where(above, 1.0, -1.0)
-        return cells._replace(u=u, seen=seen)
+        return cells._replace(u=u, polar2=polar2)
 
-    def _seen(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Points of the driver's pieces seen from the second axle: radius, azimuth, their slopes by u; (4, n)."""
+    def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
+        """Return radius, azimuth and their slopes by u of the driver's points about the second axle, (4, n)."""
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """The same points as a view; slopes of their radius and azimuth about the first axle by u."""
+        """Return the driver's points in the frame of the second axle, and the slopes of their own radius and azimuth
+        by u.
+        """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
-        return self.sight.look(r, a + x), dr, da
+        return self.axles.frame(r, a + x), dr, da
 
 
 # -------------------------------------------------------------------------------------------------------------- touches
 
 
 class FirstTouches(NamedTuple):
-    """Touches, one for each of some segments: driven angle, speed ratio, where, radii about their own axles."""
+    """Touches, one for each segment: driven angle, speed ratio, location, radii about both axles."""
 
     angle: Floats
     speed: Floats
@@ -261,16 +270,16 @@ class FirstTouches(NamedTuple):
 
 
 class FirstTouchSearch(FlankSegmentation):
-    """Which points of the cut sides are the furthest."""
+    """Search for the points of the segments that determine the driven angle."""
 
     # -------------------------------------------------------------------------------------------------- which matter
 
     def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
-        """The segments that can hold, within `margin` (rad), the furthest point of their position."""
-        ends, slopes = self._rough(segments)
+        """Select the segments that can contain, within `margin` (rad), the maximum of G of their position."""
+        ends, slopes = self._estimates(segments)
         with np.errstate(invalid="ignore", divide="ignore"):
             width = segments.u[1] - segments.u[0]
-            # where the tangents at both ends meet: a bound on G within if it is concave, doubled for where it is not
+            # intersection of the tangents at both ends: bounds G if it is concave, and is doubled in case it is not
             meets = (ends[1] - ends[0] - slopes[1] * width) / (slopes[0] - slopes[1])
             rise = np.where((slopes[0] > 0) & (slopes[1] < 0), ends[0] + slopes[0] * meets - ends.max(axis=0), 0.0)
         unknown = ~np.isfinite(slopes).all(axis=0) | self._stalled(segments).any(axis=0)
@@ -278,47 +287,51 @@ class FirstTouchSearch(FlankSegmentation):
         place = tooth_pairs.place[segments.tooth_pair]
         position = tooth_pairs.position[segments.tooth_pair]
         best = np.full(int(tooth_pairs.position.max()) + 1 if len(tooth_pairs.position) else 0, -np.inf)
-        # `maximum.at`: many segments share a position, and an assignment would keep the last
+        # `maximum.at`, because many segments share a position and an assignment would keep only the last
         np.maximum.at(best, position, ends.max(axis=0) - place)
         return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
 
     def _stalled(self, segments: FlankSegments) -> Bools:
-        """(2, n): ends of segments at which one of the two curves stands still, so that slopes there tell nothing."""
+        """Return flags, (2, n), of segment ends at which one of the two curves is stationary and slopes are
+        meaningless.
+        """
         first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
         found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         return found
 
-    def _rough(self, segments: FlankSegments) -> tuple[Floats, Floats]:
-        """G and its slope at both ends, (2, n) each, without the refining steps of the inversion."""
+    def _estimates(self, segments: FlankSegments) -> tuple[Floats, Floats]:
+        """Estimate G and its slope at both ends, (2, n) each, with an inversion that is not refined."""
         piece = np.broadcast_to(segments.piece2, segments.u.shape)
         low, high = self.second.ends[:, segments.piece2]
-        r = np.clip(segments.seen[0], low, high)
+        r = np.clip(segments.polar2[0], low, high)
         within = np.isnan(segments.v)
         v = np.where(within, self.second.guess(piece, r)[0], segments.v)
-        # where the piece stands still a step of Newton's method leads anywhere
-        still = within & self.second.near_stall(piece, v)
-        v[still] = self.second.inverse(piece[still], r[still])
+        # where the piece is stationary a single Newton step is not reliable
+        stationary = within & self.second.near_stall(piece, v)
+        v[stationary] = self.second.inverse(piece[stationary], r[stationary])
         radius, rise = value(self.second.radius, piece, v)
         azimuth, turn = value(self.second.azimuth, piece, v)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = turn / rise
-            # elsewhere one step of it instead of the inversion; at an end of the piece nothing is left to correct
-            correction = np.where(within & ~still, slant * (r - radius), 0.0)
-            return segments.seen[1] - azimuth - correction, segments.seen[3] - slant * segments.seen[2]
+            # elsewhere one Newton step replaces the inversion; at an end of the piece no correction is needed
+            correction = np.where(within & ~stationary, slant * (r - radius), 0.0)
+            return segments.polar2[1] - azimuth - correction, segments.polar2[3] - slant * segments.polar2[2]
 
     # ------------------------------------------------------------------------------------------------------ exactly
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """The furthest point of each segment, to rounding."""
+        """Compute the touches of each segment to rounding: both ends, and the interior maximum of G if it exists."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
-            """The slope of G times d radius / dv of the driven piece: it is positive, and may be 0 at a piece's end."""
+            """Return the slope of G times d radius / dv of the driven piece, which is positive but may be 0 at a
+            piece's end.
+            """
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
-            # clipped: rounding may put a radius beyond the ends of the piece
+            # clipped, because rounding may move a radius beyond the ends of the piece
             v = self.second.inverse(piece, np.clip(view.radius, low[which], high[which]))
             change, swing = view.moved(dr, da)
             return swing * value(self.second.radius, piece, v)[1] - value(self.second.azimuth, piece, v)[1] * change
@@ -328,7 +341,7 @@ class FirstTouchSearch(FlankSegmentation):
         step = _ASIDE * (ends_u[1] - ends_u[0])
         stalled = self._stalled(segments)
         for side, way in ((0, 1), (1, -1)):
-            # where a curve stands still at its end the slope there is 0, give or take its rounding
+            # where a curve is stationary at its end the slope there is 0 up to rounding
             which = np.flatnonzero(stalled[side] | ~(way * slopes[side] > 0))
             ends_u[side, which] += way * step[which]
             slopes[side, which] = rising(ends_u[side, which], which)
@@ -337,29 +350,29 @@ class FirstTouchSearch(FlankSegmentation):
         middle = roots_by_false_position(
             lambda u, these: rising(u, inner[these]), low_u, high_u, at_low, at_high, _FINE
         )
-        ends = [self._found(tooth_pairs, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
-        within = self._found(tooth_pairs, some(segments, inner), middle, np.full(len(inner), np.nan))
+        ends = [self._touch_at(tooth_pairs, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
+        within = self._touch_at(tooth_pairs, some(segments, inner), middle, np.full(len(inner), np.nan))
         return joined([*ends, within])
 
-    def _found(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """The touch at u; v where an end of the driven piece is met there."""
+    def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
+        """Return the touch at parameter u; v is not NaN if an end of the driven piece is met there."""
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
-        kink = ~np.isnan(v)
+        at_end = ~np.isnan(v)
         low, high = self.second.ends[:, piece2]
-        v = np.where(kink, v, self.second.inverse(piece2, np.clip(view.radius, low, high)))
+        v = np.where(at_end, v, self.second.inverse(piece2, np.clip(view.radius, low, high)))
         r, rise = value(self.second.radius, piece2, v)
         a, turn = value(self.second.azimuth, piece2, v)
         change, swing = view.moved(dr, da)
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
-            slant = np.where(kink, swing / change, turn / rise)  # of azimuth by radius, on the side that is smooth
+            slant = np.where(at_end, swing / change, turn / rise)  # derivative of azimuth by radius on the smooth side
             off = view.radius - r
-            # more than rounding leaves is asked for only where the smooth side stands still and `slant` is noise
-            trusted = np.abs(off / np.where(kink, change, rise)) <= _LEFT
+            # a larger correction occurs only where the smooth side is stationary and `slant` is noise
+            trusted = np.abs(off / np.where(at_end, change, rise)) <= _LEFT
             correction = np.where(trusted, slant * off, 0.0)
             speed = ahead - slant * drift
-        # `correction` takes off what the inversion left of the radius, so that the angle is good to rounding
+        # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding
         angle = view.azimuth - a - correction - tooth_pairs.place[segments.tooth_pair]
         radius1 = value_alone(self.first.radius, piece1, u)
         return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.tooth_pair)

@@ -1,4 +1,4 @@
-"""The sides of the teeth of one wheel as polynomial pieces with rising radius: search nodes, and azimuth by radius."""
+"""Flanks of one wheel as polynomial pieces of increasing radius: search nodes, and azimuth as a function of radius."""
 
 from __future__ import annotations
 
@@ -13,36 +13,36 @@ from geartrain.numerics.polynomial_pieces import COUNT, ends, value, value_alone
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
-_CELLS = 8  # of a side, at least: the furthest point is looked for in each
-_CLOSER, _CLOSE = 0.75, 30  # geometric steps towards an end that stands still, where a turn may lie at any distance
-_BINS = 64  # of a piece: radius is inverted from the nearest
-_STALLED = 1e-3  # of its mean slope: where a piece stands still, as a cycloid does on its pitch circle
-_MOST = 80  # steps of an inversion
-_NEAR = 1e-10  # a Newton step as short as this ends on the root: the next would be about its square
+_CELLS = 8  # minimum number of search cells of a side
+_CLOSER, _CLOSE = 0.75, 30  # geometric steps towards a stationary end: an extreme may be at any distance from it
+_BINS = 64  # of a piece: initial brackets for the inversion of the radius
+_STALLED = 1e-3  # of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
+_MOST = 80  # maximum number of steps of an inversion
+_NEAR = 1e-10  # a Newton step of this length ends at the root, as the next would be about its square
 
 
 @dataclass(frozen=True)
 class FlankTable:
-    """Pieces of the sides of all teeth, each with u from -1 to 1 and radius rising."""
+    """Polynomial pieces of one side of all teeth, with parameter u from -1 to 1 and increasing radius."""
 
     radius: Floats
-    """Coefficients (COUNT, pieces)."""
+    """Coefficients of the radius by powers of u, (COUNT, pieces)."""
     azimuth: Floats
-    """Coefficients (COUNT, pieces)."""
-    kinks: Bools
-    """(2, pieces): whether a piece begins, ends, in a corner of the outline."""
+    """Coefficients of the azimuth by powers of u, (COUNT, pieces)."""
+    corners: Bools
+    """Flags, (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
     flat: Bools
-    """(pieces,): arcs about the axle."""
+    """Flags, (pieces,): True for circular arcs about the axle."""
     first: Indices
-    """(teeth + 1,): where the pieces of a tooth begin."""
+    """Index of the first piece of each tooth, (teeth + 1,)."""
     curve: Indices
-    """(pieces,): number of the curve a piece is of, counted through all teeth."""
+    """Number of the curve that each piece belongs to, (pieces,), counted through all teeth."""
     error: tuple[float, float]
-    """Greatest difference found between pieces and curves: radius, azimuth (rad)."""
+    """Maximum differences between pieces and curves: radius, azimuth (rad)."""
 
     @cached_property
     def mirrored(self) -> FlankTable:
-        """The same with azimuths reversed."""
+        """Mirror image of the table: azimuths change their sign."""
         return replace(self, azimuth=-self.azimuth)
 
     @cached_property
@@ -52,7 +52,7 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """(2, pieces): whether a piece begins, ends, with hardly any radius gained by u."""
+        """Flags, (2, pieces): True if the radius of a piece is stationary in u at its start (row 0) or end (row 1)."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -60,10 +60,10 @@ class FlankTable:
 
     @cached_property
     def reach(self) -> tuple[float, float, float, float]:
-        """Least and greatest radius, least and greatest azimuth of all teeth."""
+        """Minimum and maximum radius, minimum and maximum azimuth of all teeth."""
         u = np.linspace(-1, 1, 33)
         azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
-        # what an azimuth may exceed its samples by, where it turns between two of them
+        # allowance for extremes of the azimuth between two samples
         slack = float(np.ptp(azimuth)) / 64
         return (
             float(self.ends.min()),
@@ -74,7 +74,7 @@ class FlankTable:
 
     @cached_property
     def span(self) -> tuple[Floats, Floats]:
-        """Least and greatest radius of each tooth."""
+        """Minimum and maximum radius of each tooth."""
         low, high = (
             np.minimum.reduceat(self.ends[0], self.first[:-1]),
             np.maximum.reduceat(self.ends[1], self.first[:-1]),
@@ -85,19 +85,21 @@ class FlankTable:
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Of each tooth, (teeth, nodes): piece and u of its nodes, and whether a cell begins at a node."""
+        """Search nodes of each tooth, (teeth, nodes): piece, u, and a flag that a cell begins at the node."""
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
-        each = [self._marks(piece, int(number)) for piece, number in enumerate(cells)]
+        each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)
         begins = np.append(piece[1:] == piece[:-1], False)
         start = np.searchsorted(piece, self.first)
         most = int(np.diff(start).max())
-        # teeth with fewer nodes repeat their last one, at which no cell begins
+        # teeth with fewer nodes repeat their last node, at which a cell does not begin
         at = np.minimum(start[:-1, None] + np.arange(most), start[1:, None] - 1)
         return piece[at], u[at], begins[at]
 
-    def _marks(self, piece: int, cells: int) -> Floats:
-        """u at which to look at a piece: evenly, and ever closer to an end where it stands still."""
+    def _sample_points(self, piece: int, cells: int) -> Floats:
+        """Return the values of u at which a piece is sampled: uniform, with geometric refinement towards stationary
+        ends.
+        """
         marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
         for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
             if stalls:
@@ -106,7 +108,7 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Radius, its slope, azimuth, its slope at the nodes."""
+        """Radius, its slope, azimuth and its slope at the nodes."""
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
         a, da = value(self.azimuth, piece, u)
@@ -116,17 +118,17 @@ class FlankTable:
 
     @cached_property
     def _bins(self) -> tuple[Floats, Floats]:
-        """Radii at even u, (pieces, bins + 1), and the same as one rising row to look up in."""
+        """Radii at uniform u, (pieces, bins + 1), and the same scaled to one increasing row for a single search."""
         pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
         radii = value_alone(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
         low, high = self.ends[:, :, None]
         share = np.maximum.accumulate(np.clip((radii - low) / np.where(high > low, high - low, 1.0), 0, 1), axis=1)
         share[:, -1] = 1.0
-        # 2 apart, so that one search in one rising row serves all pieces; `accumulate` against falls by rounding
+        # offset by 2, so that one search in one row serves all pieces; `accumulate` removes decreases by rounding
         return radii, (share + 2.0 * pieces).ravel().astype(np.float64)
 
     def guess(self, piece: Indices, r: Floats) -> tuple[Floats, Floats, Floats]:
-        """u at which pieces have about radius r, and a bracket of it; r within their ends."""
+        """Return an estimate of u at which pieces have radius r, and a bracket of it; r must be within the pieces."""
         radii, row = self._bins
         low, high = self.ends[0].take(piece), self.ends[1].take(piece)
         key = 2.0 * piece + np.clip((r - low) / (high - low), 0, 1)
@@ -138,19 +140,19 @@ class FlankTable:
         return left + share * (2 / _BINS), left, left + 2 / _BINS
 
     def near_stall(self, piece: Indices, u: Floats) -> Bools:
-        """Whether u is in the last bin before an end at which a piece stands still."""
+        """Return whether u is in the last bin before a stationary end of its piece."""
         edge = 1 - 2 / _BINS
         found: Bools = self.stalls[0][piece] & (u < -edge) | self.stalls[1][piece] & (u > edge)
         return found
 
     def inverse(self, piece: Indices, r: Floats) -> Floats:
-        """u at which pieces have radius r, by Newton's method kept inside a bracket; r within their ends."""
+        """Return u at which pieces have radius r, by bracketed Newton iteration; r must be within the pieces."""
         u, low, high = self.guess(piece, r)
         return self._newton(piece, r, u, low, high)
 
     def _newton(self, piece: Indices, r: Floats, u: Floats, low: Floats, high: Floats) -> Floats:
         found = u
-        # indices only once some have ended and others not: before that nothing need be gathered
+        # indices are gathered only after some iterations have ended and others have not
         which: Indices | None = None
         for _ in range(_MOST):
             here, slope = value(self.radius, piece, u)
@@ -158,7 +160,7 @@ class FlankTable:
             low, high = np.where(off < 0, u, low), np.where(off > 0, u, high)
             with np.errstate(invalid="ignore", divide="ignore"):
                 step = u - off / slope
-            # NaN, where the slope is 0, is not inside either: the bracket is halved
+            # NaN, from a slope of 0, also fails the test, and the bracket is bisected
             step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
             left = np.abs(step - u) > _NEAR
             u = step

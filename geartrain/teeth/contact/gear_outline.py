@@ -1,4 +1,4 @@
-"""A wheel as its outline: smooth curves, teeth made of them, teeth about the axle; and flanks cut into pieces."""
+"""Outline of a wheel: smooth curves, teeth made of them, and flanks cut into polynomial pieces."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.polynomial_pieces import COUNT, PolynomialPiece, fitted
+from geartrain.numerics.results import Shown
 from geartrain.teeth.contact.flank_table import FlankTable
 
 if TYPE_CHECKING:
@@ -20,32 +21,34 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
 
-_MEETS = 1e-9  # of the radius: curves whose ends are nearer than this follow each other
-_FLAT = 1e-12  # of the radius: a piece that rises less is an arc about the axle
-_TURNED = 1e-9  # of the greatest slope: less is no turning point
-_SMOOTH = 1e-7  # rad: curves that meet under less have no corner
-_STILL = 1e-3  # of its second derivative: a slope that says nothing of the direction
+_MEETS = 1e-9  # of the radius: curves whose ends are closer than this are connected
+_FLAT = 1e-12  # of the radius: a piece that rises less counts as an arc about the axle
+_TURNED = 1e-9  # of the maximum slope: smaller sign changes are rounding
+_SMOOTH = 1e-7  # rad: curves that meet at a smaller angle form a smooth joint
+_STILL = 1e-3  # of its second derivative: a smaller slope does not determine the direction
 
 
 @dataclass(frozen=True)
-class OutlineCurve:
-    """A smooth curve of a tooth, from parameter `start` to `end`.
+class OutlineCurve(Shown):
+    """Smooth curve of a tooth, from parameter `start` to `end`.
 
     See Also
     --------
-    polyline : straight curves.
+    polyline : Straight curves.
     """
 
     points: Callable[[Floats], Floats]
-    """Parameters of shape (n,) -> (n, 2): x forward, y outward along the middle of the tooth, the axle at 0; or (n,
-    3), bevel, on the unit sphere, the axis along z."""
+    """Function from parameters (n,) to points: (n, 2) for spur wheels, (n, 3) on the unit sphere for bevels.
+
+    x is forward, y is outward along the middle of the tooth, and the axle is at 0. For bevels the axis is along z.
+    """
     start: float = 0.0
-    """Parameter of its beginning."""
+    """Parameter at the beginning of the curve."""
     end: float = 1.0
-    """Parameter of its end."""
+    """Parameter at the end of the curve."""
 
     def at(self, t: ArrayLike) -> Floats:
-        """Points of the curve.
+        """Return points of the curve.
 
         Parameters
         ----------
@@ -60,7 +63,7 @@ class OutlineCurve:
         return np.asarray(self.points(np.asarray(t, dtype=float)), dtype=float)
 
     def polar(self, t: ArrayLike) -> Floats:
-        """Radius and azimuth of points of the curve.
+        """Return radius and azimuth of points of the curve.
 
         Parameters
         ----------
@@ -78,23 +81,23 @@ class OutlineCurve:
         return np.stack([np.arctan2(radius, points[:, 2]) if points.shape[1] == 3 else radius, np.arctan2(x, y)])
 
     def mapped(self, change: Callable[[Floats], Floats]) -> OutlineCurve:
-        """The curve whose points are those of this one, changed.
+        """Return the curve with a transformation applied to its points.
 
         Parameters
         ----------
         change : callable
-            Points (n, 2) or (n, 3) to points of the same shape.
+            Function from points (n, 2) or (n, 3) to points of the same shape.
 
         Returns
         -------
         OutlineCurve
-            With the same parameters.
+            Transformed curve with the same parameters.
         """
         return OutlineCurve(lambda t: change(self.points(t)), self.start, self.end)
 
 
 def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
-    """Straight curves through points; on the sphere arcs of great circles.
+    """Return straight curves through points; on the sphere arcs of great circles.
 
     Parameters
     ----------
@@ -104,7 +107,7 @@ def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
     Returns
     -------
     tuple of OutlineCurve
-        n - 1 of them.
+        n - 1 curves.
 
     Examples
     --------
@@ -123,7 +126,7 @@ def _straight(a: Floats, b: Floats) -> OutlineCurve:
     return OutlineCurve(points)
 
 
-def _turn(angle: float) -> Callable[[Floats], Floats]:
+def _rotation(angle: float) -> Callable[[Floats], Floats]:
     def turned(points: Floats) -> Floats:
         x, y = points[:, 0], points[:, 1]
         along, across = y * cos(angle) - x * sin(angle), x * cos(angle) + y * sin(angle)
@@ -136,183 +139,189 @@ def _turn(angle: float) -> Callable[[Floats], Floats]:
 
 
 @dataclass(frozen=True)
-class ToothFlanks:
-    """The two sides of a tooth, each a chain of curves from root to tip or from tip to root.
+class ToothFlanks(Shown):
+    """Sides of a tooth, each a chain of curves from root to tip or from tip to root.
 
-    Tip lands and bottoms need not be given: no arc about the axle touches before its ends do.
+    Tip lands and bottoms need not be given, because an arc about the axle never touches before its ends do.
 
     See Also
     --------
-    solve : an example with such teeth.
+    solve : An example with such teeth.
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """The side that leads when the wheel turns forward: larger azimuths."""
+    """Side that leads when the wheel turns forward, with larger azimuths."""
     behind: tuple[OutlineCurve, ...]
-    """The other side."""
+    """Side that trails when the wheel turns forward."""
 
     @classmethod
     def symmetric(cls, ahead: Sequence[OutlineCurve], middle: float = 0.0) -> ToothFlanks:
-        """A tooth whose `behind` is the mirror image of `ahead`.
+        """Build a tooth whose side `behind` is the mirror image of `ahead`.
 
         Parameters
         ----------
         ahead : sequence of OutlineCurve
-            One side.
+            Leading side.
         middle : float
-            Azimuth of the mirror [rad].
+            Azimuth of the mirror axis [rad].
 
         Returns
         -------
         ToothFlanks
-            With both sides.
+            Tooth with both sides.
         """
-        turned = _turn(2 * middle)
+        turned = _rotation(2 * middle)
         behind = tuple(curve.mapped(lambda p: turned(p * np.array([-1.0, 1.0, 1.0])[: p.shape[1]])) for curve in ahead)
         return cls(tuple(ahead), behind)
 
     def mapped(self, change: Callable[[Floats], Floats]) -> ToothFlanks:
-        """The tooth with every point changed.
+        """Return the tooth with a transformation applied to every point.
 
         Parameters
         ----------
         change : callable
-            Points (n, 2) or (n, 3) to points of the same shape.
+            Function from points (n, 2) or (n, 3) to points of the same shape.
 
         Returns
         -------
         ToothFlanks
-            Of these points.
+            Transformed tooth.
         """
         return ToothFlanks(*(tuple(curve.mapped(change) for curve in side) for side in (self.ahead, self.behind)))
 
     def turned(self, angle: float) -> ToothFlanks:
-        """The tooth turned forward.
+        """Return the tooth rotated forward about the axle.
 
         Parameters
         ----------
         angle : float
-            [rad].
+            Angle of rotation [rad].
 
         Returns
         -------
         ToothFlanks
-            Turned.
+            Rotated tooth.
         """
-        return self.mapped(_turn(angle))
+        return self.mapped(_rotation(angle))
 
 
 @dataclass(frozen=True)
-class GearOutline:
-    """A wheel: z teeth about its axle, tooth k turned forward by k pitches.
+class GearOutline(Shown):
+    """Wheel of z teeth about its axle, tooth k rotated forward by k pitches.
 
     Raises
     ------
     QuestionError
-        Where counts do not fit or curves do not meet.
+        If counts do not fit or curves do not meet.
 
     See Also
     --------
-    solve : an example with such wheels.
+    solve : An example with such wheels.
     """
 
     teeth: tuple[ToothFlanks, ...]
-    """One tooth for all, or one for each of z."""
+    """Shapes of the teeth: one for all, or one for each of z teeth."""
     z: int
     """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
-    """What tooth k is ahead of its place [rad], z numbers; none where pitches are equal."""
+    """Pitch deviations: angle by which tooth k is ahead of its nominal position [rad], z numbers; empty for equal
+    pitches.
+    """
     ring: bool = False
-    """The teeth point inwards."""
+    """True if the teeth point inwards."""
 
     def __post_init__(self) -> None:
         for name, number, few in (("teeth", len(self.teeth), (1, self.z)), ("turns", len(self.turns), (0, self.z))):
             if self.z < 1 or number not in few:
                 raise QuestionError(
                     Problem(
-                        f"{number} {name} for a wheel of {self.z}",
+                        f"a wheel of {self.z} teeth cannot have {number} {name}",
                         f"a wheel of z teeth takes {few[0]} or z of them, z at least 1",
                         f"give {few[0]} or {self.z} {name}",
                     )
                 )
         for tooth in self.teeth:
             for side in (tooth.ahead, tooth.behind):
-                _check(side)
+                _check_side(side)
 
     @property
     def pitch(self) -> float:
-        """Angle from tooth to tooth (rad)."""
+        """Angular pitch (rad)."""
         return 2 * pi / self.z
 
     @property
     def equal(self) -> bool:
-        """True if every tooth is as any other."""
+        """True if all teeth have the same shape and equal pitches."""
         return len(self.teeth) == 1 and not any(self.turns)
 
     @cached_property
     def bevel(self) -> bool:
-        """True for points on the sphere."""
+        """True if the points are on the sphere."""
         curve = self.teeth[0].ahead[0]
         return bool(curve.at([curve.start]).shape[1] == 3)
 
     @cached_property
     def ahead(self) -> FlankTable:
-        """The sides ahead as polynomials."""
+        """Leading sides as polynomial pieces."""
         return _table([tooth.ahead for tooth in self.teeth])
 
     @cached_property
     def behind(self) -> FlankTable:
-        """The sides behind as polynomials."""
+        """Trailing sides as polynomial pieces."""
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:
-        """The same wheel on an axle that misses its middle; no tooth is as another.
+        """Return the same wheel on an eccentric axle; each tooth then has its own shape.
 
         Parameters
         ----------
         x, y : float
-            By how much its points are moved, in the outline's unit.
+            Displacement of its points, in the outline's unit.
 
         Returns
         -------
         GearOutline
-            With a tooth of its own for each of z.
+            Wheel with a separate shape for each of z teeth.
 
         Raises
         ------
         QuestionError
-            For bevel wheels.
+            If the wheel is a bevel.
         """
         if self.bevel:
             raise QuestionError(
                 Problem(
                     "a bevel wheel cannot be displaced in its plane",
-                    "its teeth lie on a sphere about the apex",
+                    "its teeth are on a sphere about the apex",
                     "give every tooth its own curves instead",
                 )
             )
         offsets = self.turns or (0.0,) * self.z
-        return GearOutline(tuple(self._moved(k, offsets[k], x, y) for k in range(self.z)), self.z, (), self.ring)
+        return GearOutline(
+            tuple(self._displaced_tooth(k, offsets[k], x, y) for k in range(self.z)), self.z, (), self.ring
+        )
 
-    def _moved(self, k: int, offset: float, x: float, y: float) -> ToothFlanks:
+    def _displaced_tooth(self, k: int, offset: float, x: float, y: float) -> ToothFlanks:
         place = k * self.pitch
         by = np.array([x, y])
         tooth = self.teeth[k % len(self.teeth)]
         return tooth.turned(place + offset).mapped(lambda points: points + by).turned(-place)
 
 
-def _check(side: tuple[OutlineCurve, ...]) -> None:
-    """A side is a chain of curves that meet, with finite points off the axle."""
+def _check_side(side: tuple[OutlineCurve, ...]) -> None:
+    """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
     if not side:
-        raise QuestionError(Problem("a tooth has a side without curves", "nothing can touch it", "give a curve"))
+        raise QuestionError(
+            Problem("a tooth has a side without curves", "each side needs a curve", "give at least one curve")
+        )
     last = None
     for curve in side:
         ends = curve.at(np.array([curve.start, curve.end]))
         if not np.isfinite(ends).all() or curve.start == curve.end or not np.hypot(ends[:, 0], ends[:, 1]).all():
             raise QuestionError(
                 Problem(
-                    f"a curve from {curve.start:.6g} to {curve.end:.6g} has no use as part of a tooth",
-                    "its ends are not finite, are on the axle, or are the same parameter",
+                    f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth",
+                    "its ends are not finite, are on the axle, or have the same parameter",
                     "give two parameters at which the curve has points off the axle",
                 )
             )
@@ -331,7 +340,7 @@ def _check(side: tuple[OutlineCurve, ...]) -> None:
 
 
 def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
-    """The sides of the teeth of a wheel, each a chain of curves. Raises `RangeError` where a curve is not smooth."""
+    """Convert one side of all teeth of a wheel to a table. Raises `RangeError` if a curve is not smooth."""
     pieces: list[tuple[PolynomialPiece, bool, bool]] = []
     first, curves = [0], list[int]()
     for side in sides:
@@ -341,55 +350,55 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
         first.append(len(pieces))
     coefficients = np.stack([piece.coefficients for piece, _, _ in pieces])
     radius, azimuth = np.ascontiguousarray(coefficients[:, :, 0].T), np.ascontiguousarray(coefficients[:, :, 1].T)
-    rise = radius[1::2].sum(axis=0)  # half the radius at u = 1 less that at u = -1
+    rise = radius[1::2].sum(axis=0)  # half the difference of the radii at u = 1 and u = -1
     flat = np.abs(rise) < _FLAT * radius[0]
     falls = rise < 0
-    kinks = np.array([[begins, ends] for _, begins, ends in pieces]).T
-    # u reversed: odd powers change their sign
+    corners = np.array([[begins, ends] for _, begins, ends in pieces]).T
+    # reversing u changes the sign of odd powers
     for each in (radius, azimuth):
         each[1::2, falls] *= -1
-    kinks[:, falls] = kinks[::-1, falls]
+    corners[:, falls] = corners[::-1, falls]
     errors = np.stack([piece.error for piece, _, _ in pieces]).max(axis=0)
     return FlankTable(
-        radius, azimuth, kinks, flat, np.array(first), np.array(curves), (float(errors[0]), float(errors[1]))
+        radius, azimuth, corners, flat, np.array(first), np.array(curves), (float(errors[0]), float(errors[1]))
     )
 
 
 def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bool, bool]]]:
-    """The pieces of each curve of a chain, and whether each piece begins, ends, in a corner."""
+    """Return the pieces of each curve of a chain, with flags that a piece begins and ends at a corner."""
     found = [
-        [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _rising(curve, piece)]
+        [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
         for curve in side
     ]
-    kink = [True, *(_kink(a[-1], b[0]) for a, b in pairwise(found)), True]
+    corner = [True, *(_is_corner(a[-1], b[0]) for a, b in pairwise(found)), True]
     return [
-        [(piece, at == 0 and kink[i], at == len(pieces) - 1 and kink[i + 1]) for at, piece in enumerate(pieces)]
+        [(piece, at == 0 and corner[i], at == len(pieces) - 1 and corner[i + 1]) for at, piece in enumerate(pieces)]
         for i, pieces in enumerate(found)
     ]
 
 
-def _kink(last: PolynomialPiece, new: PolynomialPiece) -> bool:
-    """Whether two curves that meet change their direction there."""
+def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
+    """Return whether two consecutive curves have different directions at their common point."""
     before, after = _direction(last, 1), _direction(new, -1)
     return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Unit vector along a curve at u = end, -1 or 1; that of its second derivative where the first one is 0."""
+    """Return the unit tangent of a curve at u = end, -1 or 1; from the second derivative if the first one is 0."""
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
-    # just inside the piece the slope is the second derivative times the way from the end, whose sign is -end
+    # just inside the piece the slope is the second derivative times the distance from the end, of sign -end
     second = -end * (powers * (powers - 1) * signs * end @ piece.coefficients)
-    # azimuth times radius is a length too
-    round_ = np.array([1.0, float(piece.coefficients[0, 0])])
-    chosen = first if np.hypot(*(first * round_)) > _STILL * np.hypot(*(second * round_)) else second
-    found: Floats = chosen * round_ / np.hypot(*(chosen * round_))
+    # azimuth times radius is a length, as the radius is
+    scale = np.array([1.0, float(piece.coefficients[0, 0])])
+    chosen = first if np.hypot(*(first * scale)) > _STILL * np.hypot(*(second * scale)) else second
+    found: Floats = chosen * scale / np.hypot(*(chosen * scale))
     return found
 
 
-def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
-    """A piece cut where its radius turns."""
+def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
+    """Divide a piece at the extremes of its radius."""
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)
@@ -399,14 +408,14 @@ def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece
     if not turns:
         return [piece]
     half, middle = (piece.end - piece.start) / 2, piece.start + (piece.end - piece.start) / 2
-    cuts = [piece.start, *(middle + half * _turning(slope, u[i], u[j]) for i, j in turns), piece.end]
+    cuts = [piece.start, *(middle + half * _sign_change(slope, u[i], u[j]) for i, j in turns), piece.end]
     return [each for start, end in pairwise(cuts) for each in fitted(curve.polar, start, end)]
 
 
-def _turning(slope: Floats, low: float, high: float) -> float:
-    """Where a polynomial changes its sign between low and high."""
+def _sign_change(slope: Floats, low: float, high: float) -> float:
+    """Find the sign change of a polynomial between low and high by bisection."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
-    # bisection to neighbouring floats: the slope is that of a fit, and noise where the radius hardly turns
+    # bisection to neighbouring floats, because the slope of a fit is noise where the radius hardly changes
     while low < (middle := low + (high - low) / 2) < high:
         if (np.polynomial.polynomial.polyval(middle, slope) > 0) == rising:
             high = middle

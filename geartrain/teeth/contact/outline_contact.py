@@ -1,6 +1,6 @@
 """Contact of two wheels given by outlines: driven angle, backlash and teeth in contact at given angles of the driver.
 
-`OutlinePair` finds which pairs of teeth are in reach at one centre distance, and which of them holds the driven wheel.
+`OutlinePair` finds the tooth pairs within range at one centre distance, and the pair that holds the driven wheel.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.arrays import some
+from geartrain.numerics.results import Shown
 from geartrain.teeth.contact.first_touch import AxlePlacement, CandidatePairs, FirstTouches, FirstTouchSearch
 
 if TYPE_CHECKING:
@@ -22,22 +23,22 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_BLOCK = 60_000  # nodes worked on at once: bounds the memory of long arrays of angles
-_MARGIN = 1e-5  # of a driven pitch: how far rough angles may be off
-_TIE = 4e-15  # rad: of touches as near as this the later couple, and a flank before a corner, is named
+_BLOCK = 60_000  # nodes per block, which limits the memory of long arrays of angles
+_MARGIN = 1e-5  # of a driven pitch: maximum error of estimated angles
+_TIE = 4e-15  # rad: among touches within this the later tooth pair, and a flank before a corner, is reported
 KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """One side of two wheels at one distance. The back is the front seen in a mirror."""
+    """Contact of one side of two wheels at one distance. The back side is the mirror image of the front side."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
     ) -> None:
-        _check(first, second, distance)
+        _check_pair(first, second, distance)
         self.first, self.second, self.sign = first, second, 1 if side == "front" else -1
-        sight = AxlePlacement(distance, first.bevel, 1 if first.ring else 2 if second.ring else 0)
-        mine, theirs = (
+        axles = AxlePlacement(distance, first.bevel, 1 if first.ring else 2 if second.ring else 0)
+        driving_side, driven_side = (
             (first.ahead, second.behind)
             if side == "front"
             else (
@@ -45,15 +46,15 @@ class OutlinePair:
                 second.ahead.mirrored,
             )
         )
-        self.judge = FirstTouchSearch(mine, theirs, sight)
-        low, high, behind, ahead = mine.reach
-        minimum, most, _, _ = theirs.reach
-        reach = sight.bounds(low, high, minimum, most)
+        self.touch_search = FirstTouchSearch(driving_side, driven_side, axles)
+        low, high, behind, ahead = driving_side.reach
+        minimum, most, _, _ = driven_side.reach
+        reach = axles.bounds(low, high, minimum, most)
         self.window = (-reach - ahead, reach - behind) if reach >= 0 else (0.0, -1.0)
 
     @property
     def cycle(self) -> int:
-        """Driver's pitches after which all repeats."""
+        """Number of driver pitches after which the contact repeats."""
         z1, z2 = self.first.z, self.second.z
         if self.first.equal and self.second.equal:
             return 1
@@ -62,9 +63,9 @@ class OutlinePair:
         return z2 if self.first.equal else lcm(z1, z2)
 
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
-        """The fields of `FlankContact` at angles of shape (n,)."""
+        """Return the fields of `FlankContact` at driver angles of shape (n,)."""
         period = self.cycle * self.first.pitch
-        # worked out within one period, and whole periods added after: their rounding stays out of the contact
+        # computed within one period; whole periods are added afterwards, so that their rounding does no harm
         turns = np.floor(self.sign * phi1 / period)
         rest = self.sign * phi1 - turns * period
         parts = [self._block(part, within) for part in self._blocks(rest)]
@@ -75,23 +76,29 @@ class OutlinePair:
 
     def _blocks(self, rest: Floats) -> Iterator[Floats]:
         wide = self.window[1] - self.window[0]
-        per_angle = (wide / self.first.pitch + 1) * self.judge.first.nodes[0].shape[1]
+        per_angle = (wide / self.first.pitch + 1) * self.touch_search.first.nodes[0].shape[1]
         size = max(16, int(_BLOCK / per_angle))
         return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
 
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
-        """All couples in reach, and the number of each one's driving tooth (in a mirror, counted backward)."""
+        """Return all tooth pairs within range, and the number of the driving tooth of each.
+
+        In the mirror image teeth are numbered backwards.
+        """
         pitch = self.first.pitch
+        # pitch deviations may shift teeth into the window from either side
         slack = 2 * max(map(abs, self.first.turns), default=0.0)
         lowest = np.ceil((self.window[0] - slack - rest) / pitch).astype(int)
         number = max(0, ceil((self.window[1] - self.window[0] + 2 * slack) / pitch) + 1)
         j = (lowest[:, None] + np.arange(number)).ravel()
         position = np.repeat(np.arange(len(rest)), number)
-        # in a mirror tooth j touches the tooth behind it, whose number is one more when counted backward
+        # in the mirror image tooth j touches the tooth behind it, whose number counted backward is j + 1
         mate = j if self.sign > 0 else j + 1
         tooth1, tooth2 = (self.sign * j) % self.first.z, (self.sign * mate) % self.second.z
-        x = rest[position] + j * pitch + self.sign * _taken(self.first.turns, tooth1)
-        place = np.asarray(mate * self.second.pitch + self.sign * _taken(self.second.turns, tooth2), dtype=np.float64)
+        x = rest[position] + j * pitch + self.sign * _deviations(self.first.turns, tooth1)
+        place = np.asarray(
+            mate * self.second.pitch + self.sign * _deviations(self.second.turns, tooth2), dtype=np.float64
+        )
         shape1 = tooth1 if len(self.first.teeth) > 1 else np.zeros_like(j)
         shape2 = tooth2 if len(self.second.teeth) > 1 else np.zeros_like(j)
         near = (x >= self.window[0]) & (x <= self.window[1])
@@ -99,49 +106,54 @@ class OutlinePair:
 
     def _block(self, rest: Floats, within: float) -> tuple[Any, ...]:
         tooth_pairs, j = self._tooth_pairs(rest)
-        judge, count = self.judge, len(rest)
+        touch_search, count = self.touch_search, len(rest)
         if not len(j):
-            return _nothing(count)
+            return _no_contact(count)
         margin = _MARGIN * self.second.pitch + within
-        found = judge.touch(tooth_pairs, judge.furthest(tooth_pairs, judge.segments(tooth_pairs), margin))
+        found = touch_search.touch(
+            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), margin)
+        )
         position = tooth_pairs.position[found.tooth_pair]
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)
         sharing = self._sharing(found, best[position] - within, tooth_pairs, count)
         kind = self._kind(found)
-        # of touches that tie: the later couple, then what has fewer corners, then the furthest
+        # order of ties: later tooth pair, then flank before corner, then maximum angle
         ties = np.flatnonzero(found.angle >= best[position] - _TIE)
         order = ties[np.lexsort((found.angle[ties], kind[ties] == 0, j[found.tooth_pair[ties]], position[ties]))]
         last = np.flatnonzero(np.diff(position[order], append=count))
         chosen = order[last]
         where = position[chosen]
-        angle, speed, pair, kinds, r1, r2, _, curves = _nothing(count)
+        angle, speed, pair, kinds, r1, r2, _, curves = _no_contact(count)
         angle[where], speed[where], kinds[where] = best[where], found.speed[chosen], kind[chosen]
         pair[where], r1[where], r2[where] = j[found.tooth_pair[chosen]], found.radius1[chosen], found.radius2[chosen]
-        curves[:, where] = judge.first.curve[found.piece1[chosen]], judge.second.curve[found.piece2[chosen]]
+        curves[:, where] = (
+            touch_search.first.curve[found.piece1[chosen]],
+            touch_search.second.curve[found.piece2[chosen]],
+        )
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def _kind(self, found: FirstTouches) -> Indices:
-        """Which of the two is at a corner: 1, 2, both 3."""
+        """Return the kind of each touch: 1 for a corner of the first wheel, 2 of the second, 3 of both, else 0."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
-            ((self.judge.first, found.piece1, found.u), (self.judge.second, found.piece2, found.v))
+            ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
         ):
-            kind += (1 + at) * ((u == -1) & table.kinks[0][piece] | (u == 1) & table.kinks[1][piece])
+            kind += (1 + at) * ((u == -1) & table.corners[0][piece] | (u == 1) & table.corners[1][piece])
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """How many couples have a touch at `minimum` or beyond."""
+        """Return the number of tooth pairs with a touch at `minimum` or beyond."""
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
 
 
-def _taken(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
+def _deviations(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
     return np.array(turns)[tooth] if turns else 0.0
 
 
-def _nothing(count: int) -> tuple[Any, ...]:
-    """The fields of `FlankContact` where no tooth is in reach."""
+def _no_contact(count: int) -> tuple[Any, ...]:
+    """Return the fields of `FlankContact` for positions without a tooth within range."""
     nan = np.full(count, np.nan)
     none = np.full(count, -1)
     return (
@@ -156,13 +168,15 @@ def _nothing(count: int) -> tuple[Any, ...]:
     )
 
 
-def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Whether two wheels can be looked at together."""
+def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
+    """Raise an error if two wheels cannot be in contact: mixed spur and bevel, two ring gears, or a distance out of
+    range.
+    """
     if first.bevel != second.bevel or (first.ring and second.ring):
         raise QuestionError(
             Problem(
-                "two wheels do not go together",
-                "one is flat and the other on a sphere, or both are rings",
+                "these two wheels cannot mesh",
+                "one is a spur wheel and the other a bevel wheel, or both are rings",
                 "give two spur wheels, two bevel wheels, or a wheel and a ring",
             )
         )
@@ -170,7 +184,7 @@ def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
     if not 0 < distance < limit:
         raise RangeError(
             Problem(
-                f"a distance of {distance:.6g} between axles",
+                f"the distance {distance:.6g} between the axles is out of range",
                 "it must be above 0" + (", and a shaft angle below 180 deg" if first.bevel else ""),
                 "give the distance from axle to axle (bevel: the shaft angle in rad)",
             )
@@ -181,45 +195,45 @@ def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class FlankContact:
-    """Where the driven wheel stands against one side of the driver's teeth; arrays of the shape of the driver's angles.
+class FlankContact(Shown):
+    """Position of the driven wheel against one side of the driver's teeth; arrays of the shape of the driver's angles.
 
     See Also
     --------
-    contact, solve : what gives it.
+    contact, solve : Compute it.
     """
 
     angle: Floats
-    """Driven angle [rad], NaN where no tooth is in reach."""
+    """Driven angle [rad], NaN where no tooth is within range."""
     speed: Floats
-    """D angle / d driver's angle."""
+    """Speed ratio: d angle / d driver's angle."""
     pair: Indices
-    """Number of the driver's tooth that touches, counted forward from tooth 0 without end."""
+    """Number of the driver's tooth in contact, counted forward from tooth 0 without wrapping."""
     kind: Indices
-    """What touches, an index into `KINDS`: smooth sides or a corner."""
+    """Kind of contact, an index into `KINDS`: smooth sides or a corner."""
     radius1: Floats
     """Radius of the contact about the driver's axle, in the outlines' unit; bevel: polar angle [rad]."""
     radius2: Floats
     """Radius of the contact about the driven axle, in the outlines' unit; bevel: polar angle [rad]."""
     sharing: Indices
-    """How many pairs of teeth are within reach of the contact."""
+    """Number of tooth pairs within the tolerance of contact."""
     curves: Indices
-    """(2, ...): which curve of either outline touches, counted through the sides of all its teeth; -1 where none."""
+    """Numbers of the curves in contact on both outlines, (2, ...), counted through all teeth; -1 without contact."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         names = ("angle", "speed", "pair", "radius1", "radius2", "sharing")
         kinds = np.array([*KINDS, "none"])[self.kind].tolist()
         return {**{name: getattr(self, name).tolist() for name in names}, "kind": kinds}
 
 
 @dataclass(frozen=True, slots=True)
-class TwoFlankContact:
-    """Both sides: `front` pushes the driven wheel forward, `back` holds it from running ahead.
+class TwoFlankContact(Shown):
+    """Contact of both sides: `front` pushes the driven wheel forward, `back` prevents it from running ahead.
 
     See Also
     --------
-    solve : what gives it.
+    solve : Computes it.
     """
 
     front: FlankContact
@@ -229,51 +243,51 @@ class TwoFlankContact:
 
     @property
     def backlash(self) -> Floats:
-        """What the driven wheel can turn freely (rad); below 0 the teeth interfere by as much."""
+        """Backlash of the driven wheel (rad); below 0 the teeth interfere by this angle."""
         found: Floats = self.back.angle - self.front.angle
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         return {"front": self.front.to_dict(), "back": self.back.to_dict(), "backlash": self.backlash.tolist()}
 
 
 def solve(
     first: GearOutline, second: GearOutline, distance: float, phi1: ArrayLike, within: float = 1e-9
 ) -> TwoFlankContact:
-    """Where the second wheel stands when the first, driving, is at given angles.
+    """Compute the position of the second wheel for given angles of the first, which drives.
 
-    The driven wheel stands where the last point of the driver's outline lets it: no normal and no path of contact is
-    used. Angles are within some 1e-15 rad of the outlines given, which are taken as polynomials as good as their own
-    rounding (`GearOutline.ahead.error`); far from 0 the rounding of phi1 itself is more. Both angles are 0 where tooth
-    0 is on the line of centres, and grow forward; tooth 0 pushes tooth 0.
+    The driven angle is the maximum that any point of the driver's outline requires; neither normals nor a path of
+    contact are used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by
+    polynomials to rounding (`GearOutline.ahead.error`). Far from 0 the rounding of phi1 itself dominates. Both angles
+    are 0 where tooth 0 is on the line of centres, and increase forward; tooth 0 pushes tooth 0.
 
     Parameters
     ----------
     first, second : GearOutline
         Driver and driven wheel.
     distance : float
-        From axle to axle, in the outlines' unit; bevel: the shaft angle [rad].
+        Centre distance, in the outlines' unit; bevel: the shaft angle [rad].
     phi1 : array_like
         Driver's angles [rad], any shape.
     within : float
-        Couples that would touch if the driven wheel were turned back by less [rad] count as sharing.
+        Tolerance [rad]: a tooth pair counts as sharing if its gap is less than this rotation of the driven wheel.
 
     Returns
     -------
     TwoFlankContact
-        Driven angles on both sides, and the play between them.
+        Driven angles on both sides, and the backlash between them.
 
     Raises
     ------
     QuestionError
-        Where the wheels do not go together.
+        If the wheels cannot be in contact.
     RangeError
-        For a distance out of range, or an angle that is not finite.
+        If the distance is out of range, or an angle is not finite.
 
     Examples
     --------
-    Pointed teeth with straight sides, 10 and 20 of them, tips 0.5 over pitch circles of radius 5 and 10:
+    Pointed teeth with straight sides, 10 and 20 of them, tips 0.5 above pitch circles of radius 5 and 10:
 
     >>> from math import pi
     >>> from geartrain.teeth.contact import GearOutline, ToothFlanks, polyline
@@ -300,14 +314,14 @@ def contact(
     side: Literal["front", "back"] = "front",
     within: float = 1e-9,
 ) -> FlankContact:
-    """One side of `solve`, for half the time.
+    """Compute one side of `solve`, in half the time.
 
     Parameters
     ----------
     first, second, distance, phi1, within
         As in `solve`.
     side : {"front", "back"}
-        The side that pushes, or the one that holds.
+        The side that pushes the driven wheel, or the one that prevents it from running ahead.
 
     Returns
     -------
@@ -317,11 +331,11 @@ def contact(
     Raises
     ------
     QuestionError, RangeError
-        As `solve`.
+        As in `solve`.
 
     See Also
     --------
-    solve : both sides.
+    solve : Both sides.
 
     Examples
     --------
@@ -334,8 +348,12 @@ def contact(
     """
     phi1 = np.asarray(phi1, dtype=float)
     if not np.isfinite(phi1).all():
-        raise RangeError(Problem("an angle of the driver is not finite", "it has no place on a turn", "leave it out"))
-    meeting = OutlinePair(first, second, distance, side)
-    flat = meeting.at(phi1.ravel(), within)
+        raise RangeError(
+            Problem(
+                "an angle of the driver is not finite", "positions must be finite", "remove infinite and NaN angles"
+            )
+        )
+    pair_contact = OutlinePair(first, second, distance, side)
+    flat = pair_contact.at(phi1.ravel(), within)
     shapes = (each.reshape((*each.shape[:-1], *phi1.shape)) for each in flat)
     return FlankContact(*shapes)

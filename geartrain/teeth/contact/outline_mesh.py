@@ -1,4 +1,4 @@
-"""A gear pair of a train whose form gives only the outlines of both wheels; its motion follows from their contact."""
+"""Mesh of a gear pair whose form gives only the outlines of both wheels; its motion follows from their contact."""
 
 from __future__ import annotations
 
@@ -18,58 +18,59 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairAccount, PairVerdict
 
 _WORDS = (
-    "Teeth whose motion is found by the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
-    "its mean; error peak to peak and least play in degrees of the driven wheel; mean efficiency at constant driver "
-    "torque, exact in friction, one pair of teeth carrying the load, as the pair is driven and driven back."
+    "Teeth whose motion follows from the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
+    "its mean; transmission error peak to peak and minimum backlash in degrees of the driven wheel; mean efficiency at "
+    "constant driver torque, exact in friction, one pair of teeth carrying the load, as the pair is driven and driven "
+    "back."
 )
 _HEADER = (
-    *("pair", "drives", "teeth", "speed/mean", "error p-p (deg)", "play (deg)"),
+    *("pair", "drives", "teeth", "speed/mean", "error p-p (deg)", "backlash (deg)"),
     *("efficiency", "driven back", "verdict"),
 )
 
 
 @dataclass(frozen=True)
 class OutlineMesh(GearMesh):
-    """A spur pair with any teeth; `teeth` of the first and the second wheel as they are cut, in modules."""
+    """Spur pair with arbitrary teeth; `teeth` are those of the first and the second wheel as cut, in modules."""
 
     transmission: OutlineTransmission
     teeth: tuple[FixedTooth, FixedTooth]
 
     @cached_property
     def reversed(self) -> OutlineTransmission:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
         return self.transmission.reversed
 
     @property
     def verdict(self) -> PairVerdict:
-        """Whether these teeth can turn."""
+        """Verdict on whether these teeth can turn."""
         return self.transmission.verdict
 
     @property
     def stands(self) -> float:
-        """Half a tooth of both wheels: the driven angle is counted from where flanks touch."""
-        return self.transmission.gears.lead / pi
+        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
+        return self.transmission.gears.half_teeth / pi
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Lengths of the law are modules already."""
+        """Return the size of the pair, whose lengths are already in modules."""
         del tips
         distance = self.transmission.gears.distance
         return PairSize(1.0, distance, distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """The tooth as the form has it, arcs and all."""
+        """Return the tooth exactly as the form defines it, including arcs."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """From the contact of one couple of its outlines."""
+        """Contact of a single tooth pair of the outlines, with the effects of displaced flanks."""
         from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
         return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
-        """Speed, error, play and efficiency, as the pair is driven and driven back."""
+        """Report speed ratio, transmission error, backlash and efficiency, for both directions of power flow."""
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 
         runs = bool(self.verdict)

@@ -1,7 +1,7 @@
-"""The transmission function of two outlines at a given centre distance, from the contact of their flanks.
+"""Transmission function of two outlines at a given centre distance, from the contact of their flanks.
 
-Which parts of the teeth touch is found, not assumed: the error, the speed and the friction of any teeth of equal pitch
-follow, conjugate or not. Only spur teeth have a centre distance.
+The parts of the teeth in contact are found, not assumed. Transmission error, speed and friction of any teeth of equal
+pitch follow, conjugate or not. Only spur teeth have a centre distance.
 """
 
 from __future__ import annotations
@@ -27,34 +27,35 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.transmission_fit import PiecewiseTransmission
 
-_GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the law's polynomials have degree 30
-_NEAR_PITCH_POINT = 1e-7  # of the distance of the axles: roots of differences of their squares are this uncertain
-_FLAT = 1e-9  # slope of friction against a contact: less is rounding, and locks nothing
-_SAMPLES = 256  # angles of a pitch at which play is looked for
+_GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the fitted polynomials have degree 30
+_NEAR_PITCH_POINT = 1e-7  # of the centre distance: uncertainty of roots of differences of squares
+_FLAT = 1e-9  # smaller friction slopes against a contact are rounding, and do not lock
+_SAMPLES = 256  # angles of a pitch at which backlash is evaluated
 
 
 @dataclass(frozen=True, eq=False)
 class OutlineGears:
-    """Two wheels as outlines, lengths in modules."""
+    """Outlines of two wheels at a centre distance, lengths in modules."""
 
     first: GearOutline
     second: GearOutline
     distance: float
-    """Of their axles."""
-    lead: float
-    """Half a tooth of both on the pitch circles: where the driven angle is counted from."""
+    """Centre distance of the wheels."""
+    half_teeth: float
+    """Half a tooth of both wheels on the pitch circles, from which the driven angle is counted."""
     backlash: float
-    """On the pitch circles as designed."""
+    """Backlash on the pitch circles as designed."""
     faults: tuple[ToothFault, ...] = ()
-    """What is wrong with the teeth at any distance."""
+    """Faults of the teeth at any distance."""
 
     def of(self, driver: int) -> tuple[GearOutline, GearOutline]:
-        """The driving wheel and the driven one."""
+        """Return the driving wheel and the driven wheel."""
         return (self.first, self.second) if driver == 1 else (self.second, self.first)
 
 
 class OutlineTransmission(TransmissionFunction):
-    """The law of two outlines; `driver` 2 lets the second wheel drive, `direction` -1 turns back.
+    """Transmission function of two outlines; with `driver` 2 the second wheel drives, `direction` -1 reverses the
+    motion.
 
     S = 0 has a driver's tooth on the line of centres, and the driven angle is counted from where flanks touch.
     """
@@ -64,7 +65,7 @@ class OutlineTransmission(TransmissionFunction):
         self.friction, self.driver, self.direction = check_friction(friction), driver, direction
         driving, driven = self._wheels
         self.ratio, self.period = Fraction(driving.z, driven.z), 2 * pi / driving.z
-        self._offset, self._backlash = 2 * gears.lead / driven.z, 2 * gears.backlash / driven.z
+        self._offset, self._backlash = 2 * gears.half_teeth / driven.z, 2 * gears.backlash / driven.z
 
     @property
     def _wheels(self) -> tuple[GearOutline, GearOutline]:
@@ -72,24 +73,24 @@ class OutlineTransmission(TransmissionFunction):
 
     @property
     def table(self) -> PiecewiseTransmission:
-        """The driven angle as polynomials, front flanks driving."""
+        """Driven angle as polynomials, front flanks driving."""
         return _tabulated(self.gears, self.driver)
 
     @property
     def reversed(self) -> OutlineTransmission:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
         return OutlineTransmission(self.gears, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> OutlineTransmission:
-        """The law of the other flanks; angles keep their sense and decrease."""
+        """Return the transmission function of the opposite flanks; angles keep their sign convention and decrease."""
         return OutlineTransmission(self.gears, self.friction, self.driver, -self.direction)
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Whether the pair can turn: what is wrong with its teeth, or the play they lack at this distance."""
+        """Verdict on whether the pair can turn: faults of its teeth, and lack of backlash at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
-        # rad: the teeth of a pair without play touch on both sides but for rounding
+        # rad: without backlash the teeth touch on both sides up to rounding
         found = self.gears.faults if backlash >= -1e-12 else (*self.gears.faults, _jam(self.distance, backlash))
         if not np.isfinite(backlashes).all():
             found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(backlashes)))))
@@ -100,79 +101,79 @@ class OutlineTransmission(TransmissionFunction):
     def _forward(self, S: ArrayLike) -> Floats:
         return self.direction * np.asarray(S, dtype=float)
 
-    def _of(self, error: Floats | float) -> Floats:
-        """Errors of the front flanks as those of this direction: turned back, the law is the mirror image."""
+    def _in_direction(self, error: Floats | float) -> Floats:
+        """Convert errors of the front flanks to this direction; reversed motion is the mirror image."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission error (rad of the driven wheel) at driver angles S (rad); NaN where none touches."""
-        return self._of(self.table.error(self._forward(S)))
+        """Return the transmission error (rad of the driven wheel) at driver angles S (rad); NaN without contact."""
+        return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Speed ratio at driver angles S (rad)."""
+        """Return the speed ratio at driver angles S (rad)."""
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Where the next tooth takes over faster than the last one left; the other flanks do the same turning back."""
+        """Return the steps at which the next tooth takes over at a higher speed, the same as in reversed motion."""
         return self.table.speed_leaps()
 
     def steepest_fall(self) -> float:
-        """Of the polynomials; turned back the law is the mirror image, and falls as steeply."""
+        """Return the maximum rate at which the speed ratio falls (1/rad), which is the same in reversed motion."""
         return self.table.steepest_fall()
 
     def kinks(self) -> list[float]:
-        """Driver angles (rad) where something else begins to touch."""
+        """Return the driver angles (rad) at which the contact changes to another tooth or curve."""
         return [self.direction * float(at) for at in self.table.kinks]
 
     def error_range(self) -> tuple[float, float]:
-        """Least and greatest transmission error (rad of the driven wheel)."""
-        low, high = sorted(float(self._of(each)) for each in self.table.extremes())
+        """Return the minimum and maximum transmission error (rad of the driven wheel)."""
+        low, high = sorted(float(self._in_direction(each)) for each in self.table.extremes())
         return low, high
 
     @property
     def _nodes(self) -> tuple[Floats, Floats]:
-        """Driver angles and weights of a whole period, the front flanks driving."""
+        """Quadrature nodes and weights of a whole period in driver angle, front flanks driving."""
         return _nodes(self.gears, self.driver)
 
     def speed_range(self) -> tuple[float, float]:
-        """Least and greatest speed ratio, among sixteen angles of each smooth stretch and its ends."""
+        """Return the minimum and maximum speed ratio, among 16 angles of each smooth stretch and its ends."""
         ends = self.table.breaks
-        # at a corner the speed has two values, one of either side
+        # at a kink the speed has two values, one on either side
         found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
         return float(np.nanmin(found)), float(np.nanmax(found))
 
     def error_moments(self) -> tuple[float, float]:
-        """Mean and rms of the transmission error (rad of the driven wheel)."""
+        """Return the mean of the transmission error and its rms about the mean (rad of the driven wheel)."""
         S, weights = self._nodes
-        error = self._of(self.table.error(S))
+        error = self._in_direction(self.table.error(S))
         mean = float(weights @ error)
         return mean, float(weights @ (error - mean) ** 2) ** 0.5
 
     # ------------------------------------------------------------------------------------------------------- friction
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Power out over power in at driver angles S (rad); NaN where nothing touches or friction locks.
+        """Return the efficiency at driver angles S (rad); NaN without contact or where friction locks.
 
-        The common normal passes through the point that parts the distance as the speeds do at that instant; with that
-        point for the pitch point the contact obeys the same formulas as one of the design.
+        The common normal passes the instantaneous pitch point, which divides the centre distance in the ratio of the
+        speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
         """
-        return self._passed(_leans(self.gears, self.driver, self._forward(S)))
+        return self._efficiency_of(_friction_terms(self.gears, self.driver, self._forward(S)))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Of the one contact."""
+        """Return sliding and friction of the single contact at driver angles S (rad)."""
         forward = self._forward(S)
-        return self._rubbing(_leans(self.gears, self.driver, forward), self.table.speed(forward))
+        return self._rubbing(_friction_terms(self.gears, self.driver, forward), self.table.speed(forward))
 
     def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing]:
-        """At the nodes of `efficiency_mean`."""
+        """Return angles, weights, and sliding and friction at the nodes of `efficiency_mean`."""
         S, weights = self._nodes
-        rubbing = self._rubbing(_leans_at_nodes(self.gears, self.driver), self.table.speed(S))
+        rubbing = self._rubbing(_friction_terms_at_nodes(self.gears, self.driver), self.table.speed(S))
         return self.direction * S, weights, rubbing
 
-    def _rubbing(self, leans: tuple[Floats, Floats, Floats], speed: Floats) -> ContactRubbing:
-        cosine, into, out = leans
-        # the pitch point of the instant parts the distance as the speeds do, that of the pitch line as the teeth do
+    def _rubbing(self, terms: tuple[Floats, Floats, Floats], speed: Floats) -> ContactRubbing:
+        cosine, into, out = terms
+        # the instantaneous pitch point divides the distance by speeds, the nominal pitch point by tooth numbers
         first, second = self._wheels
         mean, same = float(self.ratio), -1 if first.ring or second.ring else 1
         share = np.abs(speed / (speed + same) * (mean + same) / mean)
@@ -180,8 +181,8 @@ class OutlineTransmission(TransmissionFunction):
             found = np.abs(into - out) * share, into / cosine, out / cosine
         return ContactRubbing(*(each[None] for each in found))
 
-    def _passed(self, leans: tuple[Floats, Floats, Floats]) -> Floats:
-        cosine, into, out = leans
+    def _efficiency_of(self, terms: tuple[Floats, Floats, Floats]) -> Floats:
+        cosine, into, out = terms
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = cosine + self.friction * into, cosine + self.friction * out
             found: Floats = np.where(out > 0, out / into, nan)
@@ -189,8 +190,8 @@ class OutlineTransmission(TransmissionFunction):
 
     @cached_property
     def locking_friction(self) -> float:
-        """The least friction at which some contact locks, among those at the nodes; infinite where none does."""
-        cosine, _, out = _leans_at_nodes(self.gears, self.driver)
+        """Minimum friction coefficient at which a contact locks, among the quadrature nodes; infinite if none locks."""
+        cosine, _, out = _friction_terms_at_nodes(self.gears, self.driver)
         steepest = float(np.nanmax(-out / cosine))
         return 1 / steepest if steepest > _FLAT else inf
 
@@ -200,56 +201,61 @@ class OutlineTransmission(TransmissionFunction):
         S, weights = self._nodes
         speed = self.table.speed(S)
         touching = ~np.isnan(speed)
-        cosine, into, out = _leans_at_nodes(self.gears, self.driver)
-        found = self._passed((cosine[touching], into[touching], out[touching]))
+        cosine, into, out = _friction_terms_at_nodes(self.gears, self.driver)
+        found = self._efficiency_of((cosine[touching], into[touching], out[touching]))
         return found, speed[touching], weights[touching] / weights[touching].sum()
 
     def efficiency_mean(self) -> float:
-        """Mean over the driver's angle in contact at constant driver torque; NaN where friction locks."""
+        """Return the mean efficiency over the driver's angle in contact at constant driver torque; NaN if friction
+        locks.
+        """
         found, _, weights = self._sampled
         return float(weights @ found)
 
     def efficiency_at_constant_load(self) -> float:
-        """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
+        """Return work output over work input per pitch at constant load torque; NaN if friction locks."""
         found, speed, weights = self._sampled
         return float((weights @ speed) / (weights @ (speed / found)))
 
     def efficiency_minimum(self) -> float:
-        """Least efficiency among the nodes of all stretches; NaN where friction locks."""
+        """Return the minimum efficiency among the quadrature nodes; NaN if friction locks."""
         return float(self._sampled[0].min())
 
 
-def _friction(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
-    """`_leans` of a contact at (x, y) from the instantaneous pitch point, R1 and R2 its distances from the axles."""
+def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
+    """Compute the friction terms of a contact at (x, y) from the instantaneous pitch point.
+
+    R1 and R2 are the distances of that point from the axles.
+    """
     d = np.hypot(x, y)
     with np.errstate(divide="ignore", invalid="ignore"):
         way = np.where(x < 0, -1.0, 1.0)
-        # at the pitch point itself, 0/0, the flanks do not slide, and any normal will do
+        # at the pitch point itself (0/0) the flanks do not slide, and any normal is valid
         sine, cosine = np.where(d > 0, way * y / d, 0.0), np.where(d > 0, np.abs(x) / d, 1.0)
-        rub = way * np.sign(1 / R1 + 1 / R2)  # a ring that drives is slower than its pinion: it slides the other way
+        rub = way * np.sign(1 / R1 + 1 / R2)  # a driving ring is slower than its pinion, so sliding is reversed
         return cosine, rub * (sine + way * d / R1), rub * (sine - way * d / R2)
 
 
-def _leans(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
-    """cos psi, and what a unit of friction adds to it in the power that enters and in that which leaves."""
+def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return cos psi, and the terms that unit friction adds to it in the powers that enter and leave."""
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)
-    # a ring's axle is on its pinion's other side, and its pitch circle turns the same way
+    # a ring's axle is on the other side of its pinion, and both pitch circles turn the same way
     a = gears.distance * (-1 if second.ring else 1)
     R1 = a * at.speed / (at.speed + (-1 if first.ring or second.ring else 1))
     along = (at.radius1**2 - at.radius2**2 + a * a) / (2 * a)
-    # on the line of centres rounding may put the square below 0
+    # on the line of centres rounding may make the square negative
     side = np.sqrt(np.maximum(at.radius1**2 - along**2, 0.0))
-    # the side ahead of a tooth lies within half a pitch ahead of its middle
+    # the leading flank of a tooth is within half a pitch ahead of its middle
     middle = forward + (at.pair + 0.25) * first.pitch
     ahead = np.abs(np.arctan2(side, along) - middle) < np.abs(np.arctan2(-side, along) - middle)
     off = along - R1
-    # so near the pitch point the root above is rounding, and tells of no normal
+    # closer to the pitch point the root above is rounding and does not determine a normal
     apart = np.hypot(side, off) >= _NEAR_PITCH_POINT * gears.distance
-    return _friction(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
+    return _friction_terms_at(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
 
 
-# What two outlines do to each other costs much, and is the same whatever the friction and whichever way they turn.
+# The contact of two outlines is expensive and does not depend on friction or direction, so it is cached.
 
 
 @lru_cache(maxsize=64)
@@ -259,7 +265,7 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Play at angles of a whole period (rad of the driven wheel); NaN where nothing touches."""
+    """Return the backlash at angles of a whole period (rad of the driven wheel); NaN without contact."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash
@@ -275,8 +281,8 @@ def _nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats]:
 
 
 @lru_cache(maxsize=64)
-def _leans_at_nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats, Floats]:
-    return _leans(gears, driver, _nodes(gears, driver)[0])
+def _friction_terms_at_nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats, Floats]:
+    return _friction_terms(gears, driver, _nodes(gears, driver)[0])
 
 
 def _apart(distance: float, share: float) -> ToothFault:
@@ -285,8 +291,8 @@ def _apart(distance: float, share: float) -> ToothFault:
         0,
         nan,
         "the teeth do not reach each other",
-        f"at a centre distance of {distance:.6g} modules nothing touches during {share:.1%} of a pitch",
-        "move the axles together, or take longer arcs",
+        f"at a centre distance of {distance:.6g} modules no teeth touch during {share:.1%} of a pitch",
+        "reduce the centre distance, or use longer arcs",
     )
 
 
@@ -296,6 +302,6 @@ def _jam(distance: float, backlash: float) -> ToothFault:
         0,
         nan,
         "the teeth jam",
-        f"at a centre distance of {distance:.6g} modules they lack {-backlash:.4g} rad of the driven wheel's angle",
-        "move the axles apart, or thin the teeth with `backlash`",
+        f"at a centre distance of {distance:.6g} modules they overlap by {-backlash:.4g} rad of the driven wheel",
+        "increase the centre distance, or thin the teeth with `backlash`",
     )

@@ -1,4 +1,4 @@
-"""The periodic transmission function of two outlines: polynomials between the driver's angles at which it has a kink.
+"""Periodic transmission function of two outlines: polynomials between the driver's angles at which it has a kink.
 
 `PiecewiseTransmission` holds the polynomials; `tabulate` fits them.
 """
@@ -26,69 +26,72 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_JUMP = 1e-6  # of the ratio: less is rounding at a corner
-_NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)  # inside, so that a stretch never asks beyond its corners
-# between the nodes, where fits are off most, and short of the ends, beyond which something else may touch
+_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding
+# Chebyshev nodes are interior, so that a stretch is never evaluated beyond its kinks
+_NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)
+# between the nodes, where fits have their largest errors, and inside the ends, beyond which the contact may change
 _CHECKS = np.concatenate([[-0.999], -np.cos(np.pi * np.arange(1, COUNT) / COUNT), [0.999]])
 _ALL = np.sort(np.concatenate([_NODES, _CHECKS]))
-# from values to coefficients; at these nodes as well conditioned as a cosine transform
+# from values to coefficients; at these nodes it is as well conditioned as a cosine transform
 _SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
-_PARTS = 4  # stretches of a pitch to begin with
-_OFFSET = 0.1180339887498949  # of a stretch: no corner is likely to be exactly where one begins
-_THIN = 1e-9  # of a pitch: a stretch is not cut again, as where a tip grazes a side and the speed is infinite
-_CUTS = 17  # parts of a gap that holds a corner: one call for many angles costs little more than for one
-_SAFETY = 2.0  # stated error over the greatest found
-_FLAT = 1e-7  # of the ratio: corners that change the speed by less stay where they were found
-_LEAP = 1e-9  # rad: a greater step of the angle is a leap of the law, and no corner
-_MOST = 100_000  # stretches
+_PARTS = 4  # initial stretches of a pitch
+_OFFSET = 0.1180339887498949  # of a stretch: an irrational offset, so that a kink is unlikely to be at an end
+_THIN = (
+    1e-9  # of a pitch: thinner stretches are not divided, as where a tip is tangent to a side and the speed is infinite
+)
+_CUTS = 17  # subdivisions of a gap with a kink; one call for many angles costs little more than for one
+_SAFETY = 2.0  # reported error over the maximum found
+_FLAT = 1e-7  # of the ratio: kinks with a smaller change of speed are not refined
+_LEAP = 1e-9  # rad: a larger step of the angle is a discontinuity, not a kink
+_MOST = 100_000  # maximum number of stretches per driver pitch
 
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """The driven angle as a function of the driver's, angle = ratio phi1 + error, repeating itself after a period."""
+    """Driven angle as a periodic piecewise polynomial: angle = ratio phi1 + error."""
 
     ratio: Fraction
-    """Driven over driver, without sign."""
+    """Mean speed ratio, driven over driver, without sign."""
     period: float
-    """Driver's angle (rad)."""
+    """Period in driver's angle (rad)."""
     breaks: Floats
-    """(n + 1,): ends of the stretches, from `breaks[0]` one period on."""
+    """Ends of the stretches, (n + 1,), from `breaks[0]` over one period."""
     middles: Floats
-    """(n,): u = (phi1 - middle) / half on each stretch, from -1 to 1 but for rounding."""
+    """Middles of the stretches, (n,): u = (phi1 - middle) / half is from -1 to 1 except for rounding."""
     halves: Floats
-    """(n,): u = (phi1 - middle) / half on each stretch, from -1 to 1 but for rounding."""
+    """Half widths of the stretches, (n,)."""
     errors: Floats
-    """(COUNT, n): coefficients of error (rad) and of d angle / d phi1 by powers of u."""
+    """Coefficients of the transmission error (rad) by powers of u, (COUNT, n)."""
     speeds: Floats
-    """(COUNT, n): coefficients of error (rad) and of d angle / d phi1 by powers of u."""
+    """Coefficients of d angle / d phi1 by powers of u, (COUNT, n)."""
     pair: Indices
-    """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
+    """Number of the driver's tooth in contact on each stretch, (n,)."""
     kind: Indices
-    """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
+    """Kind of contact on each stretch, (n,): an index into `KINDS`, or -1 if no tooth is within range."""
     kinks: Floats
-    """Driver's angles where something else begins to touch."""
+    """Driver's angles at which the contact changes to another tooth or curve."""
     uncertainty: float
-    """Twice the greatest differences found between nodes (rad; none)."""
+    """Twice the maximum difference of the angle found between nodes (rad)."""
     speed_uncertainty: float
-    """Twice the greatest differences found between nodes (rad; none)."""
+    """Twice the maximum difference of the speed found between nodes (dimensionless)."""
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Transmission error (rad of the driven wheel) at driver's angles (rad), any shape; NaN where none touches."""
+        """Return the transmission error (rad of the driven wheel) at driver's angles (rad); NaN without contact."""
         return self._of(self.errors, phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
-        """d angle / d phi1 at driver's angles (rad)."""
+        """Return d angle / d phi1 at driver's angles (rad)."""
         return self._of(self.speeds, phi1)
 
     def angle(self, phi1: ArrayLike) -> Floats:
-        """Driven angle (rad) at driver's angles (rad)."""
+        """Return the driven angle (rad) at driver's angles (rad)."""
         return self.error(phi1) + float(self.ratio) * np.asarray(phi1, dtype=float)
 
     def _of(self, coefficients: Floats, phi1: ArrayLike) -> Floats:
         phi1 = np.asarray(phi1, dtype=float)
         flat = phi1.ravel()
         rest = flat - self.breaks[0]
-        # quicker than %, and good enough: `searchsorted` is clipped where rounding leaves `rest` outside the period
+        # faster than %; rounding may leave `rest` outside the period, so `searchsorted` is clipped
         rest -= np.floor(rest / self.period) * self.period
         rest += self.breaks[0]
         which = np.clip(np.searchsorted(self.breaks, rest, side="right") - 1, 0, len(self.breaks) - 2)
@@ -96,32 +99,36 @@ class PiecewiseTransmission:
         return value(coefficients, which, u)[0].reshape(phi1.shape)
 
     def extremes(self) -> tuple[float, float]:
-        """Least and greatest transmission error (rad): at corners, or where its slope is 0."""
+        """Return the minimum and maximum transmission error (rad), which are at kinks or where its slope is 0."""
         return extremes(self.errors)
 
     def speed_range(self) -> tuple[float, float]:
-        """Least and greatest speed ratio."""
+        """Return the minimum and maximum speed ratio."""
         return extremes(self.speeds)
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Where the speed ratio leaps up as one stretch follows another, but for rounding, in order of angle."""
+        """Return the upward steps of the speed ratio between stretches, in order of angle; steps by rounding are
+        omitted.
+        """
         start, before = ends(self.speeds)
         after = np.roll(start, -1)
         leaps = after - before > _JUMP * float(self.ratio)
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Greatest -d speed / d phi1 within the stretches (1/rad), 0 if the speed never falls."""
-        slopes = np.zeros_like(self.speeds)  # one degree less, in as many coefficients
+        """Return the maximum of -d speed / d phi1 within the stretches (1/rad), 0 if the speed never falls."""
+        slopes = np.zeros_like(self.speeds)  # degree reduced by one, same number of coefficients
         slopes[:-1] = self.speeds[1:] * np.arange(1, len(slopes))[:, None] / self.halves
         return max(0.0, -extremes(slopes)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Mean of the transmission error over a period, and its rms about that mean (rad); NaN with gaps in contact."""
+        """Return the mean of the transmission error over a period and its rms about that mean (rad); NaN with gaps in
+        contact.
+        """
         return moments(self.errors, self.halves)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         low, high = self.extremes()
         return {
             "ratio": fraction_text(self.ratio),
@@ -141,7 +148,7 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Fitted stretches: ends (2, n), coefficients (COUNT, n), what touches, greatest differences."""
+    """Fitted stretches: ends (2, n), coefficients (COUNT, n), tooth and kind of contact, maximum differences."""
 
     ends: Floats
     errors: Floats
@@ -159,34 +166,33 @@ def tabulate(
     tolerance: float = 1e-12,
     side: Literal["front", "back"] = "front",
 ) -> PiecewiseTransmission:
-    """The transmission function of one side of two wheels over its period, as polynomials between its corners.
+    """Fit the transmission function of one side of two wheels by polynomials between its kinks.
 
     Parameters
     ----------
     first, second : GearOutline
         Driver and driven wheel.
     distance : float
-        From axle to axle, in the outlines' unit; bevel: the shaft angle [rad].
+        Centre distance, in the outlines' unit; bevel: the shaft angle [rad].
     tolerance : float
-        Greatest error [rad of the driven wheel]; where rounding keeps the law from it, the stated uncertainty is
-        greater.
+        Maximum error of the fit [rad of the driven wheel]. If rounding prevents it, the reported uncertainty is larger.
     side : {"front", "back"}
-        The side that pushes, or the one that holds.
+        The side that pushes the driven wheel, or the one that prevents it from running ahead.
 
     Returns
     -------
     PiecewiseTransmission
-        Its period is a pitch of the driver where all teeth are equal, else all its pitches until the same teeth meet
+        Its period is a pitch of the driver if all teeth are equal; otherwise all its pitches until the same teeth meet
         again.
 
     Raises
     ------
     QuestionError, RangeError
-        As `solve`; the second also where no tooth is ever in reach.
+        As in `solve`; `RangeError` also if no tooth is ever within range.
 
     See Also
     --------
-    geartrain.teeth.contact.solve : angles one by one.
+    geartrain.teeth.contact.solve : Contact at given angles.
 
     Examples
     --------
@@ -199,20 +205,20 @@ def tabulate(
     >>> transmission.ratio, transmission.uncertainty < 1e-6
     (Fraction(1, 1), True)
     """
-    meeting = OutlinePair(first, second, distance, side)
-    maker = _Maker(meeting, tolerance)
-    done, breaks, kinks = maker.made()
+    pair_contact = OutlinePair(first, second, distance, side)
+    fitter = _Fitter(pair_contact, tolerance)
+    done, breaks, kinks = fitter.fit()
     if (done.kind < 0).all():
         raise RangeError(
             Problem(
                 "the two wheels never touch",
-                f"at a distance of {distance:.9g} no tooth of one is in reach of the other",
-                "bring the axles nearer, or check that both outlines have one unit",
+                f"at a distance of {distance:.9g} the teeth of one are out of range of the other",
+                "reduce the distance, or check that both outlines have the same unit",
             )
         )
     return PiecewiseTransmission(
-        maker.ratio,
-        maker.period,
+        fitter.ratio,
+        fitter.period,
         breaks,
         done.ends.mean(axis=0),
         np.diff(done.ends, axis=0)[0] / 2,
@@ -226,43 +232,43 @@ def tabulate(
     )
 
 
-class _Maker:
-    def __init__(self, meeting: OutlinePair, tolerance: float) -> None:
-        self.meeting, self.tolerance = meeting, tolerance
-        self.ratio = Fraction(meeting.first.z, meeting.second.z)
-        self.pitch = meeting.first.pitch
-        self.period = meeting.cycle * self.pitch
+class _Fitter:
+    def __init__(self, pair_contact: OutlinePair, tolerance: float) -> None:
+        self.pair_contact, self.tolerance = pair_contact, tolerance
+        self.ratio = Fraction(pair_contact.first.z, pair_contact.second.z)
+        self.pitch = pair_contact.first.pitch
+        self.period = pair_contact.cycle * self.pitch
 
-    def made(self) -> tuple[_Stretches, Floats, Floats]:
-        """All stretches in order, their ends, and which of these are corners."""
-        count = _PARTS * self.meeting.cycle
+    def fit(self) -> tuple[_Stretches, Floats, Floats]:
+        """Return all stretches in order, their ends, and the ends that are kinks."""
+        count = _PARTS * self.pair_contact.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
         done, kinks = [], [np.empty(0)]
         while pending.shape[1]:
             stretches, labels = self._fitted(pending)
-            good = self._good(stretches, before)
+            good = self._accepted(stretches, before)
             done.append(some(stretches, good))
             cuts = self._kinks(pending[:, ~good], labels[:, ~good])
             kinks += cuts
-            pending, before = _cut(pending[:, ~good], cuts, stretches.off[~good])
-            if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.meeting.cycle:
-                raise _endless(self.tolerance)
+            pending, before = _divided(pending[:, ~good], cuts, stretches.off[~good])
+            if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.pair_contact.cycle:
+                raise _too_many_stretches(self.tolerance)
         return self._ordered(done, np.concatenate(kinks))
 
-    def _good(self, stretches: _Stretches, before: Floats) -> Bools:
-        """Within tolerance, thin, or as good as rounding lets it be."""
+    def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
+        """Return flags of stretches within tolerance, too thin to divide, or limited by rounding."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
-        # halving a stretch of a smooth law gains far more than 4: what gains less at this size is rounding
+        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding
         stuck = (stretches.off > before / 4) & (before < 1e-10)
         good: Bools = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
         return good
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Polynomials on stretches, and what touches at their nodes: (5, n, nodes)."""
+        """Fit polynomials on stretches, and return labels of the contact at their nodes, (4, n, nodes)."""
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
-        angle, speed, labels = self._requested(phi1)
+        angle, speed, labels = self._evaluated(phi1)
         error = angle - float(self.ratio) * phi1
         inside = np.isin(_ALL, _NODES)
         fits = [POWERS.T @ (_SERIES @ each[:, inside].T) for each in (error, speed)]
@@ -272,32 +278,32 @@ class _Maker:
         ]
         nowhere = labels[1].max(axis=1) < 0
         off = [np.where(nowhere, 0.0, np.where(np.isnan(each), np.inf, each)) for each in off]
-        pair, kind = labels[:2, :, COUNT]  # at the middle one of 2 COUNT + 1 points
+        pair, kind = labels[:2, :, COUNT]  # at the middle of 2 COUNT + 1 points
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
-    def _requested(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
-        """Driven angle, speed, and labels that tell what touches."""
-        angle, speed, pair, kind, _, _, _, curves = self.meeting.at(phi1.ravel(), 0.0)
+    def _evaluated(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
+        """Return driven angle, speed, and labels that identify the contact."""
+        angle, speed, pair, kind, _, _, _, curves = self.pair_contact.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """For each stretch the driver's angles at which something else begins to touch, to rounding."""
+        """Locate the driver's angles at which the contact changes in each stretch, to rounding."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         low, high = (middle[stretch] + half[stretch] * _ALL[at + side] for side in (0, 1))
         left = labels[:, stretch, at]
-        found = self._narrowed(low, high, left) if len(stretch) else low
+        found = self._located(low, high, left) if len(stretch) else low
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
-    def _narrowed(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Where the labels cease to be `left`, from low to high; the gaps shrink to rounding."""
+    def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
+        """Locate the first change of labels from `left` between low and high, by repeated subdivision to rounding."""
         share = np.arange(1, _CUTS) / _CUTS
-        for _ in range(20):  # 17^20 is far beyond 2^53: it ends where a gap shrinks no more
+        for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
             inner = np.clip(inner, low[:, None], high[:, None])
-            _, _, labels = self._requested(inner)
+            _, _, labels = self._evaluated(inner)
             other = (labels != left[:, :, None]).any(axis=0)
             points = np.concatenate([low[:, None], inner, high[:, None]], axis=1)
             first = np.where(other.any(axis=1), other.argmax(axis=1), _CUTS - 1)
@@ -309,7 +315,7 @@ class _Maker:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Stretches by driver's angle, each corner moved to where the stretches on its sides cross."""
+        """Sort the stretches by driver's angle, and move each kink to the intersection of its adjacent stretches."""
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
         breaks = np.append(everything.ends[0], everything.ends[1, -1])
@@ -319,16 +325,16 @@ class _Maker:
 
     def _crossing(self, stretches: _Stretches, at: int, kink: float) -> float:
         errors, speeds = ends(stretches.errors[:, at - 1 : at + 1]), ends(stretches.speeds[:, at - 1 : at + 1])
-        # a Newton step on the difference of both fits makes the law continuous: labels place a corner no better than
-        # nearly equal angles can be told apart
+        # a Newton step on the difference of both fits makes the function continuous; labels locate a kink only to
+        # the resolution of nearly equal angles
         step, change = float(errors[1, 0] - errors[0, 1]), float(speeds[1, 0] - speeds[0, 1])
         if not abs(change) > _FLAT * float(self.ratio) or not abs(step) < _LEAP:
             return kink
         return kink - step / change
 
 
-def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Stretches cut at their corners, or halved where they have none; and how far each was off before."""
+def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
+    """Divide stretches at their kinks, or bisect those without; also return the previous error of each."""
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
         within = inner[(inner > low) & (inner < high)]
@@ -339,11 +345,11 @@ def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]
     return np.array(found).reshape(-1, 2).T, np.array(before)
 
 
-def _endless(tolerance: float) -> RangeError:
+def _too_many_stretches(tolerance: float) -> RangeError:
     return RangeError(
         Problem(
-            f"no table comes within {tolerance:.3g} rad of the law of these outlines",
-            "it has too many corners",
-            "ask for a greater tolerance, or give measured teeth by fewer points",
+            f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
+            "it has too many kinks",
+            "pass a larger tolerance, or give measured teeth by fewer points",
         )
     )

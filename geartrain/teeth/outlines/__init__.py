@@ -1,9 +1,9 @@
-"""The closed outline of a toothed wheel, as a cutter would leave it: flanks, fillets, tips, rim.
+"""Closed outline of a toothed wheel as cut: flanks, root fillets, tips, rim.
 
 contour                   closed curves of straight edges and arcs
 tooth_outline             one tooth from root to tip, with its flank from the path of contact
-wheel_requirement         what a pair requires of the teeth of one wheel; one tooth that fits all pairs of the wheel
-tooth_requirement         the same for conjugate teeth: whether a mate's teeth pass through the spaces
+wheel_requirement         requirements of a pair on the teeth of one wheel; one tooth that fits all pairs of the wheel
+tooth_requirement         the same for conjugate teeth: passage of the mate's teeth through the spaces
 wheel_outline             blank sizes and the outline of a whole wheel
 fixed_teeth               escape wheels and strain waves
 """

@@ -1,4 +1,4 @@
-"""Closed curves of straight edges and circular arcs, as DXF has them: vertices, each with the bulge of its edge."""
+"""Closed curves of straight edges and circular arcs, as in DXF: vertices, each with the bulge of its edge."""
 
 from __future__ import annotations
 
@@ -9,17 +9,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.results import Shown
+
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_SAME = 1e-9  # vertices nearer than this are one
-_MINIMUM_STEP = 2 * pi / 65536  # of a chord, in radians: wheels of a trillion teeth are drawn too
+_SAME = 1e-9  # vertices closer than this are merged
+_MINIMUM_STEP = 2 * pi / 65536  # minimum angle of a chord (rad), which bounds the number of points of very large wheels
 
 
 @dataclass(frozen=True, slots=True)
-class Contour:
-    """A closed curve of straight edges and circular arcs, as DXF stores it.
+class Contour(Shown):
+    """Closed curve of straight edges and circular arcs, as DXF stores it.
 
     Examples
     --------
@@ -28,18 +30,18 @@ class Contour:
     """
 
     points: Floats
-    """Vertices (n, 2) [mm]; the last one joins the first."""
+    """Vertices (n, 2) [mm]; the last one is joined to the first."""
     bulges: Floats
-    """(n,) of the edge that leaves each vertex: tan(sweep / 4), 0 straight, positive where it turns left."""
+    """Bulge of the edge that leaves each vertex (n,): tan(sweep / 4), 0 if straight, positive if it turns left."""
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:
-        """A contour of vertices with bulges, edges of no length left out.
+        """Build a contour from vertices with bulges; edges of zero length are omitted.
 
         Parameters
         ----------
         vertices : iterable of tuple
-            x, y and bulge of each.
+            x, y and bulge of each vertex.
         """
         found = np.array(list(vertices), dtype=float)
         long = np.hypot(*(np.roll(found[:, :2], -1, axis=0) - found[:, :2]).T) > _SAME
@@ -47,37 +49,38 @@ class Contour:
 
     @classmethod
     def circle(cls, radius: float, centre: tuple[float, float] = (0.0, 0.0)) -> Contour:
-        """A circle, as two half circles.
+        """Return a circle, as two half circles.
 
         Parameters
         ----------
         radius : float
-            [mm].
+            Radius [mm].
         centre : tuple of float
-            [mm].
+            Centre [mm].
         """
         x, y = centre
         return cls(np.array([[x + radius, y], [x - radius, y]]), np.ones(2))
 
     def scaled(self, factor: float) -> Contour:
-        """The same shape at another scale.
+        """Return the same shape at another scale.
 
         Parameters
         ----------
         factor : float
-            Above 0.
+            Scale factor, above 0.
         """
         return Contour(self.points * factor, self.bulges)
 
     @property
     def is_circle(self) -> bool:
-        """True for what `circle` makes."""
+        """True for a contour made by `circle`."""
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
     def moments(self) -> tuple[float, float]:
-        """Area (mm2) and its polar second moment about (0, 0) (mm4), exactly, by Green's theorem.
+        """Compute area (mm2) and polar second moment about (0, 0) (mm4), exactly, by Green's theorem.
 
-        The polygon of the vertices, and over each arc the segment that it cuts off; below 0 if it runs clockwise.
+        The result is the sum over the polygon of the vertices and the circular segment of each arc. It is below 0 if
+        the contour runs clockwise.
         """
         (x, y), (u, v) = self.points.T, np.roll(self.points, -1, axis=0).T
         cross = x * v - y * u
@@ -90,19 +93,19 @@ class Contour:
         return area, polar
 
     def flattened(self, tolerance: float) -> Floats:
-        """Points whose chords deviate from the arcs by at most a tolerance.
+        """Return points whose chords deviate from the arcs by at most a tolerance.
 
-        A circle has 65 536 points at most; beyond some kilometres they deviate by more.
+        A circle has at most 65 536 points; above radii of some kilometres the deviation is larger.
 
         Parameters
         ----------
         tolerance : float
-            [mm].
+            Maximum deviation [mm].
 
         Returns
         -------
         ndarray
-            (m, 2), the first not repeated.
+            (m, 2), the first point not repeated.
         """
         parts = []
         for start, end, bulge in zip(self.points, np.roll(self.points, -1, axis=0), self.bulges, strict=True):
@@ -111,9 +114,9 @@ class Contour:
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Points of an arc, its end left out."""
+    """Return the points of an arc without its end point."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
-    # the chord whose sagitta is the tolerance
+    # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)
     count = max(1, ceil(abs(sweep) / step))
     centre = _arc_centre(start, end, bulge)
@@ -123,10 +126,10 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 
 
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
-    """Area and polar second moment about (0, 0) of what lies between an arc and its chord.
+    """Return area and polar second moment about (0, 0) of the segment between an arc and its chord.
 
-    About its own centre, with radius R and sweep s: R^2 (s - sin s)/2, R^4 (s/4 - sin s (2 + cos s)/12); its first
-    moment is 2/3 R^3 sin^3(s/2) along the bisector.
+    About its own centre, with radius R and sweep s, they are R^2 (s - sin s)/2 and R^4 (s/4 - sin s (2 + cos s)/12).
+    The first moment is 2/3 R^3 sin^3(s/2) along the bisector.
     """
     R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
     centre = _arc_centre(start, end, bulge)
@@ -144,11 +147,11 @@ def _arc_centre(start: Floats, end: Floats, bulge: float) -> Floats:
 
 
 def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
-    """Radius of the arc between two vertices."""
+    """Return the radius of the arc between two vertices."""
     return float(np.hypot(*(end - start))) * (1 + bulge**2) / (4 * abs(bulge))
 
 
 def bulge_about(start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]) -> float:
-    """The bulge of the shorter arc about `centre` from `start` to `end`."""
+    """Return the bulge of the shorter arc about `centre` from `start` to `end`."""
     a, b = (complex(x - centre[0], y - centre[1]) for x, y in (start, end))
     return tan(float(np.angle(b / a)) / 4)

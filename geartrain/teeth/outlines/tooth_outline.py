@@ -1,4 +1,6 @@
-"""One tooth from root to tip: working flank, root fillet, and tip land; with the flank from its path of contact."""
+"""Outline of one tooth from root to tip: working flank, root fillet, tip land; the flank follows from its path of
+contact.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +19,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
-_DENSE = 801  # points from which the spacing of the others follows
-_FEWEST = 8  # pieces, however straight a flank is
-_FINE = 4e-6  # modules: finer than this turning is lost in rounding
-_NEAR = 1e-3  # of a flank: points as near as that are one
-_STRAIGHT = 1e-9  # modules, or rad: what bends by less is straight
+_DENSE = 801  # sample points from which the final spacing is computed
+_FEWEST = 8  # minimum number of pieces of a flank
+_FINE = 4e-6  # modules: at smaller tolerances the change of direction is lost in rounding
+_NEAR = 1e-3  # of a flank: points closer than this are merged
+_STRAIGHT = 1e-9  # modules, or rad: pieces with smaller deviation count as straight
 _MEETING = 1e-9  # rad
 
 
@@ -30,30 +32,30 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class RootFillet:
-    """In the frame of the tooth: x along its axis, y towards the space; modules."""
+    """Root fillet in the frame of the tooth: x along its axis, y towards the space; modules."""
 
     start: Point
-    """Where the straight line ends and the round begins."""
+    """Point where the straight line ends and the fillet begins."""
     end: Point
-    """Where the round touches the root circle."""
+    """Point where the fillet touches the root circle."""
     centre: Point
-    """Of the round."""
+    """Centre of the fillet."""
     radius: float
-    """Of the round."""
+    """Radius of the fillet."""
 
     @property
     def half(self) -> float:
-        """Angle (rad) between the axis of the tooth and where its root circle begins."""
+        """Angle (rad) between the axis of the tooth and the beginning of its root circle."""
         return atan2(self.end[1], self.end[0])
 
 
 def fillet(
     flank: FlankCurve, widening: float, root: float, radius: float, z: float, relief: float = 0.0
 ) -> RootFillet | None:
-    """The round of `radius` between the flank and the circle of radius `root`; None where there is no room.
+    """Return the fillet of `radius` between the flank and the circle of radius `root`; None if it does not fit.
 
     widening   half angle of the tooth at the pitch circle (rad)
-    relief     how far (rad) the straight line is turned into the tooth, off the flank's tangent
+    relief     angle (rad) by which the straight line is turned from the flank's tangent into the tooth
     """
     r, half = float(flank.r[0]), widening + float(flank.angle[0])
     E = (r * cos(half), r * sin(half))
@@ -83,12 +85,12 @@ def fillet(
 
 
 Vertex = tuple[float, float, float]
-"""A point, and the bulge of the edge to the next one."""
+"""Vertex x, y, and the bulge of the edge to the next one."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothOutline:
-    """A tooth of z alike; lengths in modules."""
+    """Outline of one of z equal teeth; lengths in modules."""
 
     z: float
     flank: FlankCurve
@@ -109,13 +111,13 @@ class ToothOutline:
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Half angle (rad) of the tooth as it is cut, straight edges and round, at radii from root to tip."""
+        """Return the half angle (rad) of the tooth as cut, including the fillet, at radii from root to tip."""
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
         at = np.clip(np.searchsorted(r * s, radius * s, side="right") - 1, 0, len(r) - 2)
         start, along = place[at], place[at + 1] - place[at]
-        # |start + t along| = radius, on the side where the radius grows towards the tip
+        # |start + t along| = radius, with the root at which the radius increases towards the tip
         a, b, c = np.abs(along) ** 2, (np.conj(along) * start).real, r[at] ** 2 - radius**2
         t = (-b + s * np.sqrt(np.maximum(b * b - a * c, 0.0))) / a
         edge = np.angle(start + np.clip(t, 0.0, 1.0) * along)
@@ -123,28 +125,28 @@ class ToothOutline:
             return np.asarray(edge)
         centre = complex(*self.fillet.centre)
         far = abs(centre)
-        # where the radius is 0 no quotient of 0
+        # avoids a division by 0
         cosine = (radius**2 + far**2 - self.fillet.radius**2) / (2 * np.maximum(radius, 1e-300) * far)
-        round_ = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
-        return np.asarray(np.where(radius * s < r[0] * s, round_, edge))
+        on_fillet = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
+        return np.asarray(np.where(radius * s < r[0] * s, on_fillet, edge))
 
     def _half(self) -> list[tuple[float, float, float]]:
-        """From root to tip on the far side of the axis of the tooth, with the bulge to the next point."""
+        """Return vertices with bulges from root to tip, on the side of positive y."""
         fillet = self.fillet
         half = self.widening + self.flank.angle
         flank = zip((self.flank.r * np.cos(half)).tolist(), (self.flank.r * np.sin(half)).tolist(), strict=True)
-        round_ = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
+        bulge = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
         end = fillet.end
-        if pi / self.z - fillet.half < _MEETING:  # two rounds meet in the middle of the space
+        if pi / self.z - fillet.half < _MEETING:  # two fillets meet in the middle of the space
             end = self.root * cos(pi / self.z), self.root * sin(pi / self.z)
-        return [(*end, round_), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
+        return [(*end, bulge), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
 
     def whole(self) -> Contour:
-        """All teeth round the axle, counter-clockwise, the first of them about the x axis."""
+        """Return the contour of all teeth around the axle, counter-clockwise, the first tooth about the x axis."""
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """One tooth about the x axis, from one root to the other, the last edge along the root circle."""
+        """Return the vertices of one tooth about the x axis, from root to root, the last edge along the root circle."""
         half = self._half()
         origin = (0.0, 0.0)
         x, y, _ = half[-1]
@@ -152,14 +154,14 @@ class ToothOutline:
         gap = pi / self.z - self.fillet.half
         ground = np.tan(gap / 2) if gap >= _MEETING else 0.0
         up = [(x, -y, -bulge) for x, y, bulge in half[:-1]] + [(x, -y, float(land))]
-        # coming down each edge is met at its other end
+        # in reverse order the bulge of an edge belongs to its other end
         bulges = [bulge for _, _, bulge in half]
         down = [(x, y, -bulge) for (x, y, _), bulge in zip(half[:0:-1], bulges[-2::-1], strict=True)]
         return [*up, *down, (*half[0][:2], float(ground))]
 
 
 def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
-    """z teeth round the axle, from the vertices of one.
+    """Yield the vertices of z teeth around the axle, from the vertices of one.
 
     Parameters
     ----------
@@ -185,7 +187,7 @@ def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
 
 
 def pin_span(R: float, radius: float) -> Floats:
-    """A pin of `radius` on the circle of radius R, radius and signed angle (2, n)."""
+    """Return radius and signed angle (2, n) of points of a pin of `radius` on the circle of radius R."""
     turn = np.linspace(0, 2 * pi, 181)
     x, y = R + radius * np.cos(turn), radius * np.sin(turn)
     return np.stack([np.hypot(x, y), np.arctan2(y, x)])
@@ -196,41 +198,41 @@ def pin_span(R: float, radius: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class FlankCurve:
-    """A flank from its root end to its tip end, lengths in modules.
+    """Flank from its root end to its tip end, lengths in modules.
 
-    No chord stands out of the true tooth: a flank that bulges is cut along chords, a hollow one along tangents, so that
-    teeth which touch without play do not overlap.
+    Chords never protrude from the true tooth. A convex flank is approximated by chords and a concave one by tangents,
+    so that teeth in contact without backlash do not overlap.
     """
 
     r: Floats
-    """Radius, and how much wider (rad) the half tooth is than at the pitch circle."""
+    """Radii of the points."""
     angle: Floats
-    """Radius, and how much wider (rad) the half tooth is than at the pitch circle."""
+    """Half angle of the tooth at each point less that at the pitch circle (rad)."""
     curve: Floats
     """Radius and angle of many points of the true flank (2, n)."""
     tangent: tuple[float, float]
     """Unit vector at the root end towards the root: along the radius, and across it towards the space."""
     R: float
-    """Pitch radius."""
+    """Pitch radius of the wheel."""
     outward: int
-    """1, or -1 for a ring, whose tips are inside."""
+    """Sign of the tip direction: 1, or -1 for a ring gear, whose tips are inside."""
 
 
 def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: float) -> FlankCurve:
-    """The flank of gear 1 or 2 over arcs of approach and recess (X), its chords within `tolerance` (modules).
+    """Return the flank of gear 1 or 2 over arcs of approach and recess (X), with chords within `tolerance` (modules).
 
-    A negative arc lets the flank begin beyond the pitch point.
+    With a negative arc the flank begins beyond the pitch point.
     """
     approach, recess = arcs
     pitch = path.pitch
     ends = (-approach, recess) if gear == 1 else (recess, -approach)
     dense = np.linspace(*ends, _DENSE)
-    X = _spaced(path, gear, dense, max(tolerance, _FINE))
+    X = _spaced_displacements(path, gear, dense, max(tolerance, _FINE))
     outward = -1 if gear == 2 and pitch.R2 < 0 else 1
     if (np.diff(_polar(path, gear, X)[0]) * outward <= 0).any():
-        why = "its radius does not grow from the root to the tip"
-        raise RangeError(Problem(f"the flank of gear {gear} turns back", why, "shorten the arcs, or take more teeth"))
-    r, angle = _within(path, gear, X, outward)
+        why = "its radius does not increase steadily from the root to the tip"
+        raise RangeError(Problem(f"the flank of gear {gear} turns back", why, "shorten the arcs, or use more teeth"))
+    r, angle = _inner_polyline(path, gear, X, outward)
     along, across = _tangents(path, gear, X[:1], outward)
     tangent = float(along[0]), float(across[0])
     return FlankCurve(r, angle, np.stack(_polar(path, gear, dense)), tangent, abs(_R(path, gear)), outward)
@@ -241,29 +243,30 @@ def _R(path: PathOfContact, gear: int) -> float:
 
 
 def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
-    """Radius about the axle, and azimuth from the pitch crossing towards the space."""
+    """Return radius about the axle, and azimuth from the pitch point of the flank towards the space."""
     radius, azimuth = path.pitch.polar(gear, path.flank(gear, X))
     return radius, azimuth if gear == 1 else -azimuth
 
 
-def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Displacements at which a chord leaves the flank by as much everywhere: ds sqrt(curvature) constant."""
+def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
+    """Return displacements with equal chord deviation everywhere: ds sqrt(curvature) constant."""
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
     length = np.hypot(steps[:, 0], steps[:, 1])
     heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
     turned = np.abs(np.gradient(heading))
-    # a chord of length ds leaves an arc by ds^2 curvature / 8
+    # a chord of length ds deviates from an arc by ds^2 curvature / 8
     cost = np.concatenate(([0.0], np.cumsum(np.sqrt(turned * length / (8 * tolerance)))))
-    # a share by length alone keeps straight stretches from having no points
+    # a share proportional to length gives points to straight parts also
     cost += np.linspace(0, 0.02 * cost[-1] + 1e-9, len(cost))
+    # 20 % more points than estimated, for curvature that varies within a piece
     count = max(_FEWEST, ceil(1.2 * cost[-1])) + 1
     found = np.interp(np.linspace(0, cost[-1], count), cost, X)
-    return _with(found, X[_bends(path, gear, X)])
+    return _with_inflections(found, X[_inflections(path, gear, X)])
 
 
-def _bends(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Which points are the last before a flank turns from hollow to bulging, or back."""
+def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
+    """Return the indices of the last points before the curvature of the flank changes its sign."""
     points = path.flank(gear, X)
     steps = np.diff(points @ np.array([1, 1j]))
     bent = np.angle(steps[1:] * np.conj(steps[:-1]))
@@ -273,8 +276,8 @@ def _bends(path: PathOfContact, gear: int, X: Floats) -> Floats:
     return np.asarray(bending[:-1][turns] + 1)
 
 
-def _with(found: Floats, bends: Floats) -> Floats:
-    """Displacements with some more among them, those near them left out."""
+def _with_inflections(found: Floats, bends: Floats) -> Floats:
+    """Insert displacements `bends`, and drop other interior ones near them."""
     if not bends.size:
         return np.asarray(found)
     near = _NEAR * abs(found[-1] - found[0])
@@ -284,46 +287,49 @@ def _with(found: Floats, bends: Floats) -> Floats:
     return whole if found[0] < found[-1] else whole[::-1]
 
 
-def _within(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Radius and angle of a line that nowhere leaves the tooth: the flank's points, and where tangents meet."""
+def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
+    """Return radius and angle of a polyline that nowhere leaves the tooth.
+
+    Its vertices are points of the flank where it is convex, and intersections of tangents where it is concave.
+    """
     r, angle = _polar(path, gear, X)
     points = r * np.exp(1j * angle)
     along, across = _tangents(path, gear, X, outward)
     ways = (along + 1j * across) * np.exp(1j * angle)  # towards the root
     middle, turned = _polar(path, gear, (X[1:] + X[:-1]) / 2)
     chord = points[1:] - points[:-1]
-    # how far the middle of a piece lies beside its chord, away from the space
-    beside = _cross(chord, middle * np.exp(1j * turned) - points[:-1]) / np.abs(chord) * -outward
+    # distance of the middle of a piece from its chord, away from the space
+    sagitta = _cross(chord, middle * np.exp(1j * turned) - points[:-1]) / np.abs(chord) * -outward
     det = _cross(ways[:-1], ways[1:])
-    hollow = (beside > _STRAIGHT) & (np.abs(det) > _STRAIGHT)
-    if not hollow.any():
+    concave = (sagitta > _STRAIGHT) & (np.abs(det) > _STRAIGHT)
+    if not concave.any():
         return r, angle
-    reach = _cross(chord, ways[1:]) / np.where(hollow, det, 1.0)
+    reach = _cross(chord, ways[1:]) / np.where(concave, det, 1.0)
     corners = points[:-1] + reach * ways[:-1]
     line = [points[0]]
-    for k, bent in enumerate(hollow.tolist()):
-        # between two hollow pieces the point of contact lies on the line from corner to corner
+    for k, bent in enumerate(concave.tolist()):
+        # between two concave pieces the tangent point is on the line from corner to corner
         line += [corners[k]] if bent else []
-        line += [] if bent and k + 1 < len(hollow) and hollow[k + 1] else [points[k + 1]]
+        line += [] if bent and k + 1 < len(concave) and concave[k + 1] else [points[k + 1]]
     found = np.array(line)
     return np.abs(found), np.angle(found)
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    """Cross product of plane vectors written as complex numbers."""
+    """Return the cross product of plane vectors written as complex numbers."""
     return np.asarray((np.conj(a) * b).imag)
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """At right angles to the contact normal, which in the fixed frame leans by psi from the pitch line."""
+    """Return the unit tangent towards the root: normal to the contact normal, which makes psi with the pitch line."""
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi
     x, y = path.pitch.point(contact.d, contact.sin_psi, contact.cos_psi).T
     y = y - path.pitch.axle_of(gear)
     up = 1.0 if (gear == 1 or outward < 0) else -1.0
-    lean = np.arctan2(x, y * up)  # of the radius to the contact, from the line of centres towards +x
+    lean = np.arctan2(x, y * up)  # angle of the radius to the contact, from the line of centres towards +x
     # unit vectors along the radius and across it towards +x; the flank runs along (-sine, cosine)
     along = -sine * np.sin(lean) + cosine * up * np.cos(lean)
-    beside = (-sine * np.cos(lean) - cosine * up * np.sin(lean)) * (1 if gear == 1 else -1)
+    across = (-sine * np.cos(lean) - cosine * up * np.sin(lean)) * (1 if gear == 1 else -1)
     rootward = np.where(along > 0, -outward, outward)
-    return rootward * along, rootward * beside
+    return rootward * along, rootward * across

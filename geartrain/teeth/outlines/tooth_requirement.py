@@ -1,6 +1,6 @@
 """Requirements of conjugate pairs on the teeth of a wheel: flanks, and spaces through which all mates pass.
 
-The mate's tooth is set against the outline in many positions of a pitch.
+The mate's tooth is compared with the outline at many positions within a pitch.
 """
 
 from __future__ import annotations
@@ -23,36 +23,36 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
 
-_STEPS = 120  # positions in a pitch
-_MARGIN = 1e-3  # modules: least room at the round, which is more than a tip moves between two positions
+_STEPS = 120  # positions of the mate in a pitch
+_MARGIN = 1e-3  # modules: minimum gap at the fillet, more than a tip moves between two positions
 
 
 @dataclass(frozen=True, slots=True)
 class MateTooth:
-    """One tooth or pin of another wheel."""
+    """Tooth or pin of a mating wheel."""
 
     span: Floats
-    """Radius and signed angle of its points (2, n), where one of its flanks touches: half the play turned on."""
+    """Radius and signed angle of its points (2, n), rotated by half the backlash so that one of its flanks touches."""
     z: float
-    """Its tooth number."""
+    """Tooth number of the mate."""
     distance: float
-    """Of the two axles, negative for a wheel in a ring."""
+    """Centre distance, negative for a wheel in a ring gear."""
     internal: bool
-    """One of the two wheels is a ring; `ring`: this one."""
+    """True if one of the two wheels is a ring gear; `ring` is True if the mate is."""
     ring: bool
 
 
 @dataclass(frozen=True, slots=True)
 class MatePassage:
-    """Where a mate's tooth comes within the tip circle of a wheel, as that wheel sees it."""
+    """Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel."""
 
     radius: Floats
-    """About the wheel's axle; aside, angle (rad) from the axis of its nearest tooth."""
+    """Radius about the wheel's axle; `aside` is the angle (rad) from the axis of the nearest tooth."""
     aside: Floats
 
 
 def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
-    """The way of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
+    """Compute the passage of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
     turn = _positions(tip, outward, mate)[:, None]
     r, angle = mate.span
     place = mate.distance + r * np.exp(1j * (angle + turn + (0 if mate.internal else pi)))
@@ -60,27 +60,27 @@ def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
     inside = (radius - tip) * outward <= 0
     own = turn * mate.z / z * (1 if mate.internal else -1)
     pitch = 2 * pi / z
-    aside = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a space of the wheel meets the mate's tooth
+    aside = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a tooth space faces the mate's tooth
     return MatePassage(radius[inside], aside[inside])
 
 
-def bite(tooth: ToothOutline, mate: MatePassage) -> float:
-    """How deep (modules) the mate's tooth cuts into the wheel's while it passes through the space; negative: play.
+def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
+    """Return the depth (modules) to which the mate's tooth cuts into the wheel's in its passage; negative for a gap.
 
-    Along the circle where it cuts flank or round, along the radius where it cuts the root circle. A round has to keep
-    some room more.
+    It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a
+    margin is added.
     """
     if not mate.radius.size:
         return -inf
     s = tooth.flank.outward
     deep = (tooth.half_at(mate.radius) - mate.aside) * mate.radius
     below = (tooth.root - mate.radius) * s
-    on_round = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
-    return float(np.where(below > 0, below, deep + np.where(on_round, _MARGIN, 0.0)).max())
+    on_fillet = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
+    return float(np.where(below > 0, below, deep + np.where(on_fillet, _MARGIN, 0.0)).max())
 
 
 def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
-    """Angles of the mate at which its tooth may be within the wheel's tip circle."""
+    """Return the angles of the mate at which its tooth may be within the wheel's tip circle."""
     distance = mate.distance
     far = float(mate.span[0].min() if mate.ring else mate.span[0].max())
     if not distance:
@@ -91,50 +91,51 @@ def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
         if mate.ring:
             cosine = (distance**2 + far**2 - tip**2) / (2 * abs(distance) * far)
         reach = acos(min(max(cosine, -1.0), 1.0))
+    # margin for the width of the tooth itself
     reach = min(reach + 1.5 * pi / mate.z, pi)
     return np.linspace(-reach, reach, 2 * int(reach * mate.z * _STEPS / (2 * pi)) + 1)
 
 
 CLEARANCE = 0.25  # modules
 _FILLET = 0.38  # modules
-_BITES = (1e-9, 1e-6)  # modules: deeper is interference; flanks found by numbers are not nearer to their true ones
-_RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg; a root so much steeper than the flank it goes on from
+_TOLERATED_DEPTHS = (1e-9, 1e-6)  # modules: tolerated interference; flanks computed numerically need the second value
+_RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg by which a root is steeper than the end of its flank
 _MINIMUM_FILLET = 1e-3  # modules
-_HALVINGS = 18  # of less than 0.4 modules: to 2e-6
-_ALIKE = 1e-5  # modules: flanks that differ by less are one
+_HALVINGS = 18  # bisections of less than 0.4 modules, to a resolution of 2e-6
+_ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
 
 @dataclass(frozen=True)
 class ToothRequirement(WheelRequirement):
-    """The teeth of gear 1 or 2 of a pair, lengths in modules."""
+    """Required teeth of gear 1 or 2 of a pair, lengths in modules."""
 
     pair: ConjugatePair
     gear: int
     tolerance: float
-    """How far a chord may leave a flank."""
+    """Maximum deviation of a chord from the flank."""
     clearance: float = CLEARANCE
-    """Between the mate's tips and the root."""
+    """Bottom clearance between the mate's tips and the root."""
     pins: LanternPins | None = None
-    """Where one of the two is a lantern."""
+    """Pins if one of the two gears is a lantern; None otherwise."""
 
     @property
     def internal(self) -> bool:
-        """True if one of the two wheels is a ring."""
+        """True if one of the two wheels is a ring gear."""
         return self.pair.path.pitch.R2 < 0
 
     @property
     def z(self) -> float:
-        """Tooth number."""
+        """Tooth number of the gear."""
         return self.pair.path.pitch.teeth_of(self.gear)
 
     @property
     def distance(self) -> float:
-        """Of the two axles."""
+        """Centre distance of the pair."""
         return abs(self.pair.path.pitch.R1 + self.pair.path.pitch.R2)
 
     @property
     def flank(self) -> FlankCurve:
-        """The working flank."""
+        """Working flank of the gear."""
         return _flank(self.pair, self.gear, self.tolerance)
 
     @property
@@ -144,29 +145,29 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def other(self) -> ToothRequirement:
-        """What the pair asks of the mate."""
+        """Requirement of the pair on the mate."""
         return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
 
     @property
     def has_pins(self) -> bool:
-        """True for the lantern of a pair: round pins, no teeth."""
+        """True for the lantern of a pair, which has round pins instead of teeth."""
         return self.pins is not None and self.pins.gear == self.gear
 
     @property
     def tip(self) -> float:
-        """Radius of the tips; of pins, of what of them is outermost."""
+        """Radius of the tip circle; for pins, of their outermost points."""
         if self.pins is not None and self.has_pins:
             return self.pins.circle + self.pins.radius
         return self.pair.path.radii(self.gear)[1]
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """True if one wheel does for both."""
+        """Return True if one wheel meets both requirements."""
         if not isinstance(other, ToothRequirement):
             return False
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Pins, or the one tooth whose root lets the mates of all pass."""
+        """Return the pins, or the one tooth whose root lets the mates of all requirements pass."""
         demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
         for demand in demands:
             check_flat(demand.pair)
@@ -176,9 +177,9 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def root(self) -> float:
-        """Radius of the root circle: as deep under the pitch circle as the mate's tip stands over its own, and more.
+        """Radius of the root circle: its depth below the pitch circle is the mate's addendum plus the clearance.
 
-        A tip that keeps off its pitch circle stands over it by less than nothing.
+        The addendum is negative if the mate's tip does not reach its own pitch circle.
         """
         own, mate = self.flank, self.other.flank
         tip = float(mate.r[-1]) if self.pins is None else self.pins.circle + self.pins.radius
@@ -186,7 +187,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def passage(self) -> MatePassage:
-        """The way of the mate's tooth or pin through the spaces."""
+        """Passage of the mate's tooth or pin through the spaces."""
         own, other = self.flank, self.other
         found = other.flank
         if self.pins is not None and other.gear == self.pins.gear:
@@ -196,7 +197,7 @@ class ToothRequirement(WheelRequirement):
             flanks = np.stack([np.tile(found.r, 2), np.concatenate((half, -half))])
             land = np.stack([np.full(9, found.r[-1]), np.linspace(-half[-1], half[-1], 9)])
             span = np.concatenate((flanks, land), axis=1)
-        # both wheels being symmetric, what passes on this side of its play passes on the other
+        # both wheels are symmetric, so one side of the backlash is sufficient
         touching = span + np.array([[0.0], [self.pair.backlash / 2 / found.R]])
         distance = own.R - found.R if self.internal else own.R + found.R
         mate = MateTooth(touching, other.z, distance, self.internal, found.outward < 0)
@@ -205,7 +206,7 @@ class ToothRequirement(WheelRequirement):
 
 @lru_cache(maxsize=4096)
 def _flank(pair: ConjugatePair, gear: int, tolerance: float) -> FlankCurve:
-    # pins are round whatever part of them works
+    # pins are full circles, whichever part of them is active
     whole = pair.path.approach.arc, pair.path.recess.arc
     return flank(pair.path, gear, pair.arcs if pair.solid[gear - 1] else whole, tolerance)
 
@@ -218,16 +219,16 @@ def _cut(demands: tuple[ToothRequirement, ...]) -> CutTooth:
 
 
 def check_flat(pair: ConjugatePair) -> None:
-    """Raise `QuestionError` for a pair that no flat wheels can be cut for."""
+    """Raise `QuestionError` if flat wheels cannot be cut for a pair."""
     path = pair.path
     if path.pitch.bevel:
-        # a crown wheel develops into a rack, of infinitely many teeth
+        # the back cone of a crown wheel develops into a rack with infinitely many teeth
         virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
         raise QuestionError(
             Problem(
                 "a bevel wheel has no flat outline",
-                "its teeth lie on a sphere and taper to the point where the axes meet",
-                "leave --profile out, or as a likeness draw the spur pair its back cones develop into, of "
+                "its teeth are on a sphere and taper towards the apex, where the axes meet",
+                "omit --profile, or draw the equivalent spur pair of its back cones, of "
                 f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
                 "--profile",
             )
@@ -235,12 +236,14 @@ def check_flat(pair: ConjugatePair) -> None:
     if pair.faults:
         raise QuestionError(Problem(fault.what, fault.why, fault.fix, "--profile") for fault in pair.faults)
     if path.approach.start or path.recess.start:
-        why = "where the flanks end there is nothing to say how thick the teeth are"
-        raise QuestionError(Problem("this path of contact keeps off the pitch point", why, "take another form"))
+        why = "the tooth thickness at the ends of its flanks is undefined"
+        raise QuestionError(
+            Problem("this path of contact does not reach the pitch point", why, "use another tooth form")
+        )
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """True if one tooth does for both: their flanks are one curve, as far as both work, up to the same tips."""
+    """Return True if one tooth meets both requirements: equal flanks where both work, and equal tips."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False
@@ -256,11 +259,11 @@ def _rising(curve: Floats) -> Floats:
 
 
 def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) -> tuple[ToothOutline, float]:
-    """The tooth for all pairs of a wheel, and by how much (rad) its root is turned off the flank's tangent.
+    """Return the tooth for all pairs of a wheel, and the angle (rad) of its root off the flank's tangent.
 
-    Its flank reaches as deep as any mate's tips work, its root circle clears them all, and its fillet, `wanted` or the
-    largest up to 0.38 modules, lets each of them pass. All lengths in modules; all flanks
-    must be alike. Raises `QuestionError` where there is no such tooth.
+    Its flank is as deep as the tips of all mates need, and its root circle clears them. Its fillet, `wanted` or the
+    largest up to 0.38 modules, lets each of them pass. All lengths are in modules, and all flanks must be alike. Raises
+    `QuestionError` if no such tooth exists.
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
@@ -269,16 +272,17 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
         raise _no_root(deepest)
     passages = [each.passage for each in demands]
-    for most, degree in ((most, degree) for most in _BITES for degree in _RELIEFS):
-        made = _maker(deepest, root, passages, radians(degree), most)
+    # every relief is tried at the strict tolerance before the loose one
+    for most, degree in ((most, degree) for most in _TOLERATED_DEPTHS for degree in _RELIEFS):
+        made = _tooth_builder(deepest, root, passages, radians(degree), most)
         found = made(_FILLET if wanted is None else wanted) or _largest(made, _FILLET if wanted is None else wanted)
         if found is not None:
             return found, radians(degree)
     raise QuestionError(
         Problem(
             f"no root of gear {deepest.gear} lets the mate's tips pass",
-            "they would cut the flanks below where these work, or teeth outside the path of contact",
-            "shorten the arcs, take more teeth, or more backlash or clearance",
+            "they would cut the flanks below their active part, or touch teeth outside the path of contact",
+            "shorten the arcs, or use more teeth, backlash or clearance",
             "--profile",
         )
     )
@@ -287,7 +291,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
 def _no_root(demand: ToothRequirement) -> QuestionError:
     return QuestionError(
         Problem(
-            f"there is no root circle for gear {demand.gear}",
+            f"gear {demand.gear} cannot have a root circle",
             f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
             "give less clearance, or thinner teeth by more backlash",
             "--clearance",
@@ -295,24 +299,24 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
     )
 
 
-def _maker(
+def _tooth_builder(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float
 ) -> Callable[[float], ToothOutline | None]:
-    """From a fillet's radius to a tooth that the mates pass without a bite of more than `most`, or None."""
+    """Return a function from a fillet radius to a tooth that interferes with no mate by more than `most`, or None."""
     flank, widening, z = own.flank, own.widening, own.z
 
     def made(radius: float) -> ToothOutline | None:
-        round_ = fillet(flank, widening, root, radius, z, relief)
-        if round_ is None:
+        root_fillet = fillet(flank, widening, root, radius, z, relief)
+        if root_fillet is None:
             return None
-        tooth = ToothOutline(z, flank, round_, widening, root)
-        return tooth if all(bite(tooth, mate) <= most for mate in mates) else None
+        tooth = ToothOutline(z, flank, root_fillet, widening, root)
+        return tooth if all(interference_depth(tooth, mate) <= most for mate in mates) else None
 
     return made
 
 
 def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
-    """By bisection, the tooth with the largest fillet below `wanted`; None where not even a small one fits."""
+    """Find the tooth with the largest fillet below `wanted` by bisection; None if not even a small one fits."""
     found = made(_MINIMUM_FILLET)
     low, high = _MINIMUM_FILLET, wanted
     if found is None or wanted <= low:

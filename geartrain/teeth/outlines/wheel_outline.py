@@ -1,6 +1,6 @@
-"""A whole wheel to be cut: sizes of its blank, and its outline with the sizes that result.
+"""Outline of a whole wheel: sizes of its blank, and its outline with the resulting sizes.
 
-Conjugate teeth get roots that the mate's tips do not touch, and a bore or a rim as the blank says.
+Conjugate teeth get roots that the mate's tips do not touch, and a bore or a rim as the blank specifies.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ from geartrain.teeth.outlines.wheel_requirement import LanternPins
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
-_THIN = 0.1  # modules: least land of a wheel about its bore
+_THIN = 0.1  # modules: minimum wall between bore and root circle
 
 
 @dataclass(frozen=True, slots=True)
 class BlankSizes:
-    """What a maker says of a wheel besides its teeth. Lengths in mm.
+    """Manufacturing data of a wheel besides its teeth. Lengths in mm.
 
     Raises
     ------
     QuestionError
-        For what is no size.
+        If a value is not a valid size.
 
     See Also
     --------
-    geartrain.teeth.GearMesh.wheel_outline : takes them.
+    geartrain.teeth.GearMesh.wheel_outline : Takes `BlankSizes`.
 
     Examples
     --------
@@ -42,29 +42,29 @@ class BlankSizes:
     """
 
     module: float = 1.0
-    """Pitch diameter over teeth [mm], above 0."""
+    """Pitch diameter over tooth number [mm], above 0."""
     clearance: float | None = None
-    """Between a tip and the mate's root [mm], 0 or more; default a quarter of a module."""
+    """Bottom clearance between a tip and the mate's root [mm], 0 or more; default a quarter of a module."""
     fillet: float | None = None
-    """Radius of the round at the root [mm], 0 or more; default 0.38 modules, or what fits."""
+    """Radius of the root fillet [mm], 0 or more; default 0.38 modules, or the largest that fits."""
     bore: float | None = None
     """Diameter of the hole in the middle [mm]; default no hole."""
     rim: float | None = None
-    """What stands round the roots of a ring, or the pins of a lantern [mm]; default two modules, or a pin."""
+    """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; default two modules, or a pin."""
     tolerance: float = 0.001
-    """How far a chord may leave a flank [mm]."""
+    """Maximum deviation of a chord from a flank [mm]."""
 
     def __post_init__(self) -> None:
-        """Raise `QuestionError` for what is no size."""
+        """Raise `QuestionError` if a value is not a valid size."""
         above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
         minimum = {"fillet": self.fillet, "clearance": self.clearance}
         problems = [
-            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} above 0", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--{name}")
             for name, value in above.items()
             if value is not None and not (isfinite(value) and value > 0)
         ]
         problems += [
-            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} of 0 or more", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--{name}")
             for name, value in minimum.items()
             if value is not None and not (isfinite(value) and value >= 0)
         ]
@@ -72,34 +72,34 @@ class BlankSizes:
             raise QuestionError(problems)
 
 
-def _twice(radius: float) -> float:
-    """The diameter."""
+def _diameter(radius: float) -> float:
+    """Return the diameter of a radius."""
     return 2 * radius
 
 
 @dataclass(frozen=True, slots=True)
 class WheelOutline(Result):
-    """A wheel's outline and sizes, to scale. Lengths in mm.
+    """Outline and sizes of a wheel, to scale. Lengths in mm.
 
     See Also
     --------
-    geartrain.teeth.GearMesh.wheel_outline : makes one.
+    geartrain.teeth.GearMesh.wheel_outline : Makes one.
     """
 
     KEYS = (
         *("gear", "z", "kind", "module", "thickness", "fillet", "relief", "clearance", "backlash"),
-        *(Key(f"{name}_diameter", f"{name}_radius", _twice) for name in ("pitch", "tip", "root")),
+        *(Key(f"{name}_diameter", f"{name}_radius", _diameter) for name in ("pitch", "tip", "root")),
         *("centre_distance", "tolerance"),
     )
 
     gear: int
-    """Which of the pair, 1 or 2."""
+    """Number of the gear in the pair, 1 or 2."""
     z: int
-    """Its teeth, or pins."""
+    """Number of teeth or pins."""
     kind: str
-    """Teeth outwards, teeth inwards, or holes for pins."""
+    """Kind of wheel: external, ring or pins."""
     contours: tuple[Contour, ...]
-    """The outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis."""
+    """Contours, the outer one first, then holes; the axle at (0, 0), a tooth or a pin on the x axis."""
     module: float
     """Module [mm]."""
     pitch_radius: float
@@ -109,11 +109,11 @@ class WheelOutline(Result):
     root_radius: float
     """Root radius [mm]."""
     thickness: float
-    """Of a tooth along the pitch circle [mm]."""
+    """Thickness of a tooth along the pitch circle [mm]."""
     fillet: float
-    """Radius of the round at the root [mm]; 0 where there is none."""
+    """Radius of the root fillet [mm]; 0 without a fillet."""
     relief: float
-    """How far the root is turned off the flank's tangent, so that the mate's tip passes [rad]."""
+    """Angle of the root off the flank's tangent, which lets the mate's tip pass [rad]."""
     clearance: float
     """Tip clearance of the pair [mm]."""
     backlash: float
@@ -121,42 +121,42 @@ class WheelOutline(Result):
     centre_distance: float
     """Centre distance of the pair [mm]."""
     tolerance: float
-    """How far a chord may leave a flank [mm]."""
+    """Maximum deviation of a chord from a flank [mm]."""
 
 
 # ------------------------------------------------------------------------------------------ wheels with conjugate teeth
 
 
 OutlineSizes = tuple[float, float, float, float, float]
-"""Radii of pitch, tip and root circle, thickness, radius of the round; modules."""
+"""Radii of pitch, tip and root circle, tooth thickness, fillet radius; modules."""
 
 
 def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins | None = None) -> WheelOutline:
-    """The outline of one wheel of a pair with conjugate teeth.
+    """Return the outline of one wheel of a pair with conjugate teeth.
 
-    Turned about by its own angle so that a space of gear 2 faces a tooth of gear 1, the two wheels mesh at
-    `centre_distance` with half the backlash on either side.
+    If gear 2 is rotated so that a space faces a tooth of gear 1, the two wheels mesh at `centre_distance` with half the
+    backlash on either side.
 
     Parameters
     ----------
     pair : ConjugatePair
-        As designed; spur.
+        Spur pair as designed.
     gear : {1, 2}
-        Which gear.
+        Number of the gear.
     cut : BlankSizes
         Module, bore, tolerance, and sizes of the roots.
     pins : LanternPins, optional
-        Where one of the gears is a lantern.
+        Pins if one of the gears is a lantern.
 
     Returns
     -------
     WheelOutline
-        To scale.
+        Outline to scale.
 
     Raises
     ------
     QuestionError
-        Where no such wheel can be cut.
+        If no such wheel can be cut.
 
     Examples
     --------
@@ -168,14 +168,14 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     (26.0, 60.0)
     """
     check_flat(pair)
-    both = _Both(pair, cut, pins)
+    both = _PairOutlines(pair, cut, pins)
     if pins is not None and gear == pins.gear:
         return both.lantern(pins)
     return both.toothed(gear)
 
 
-class _Both:
-    """Both wheels of a pair."""
+class _PairOutlines:
+    """Builder of the outlines of both wheels of a pair."""
 
     def __init__(self, pair: ConjugatePair, cut: BlankSizes, pins: LanternPins | None) -> None:
         self.pair, self.cut = pair, cut
@@ -183,17 +183,17 @@ class _Both:
         self.demand = ToothRequirement(pair, 1, cut.tolerance / cut.module, clearance, pins)
 
     def toothed(self, gear: int) -> WheelOutline:
-        """A wheel with teeth, or a ring."""
+        """Return the outline of a wheel with teeth, or of a ring gear."""
         wanted = None if self.cut.fillet is None else self.cut.fillet / self.cut.module
         tooth, relief = cut_tooth([self._of(gear)], wanted)
         if self.cut.fillet is not None and wanted is not None and tooth.fillet.radius < wanted:
-            raise _too_round(gear, self.cut.fillet, tooth.fillet.radius * self.cut.module)
+            raise _fillet_too_large(gear, self.cut.fillet, tooth.fillet.radius * self.cut.module)
         sizes = (tooth.flank.R, tooth.tip, tooth.root, 2 * self.pair.halves[gear - 1], tooth.fillet.radius)
         kind = "ring" if tooth.flank.outward < 0 else "external"
         return self._wheel(gear, kind, _contours(tooth, self.cut), sizes, relief)
 
     def lantern(self, pins: LanternPins) -> WheelOutline:
-        """A disc with a hole for each pin."""
+        """Return the outline of a lantern: a disc with a hole for each pin."""
         scale = self.cut.module
         inner, outer = pins.circle - pins.radius, pins.circle + pins.radius
         rim = 2 * pins.radius * scale if self.cut.rim is None else self.cut.rim
@@ -206,7 +206,7 @@ class _Both:
 
     def _wheel(self, gear: int, kind: str, contours: list[Contour], sizes: OutlineSizes, relief: float) -> WheelOutline:
         scale = self.cut.module
-        pitch, tip, root, thickness, round_ = (size * scale for size in sizes)
+        pitch, tip, root, thickness, fillet = (size * scale for size in sizes)
         return WheelOutline(
             gear=gear,
             z=int(self._of(gear).z),
@@ -217,7 +217,7 @@ class _Both:
             tip_radius=tip,
             root_radius=root,
             thickness=thickness,
-            fillet=round_,
+            fillet=fillet,
             relief=relief,
             clearance=self.demand.clearance * scale,
             backlash=self.pair.backlash * scale,
@@ -227,7 +227,10 @@ class _Both:
 
 
 def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) -> list[Contour]:
-    """A disc with a hole for each pin (mm); about the pins a rim, by default a pin's diameter."""
+    """Return the contours of a disc with a hole for each pin (mm), and a rim about the pins.
+
+    The default rim is a pin's diameter.
+    """
     R, radius = pins.circle * module, pins.radius * module
     turns = [2 * pi * k / z for k in range(z)]
     holes = (Contour.circle(radius, (R * cos(t), R * sin(t))) for t in turns)
@@ -235,25 +238,25 @@ def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) 
 
 
 def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: float = 0.0) -> Contour:
-    """The inside of a ring, of radius `root` (modules), with a round seat for each pin where one reaches into it (mm).
+    """Return the inner contour (mm) of a ring of radius `root` (modules), with a round seat for each pin.
 
-    wider   by how much (mm) the diameter of a seat is more than that of its pin
+    wider   clearance (mm) of the diameter of a seat over the diameter of its pin
     """
     R, radius, inside = pins.circle * module, pins.radius * module + wider / 2, root * module
     if not abs(R - radius) < inside < R + radius:
         return Contour.circle(inside)
     half = acos((R**2 + inside**2 - radius**2) / (2 * R * inside))
     x, y = inside * cos(half), inside * sin(half)
-    # bulges are tangents of quarters of both arcs: that of the seat, and that of the ring to the next one
+    # bulges are tangents of a quarter of each arc: of the seat, and of the ring up to the next seat
     seat = (x, -y, tan(atan2(y, x - R) / 2)), (x, y, tan((2 * pi / z - 2 * half) / 4))
     return Contour.of(repeated(seat, z))
 
 
-def _too_round(gear: int, requested: float, fits: float) -> QuestionError:
+def _fillet_too_large(gear: int, requested: float, fits: float) -> QuestionError:
     return QuestionError(
         Problem(
             f"a fillet of {requested:g} mm does not fit the root of gear {gear}",
-            "there it would stand in the way of the mate's tips, or of the next tooth",
+            "a larger fillet would touch the mate's tips or the next tooth",
             f"give at most {fits:.4g} mm, or more clearance",
             "--fillet",
         )
@@ -261,19 +264,19 @@ def _too_round(gear: int, requested: float, fits: float) -> QuestionError:
 
 
 def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
-    """Teeth and bore, or rim and teeth, in mm."""
+    """Return the contours of a toothed wheel (mm): teeth and bore, or rim and teeth."""
     teeth = tooth.whole().scaled(cut.module)
     if tooth.flank.outward > 0:
         if cut.rim is not None:
-            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "leave --rim out", "--rim"))
+            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --rim", "--rim"))
         return [teeth, *bore(cut, tooth.root * cut.module)]
     if cut.bore is not None:
-        raise QuestionError(Problem("a ring has no bore", "its middle is open", "leave --bore out", "--bore"))
+        raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --bore", "--bore"))
     return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """The hole of a wheel whose root circle has a radius of `root` (mm), if it has one."""
+    """Return the hole of a wheel whose root circle has a radius of `root` (mm), if it has one."""
     if cut.bore is None:
         return []
     most = 2 * (root - _THIN * cut.module)

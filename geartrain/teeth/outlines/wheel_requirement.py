@@ -1,4 +1,4 @@
-"""What a gear pair requires of the teeth of one of its wheels; one tooth that fits all pairs of the wheel."""
+"""Requirements of a gear pair on the teeth of one of its wheels, and one tooth that fits all pairs of the wheel."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from geartrain.errors import Problem
 if TYPE_CHECKING:
     from geartrain.teeth.outlines.tooth_outline import Vertex
 
-SAME_SIZE = 1e-9  # of a length, or rad: what differs by less is one
+SAME_SIZE = 1e-9  # of a length, or rad: smaller differences count as equal
 
 
 @dataclass(frozen=True, slots=True)
 class LanternPins:
-    """Round pins that are the teeth of a wheel: which gear has them, the radius of their circle, their own; modules."""
+    """Round pins of a lantern wheel: number of the gear, radius of the pin circle, radius of a pin; modules."""
 
     gear: int
     circle: float
@@ -26,40 +26,40 @@ class LanternPins:
 
 @dataclass(frozen=True, slots=True)
 class CutTooth:
-    """The tooth of a wheel as it is cut, lengths in modules."""
+    """Tooth of a wheel as cut, lengths in modules."""
 
     kind: str
-    """External, ring or pins."""
+    """Kind of wheel: external, ring or pins."""
     tip: float
-    """Radii."""
+    """Radius of the tip circle."""
     root: float
-    """Radii."""
+    """Radius of the root circle."""
     tooth: tuple[Vertex, ...] = ()
-    """About the x axis, from root to root; empty for pins."""
+    """Vertices of one tooth about the x axis, from root to root; empty for pins."""
     pins: LanternPins | None = None
-    """Of a lantern; of a ring whose teeth are pins, parts of their own, that lie in its inside."""
+    """Pins of a lantern, or of a ring gear whose teeth are separate pins seated in its inside."""
 
 
 class WheelRequirement(ABC):
-    """The teeth that one pair wants on one of its wheels."""
+    """Teeth that one pair requires on one of its wheels."""
 
     @property
     @abstractmethod
     def tip(self) -> float:
-        """Radius of the tips (modules)."""
+        """Radius of the tip circle (modules)."""
 
     @abstractmethod
     def agrees(self, other: WheelRequirement) -> bool:
-        """True if one wheel does for both."""
+        """Return True if one wheel meets both requirements."""
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """The tooth for this pair and for others that agree. Raises `GearTrainError` where there is none."""
+        """Return the tooth for this pair and for others that agree. Raises `GearTrainError` if no tooth fits."""
 
 
 @dataclass(frozen=True)
 class FixedTooth(WheelRequirement):
-    """A tooth that its form gives whole, whatever the mate does; vertices, kind and pins as in `CutTooth`, modules."""
+    """Tooth that its form defines completely, regardless of the mate; fields as in `CutTooth`, lengths in modules."""
 
     tip_radius: float
     root_radius: float
@@ -69,25 +69,25 @@ class FixedTooth(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tips (modules)."""
+        """Radius of the tip circle (modules)."""
         return self.tip_radius
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """True if every vertex is the same."""
+        """Return True if kind and all vertices are the same."""
         if not isinstance(other, FixedTooth) or (self.kind, len(self.tooth)) != (other.kind, len(other.tooth)):
             return False
         pairs = (pair for both in zip(self.tooth, other.tooth, strict=True) for pair in zip(*both, strict=True))
         return all(abs(a - b) <= SAME_SIZE * max(abs(a), 1.0) for a, b in pairs)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """The tooth itself."""
+        """Return the tooth itself, regardless of other requirements."""
         del others
         return CutTooth(self.kind, self.tip_radius, self.root_radius, self.tooth, self.pins)
 
 
 @dataclass(frozen=True)
 class PairRequirement:
-    """What a pair requires of a wheel: its name, the form of its teeth and that form in words, and the teeth."""
+    """Requirement of a pair on a wheel: name of the pair, form of its teeth, the form in words, and the teeth."""
 
     pair: str
     form: str
@@ -96,12 +96,12 @@ class PairRequirement:
 
 
 def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
-    """Why one wheel does not do for all its pairs; None where it does."""
+    """Return the reason why one wheel cannot serve all its pairs; None if it can."""
     odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
-    return next((_at_odds(requested[0], other) for other in odd), None)
+    return next((_conflict(requested[0], other) for other in odd), None)
 
 
-def _at_odds(first: PairRequirement, other: PairRequirement) -> Problem:
+def _conflict(first: PairRequirement, other: PairRequirement) -> Problem:
     tips = [each.requirement.tip for each in (first, other)]
     if first.words != other.words:
         how = f"{first.words} teeth and {other.words} teeth"
@@ -110,7 +110,7 @@ def _at_odds(first: PairRequirement, other: PairRequirement) -> Problem:
     else:
         how = f"{first.words} flanks of two shapes"
     return Problem(
-        f"its pairs '{first.pair}' and '{other.pair}' ask for different teeth",
-        f"they want {how}, and a wheel is cut once",
+        f"its pairs '{first.pair}' and '{other.pair}' require different teeth",
+        f"they require {how}, but a wheel has one kind of teeth",
         "declare teeth that run with both mates, or give each of them a wheel of its own",
     )

@@ -1,9 +1,9 @@
-"""Triangular teeth of antiquity, after F. Sorge: straight flanks that meet in a point.
+"""Triangular teeth of antiquity, after F. Sorge: straight flanks that meet in an apex.
 
-pair_geometry             depth, radii, centre distance, reach
-tooth_pair              contact of one pair of teeth: driven angle, speed ratio, friction
-real_path                 which pair of teeth drives where; collisions, dwells, clashes
-clearance_window          verdict, backlash of the coast flanks, window of clearance
+pair_geometry             depth, radii, centre distance, range of contact
+tooth_pair                contact of one tooth pair: driven angle, speed ratio, friction
+real_path                 active tooth pair at every position; collisions, dwells, clashes
+clearance_window          verdict, backlash of the coast flanks, clearance window
 triangular_transmission   transmission function; a table of contact over one pitch
 triangular_form           the form as declared, and its sizes
 triangular_mesh           a pair of a train: figures and explanations

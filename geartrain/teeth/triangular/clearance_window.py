@@ -1,4 +1,4 @@
-"""Whether a pair of triangular wheels turns: verdict, backlash of the coast flanks, window of clearance."""
+"""Motion of a pair of triangular wheels: verdict, backlash of the coast flanks, clearance window."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from itertools import pairwise
 from math import degrees, inf
 from typing import Literal
 
+from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import bracketed_root, root
 from geartrain.teeth.pair_results import PairVerdict
 from geartrain.teeth.tooth_form import refused
@@ -17,12 +18,12 @@ from geartrain.teeth.triangular.real_path import DWELL, DraggedPath, DriveInterv
 from geartrain.teeth.triangular.tooth_pair import APPROACH
 
 MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "dwell", "apart"]
-_ROUNDING = 1e-11  # of a driven pitch: play that is less below 0 is none
-_NEARLY_0 = 1e-9  # of the reach
+_ROUNDING = 1e-11  # of a driven pitch: backlash above minus this counts as 0
+_NEARLY_0 = 1e-9  # of the maximum excess
 
 
 class TriangularContact:
-    """A pair in contact: sizes, real path with its standstills, play, verdict."""
+    """Contact of a pair: sizes, real path with its dwells, backlash, verdict."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
         self.sizes = sizes
@@ -30,27 +31,27 @@ class TriangularContact:
         self._means: dict[tuple[str, float], float] = {}
 
     def mean(self, of: tuple[str, float], make: Callable[[], float]) -> float:
-        """A mean over the contact at some friction, integrated once for all laws that share it."""
+        """Return a cached mean over the contact at some friction, shared by all transmissions of the pair."""
         if of not in self._means:
             self._means[of] = make()
         return self._means[of]
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """The real path, the driven wheel standing where nothing pushes it."""
+        """Real path in which the driven wheel dwells while no tooth pushes it."""
         return drag(self.path)
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """What drives, in order of time."""
+        """Drive intervals in order of time."""
         return self.dragged.intervals
 
     def lag(self, t: float) -> float:
-        """y(t) - (z1/z2) t: how far the dragged wheel lags, in its own angle, at the driver's position t."""
+        """Return the lag y(t) - (z1/z2) t of the dragged driven wheel (rad) at the driver's position t."""
         return self._height(*self.locate(t))
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """The interval that holds position t, and alpha_1 there."""
+        """Return the interval that contains position t, and alpha_1 there."""
         return _locate(self.intervals, t, self.sizes.p1)
 
     def _height(self, interval: DriveInterval, x: float) -> float:
@@ -59,21 +60,23 @@ class TriangularContact:
         return interval.held - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: float) -> float:
-        """tau, 0 in a standstill."""
+        """Return the speed ratio tau, which is 0 in a dwell."""
         return 0.0 if interval.held is not None else float(self.path.tooth_pair.speed(interval.phase, x))
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """What bounds the driven wheel, pushing or not; a gap where nothing does."""
+        """Intervals that limit the driven wheel, including contacts that cannot push, with gaps where nothing limits
+        it.
+        """
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
     @cached_property
     def backlash(self) -> float:
-        """The least play of the back flanks over a pitch (rad of the driven wheel); below 0 they jam.
+        """Minimum backlash at the coast flanks over a pitch (rad of the driven wheel); below 0 they jam.
 
-        The sum of the law and the mirror image of the bounds is smooth between their corners, where tau differs or
-        turns; within, it is least where both have the same tau.
+        The sum of the transmission function and the mirror image of the bounds is smooth between their kinks. Within a
+        smooth cell it has its minimum where both have the same tau.
         """
         pitch = self.sizes.p1
         kinks = {kink % pitch for interval in self.intervals for kink in self._kinks(interval)}
@@ -87,13 +90,13 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """The least play between two corners: at one of them, or where both sides have one tau."""
+        """Return the minimum backlash between two kinks: at one of them, or where both sides have the same tau."""
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
         theirs, back = _locate(self._bounds, -middle, pitch)
         half = (high - low) / 2
         if back < theirs.end - _ROUNDING * pitch:
-            return inf  # a gap: nothing is in reach of the back flanks
+            return inf  # a gap: nothing limits the coast flanks
         start, back = start - half, back + half
 
         def backlash(step: float) -> float:
@@ -105,29 +108,29 @@ class TriangularContact:
         ends = min(backlash(0.0), backlash(2 * half))
         if not slope(0.0) < 0 < slope(2 * half):
             return ends
-        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)  # a slope of 0 makes it halve
+        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)  # a derivative of 0 makes it bisect
         return min(ends, backlash(step))
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """The first of the checks that fails: valley, reach, overhang, back flanks, entry, exit."""
+        """Verdict from the first check that fails: valley, range of contact, overhang, coast flanks, entry, exit."""
         sizes = self.sizes
         if not sizes.has_valleys:
-            return self._failed("no valley", _no_valley(sizes))
+            return self._failure("no valley", _no_valley(sizes))
         if not self.intervals:
-            return self._failed("apart", "the tips never touch: the wheels are too far apart")
-        return PairVerdict(*self._judged(), self.backlash)
+            return self._failure("apart", "the tips never touch: the wheels are too far apart")
+        return PairVerdict(*self._judgement(), self.backlash)
 
     @staticmethod
-    def _failed(kind: MeshingKind, text: str) -> PairVerdict:
+    def _failure(kind: MeshingKind, text: str) -> PairVerdict:
         return PairVerdict(kind, text, -inf)
 
-    def _judged(self) -> tuple[MeshingKind, str]:
+    def _judgement(self) -> tuple[MeshingKind, str]:
         if self.overhang:
             return "overhang", self.overhang
         if self.backlash < -_ROUNDING * self.sizes.p2:
             return "jam", (
-                f"the back flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven "
+                f"the coast flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven "
                 f"wheel too thick for "
                 "the spaces at this clearance"
             )
@@ -138,29 +141,31 @@ class TriangularContact:
             )
         if self.dragged.arrested:
             return "dwell", (
-                "the driven wheel is left standing for good: no tooth is in reach for a while, and the next one goes by"
+                "the driven wheel stops for good: no tooth is within range for a while, and the next one passes it"
             )
         if self.idle > 0:
             return "dwell", (
-                f"the driven wheel stands still for {degrees(self.idle):.4g} deg of the driver at each pitch, and is "
-                f"{degrees(self.lost):.4g} deg behind when the next tooth comes"
+                f"the driven wheel dwells for {degrees(self.idle):.4g} deg of the driver in each pitch, and lags by "
+                f"{degrees(self.lost):.4g} deg when the next tooth arrives"
             )
         return "runs", "the wheels turn"
 
     @property
     def idle(self) -> float:
-        """The driver's angle (rad) in the standstills of one pitch."""
+        """Driver angle (rad) of all dwells of one pitch."""
         return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
-        """The step of the driven wheel's law (rad) at the standstills of one pitch."""
+        """Driven angle (rad) lost in the dwells of one pitch."""
         return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
-        """The path must not reach a flank that leans beyond the perpendicular, nor turn the driven wheel back."""
-        # ends of intervals are roots, found to less than this
+        """Text on an overhanging flank that the path reaches or that turns the driven wheel back; empty if there is
+        none.
+        """
+        # ends of intervals are roots with a smaller error than this
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
             if interval.held is not None:
@@ -179,7 +184,10 @@ class TriangularContact:
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """The interval that holds position t, and alpha_1 there; in a gap the nearest one, and alpha_1 outside it."""
+    """Return the interval that contains position t, and alpha_1 there.
+
+    In a gap it is the nearest interval, and alpha_1 is outside it.
+    """
     for interval in intervals:
         gone = (interval.start - t) % pitch
         if gone <= interval.width:
@@ -195,7 +203,7 @@ def _no_valley(sizes: TriangularSizes) -> str:
         if not 0 < angle < 90:
             return (
                 f"{z} teeth of half angle {degrees(beta):.6g} deg do not exist: on the {name} half angle "
-                f"{'+' if sign > 0 else '-'} 180/z is {angle:.6g} deg, and must be {bound} deg for flanks to meet in a "
+                f"{'+' if sign > 0 else '-'} 180/z is {angle:.6g} deg, but must be {bound} deg for flanks to meet in a "
                 "valley"
             )
     raise AssertionError
@@ -205,37 +213,37 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class ClearanceWindow:
-    """Clearances between which a pair of triangular teeth turns: above `jam`, up to `run`; each as excess.
+class ClearanceWindow(Shown):
+    """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, each as excess.
 
-    False where `run` is below `jam`: no clearance works. Where a pair runs in several stretches of clearance this is
-    the first.
+    It is false if `run` is below `jam`, so that no clearance works. If a pair runs in several ranges of clearance, this
+    is the first.
 
     See Also
     --------
-    find_window : gives it.
+    find_window : Computes it.
     """
 
     jam: float
-    """Clearance up to which the pair does not turn."""
+    """Excess up to which the pair does not turn."""
     run: float
-    """Clearance up to which the pair runs."""
+    """Excess up to which the pair runs."""
     run_kind: Literal["clash", "dwell"]
-    """What happens beyond `run`."""
+    """Verdict beyond `run`."""
     reach: float
     """Excess beyond which no tip touches."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """What happens up to `jam`."""
+    """Verdict below `jam`."""
     side: int = 1
-    """1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
+    """Sign: 1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
-        """The clearance factor of an excess.
+        """Return the clearance factor of an excess.
 
         Parameters
         ----------
         excess : float
-            As of `TriangularSizes`.
+            Fraction as in `TriangularSizes.excess`.
         """
         return 1 + self.side * excess
 
@@ -259,24 +267,24 @@ class ClearanceWindow:
 
     @property
     def works(self) -> bool:
-        """True if some clearance lets the pair turn."""
+        """True if the pair turns at some clearance."""
         return bool(self.jam < self.run)
 
     def at(self, fraction: float) -> float:
-        """The excess at a fraction of the window.
+        """Return the excess at a fraction of the window.
 
         Parameters
         ----------
         fraction : float
-            0 at the jam, 1 where contact is lost.
+            0 at `jam`, 1 at `run`.
         """
         return self.jam + fraction * (self.run - self.jam)
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """The window of clearance of a pair, whatever its own clearance.
+    """Find the clearance window of a pair, regardless of its own clearance.
 
-    Bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
+    The method is bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
 
     Parameters
     ----------
@@ -286,7 +294,7 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
     Returns
     -------
     ClearanceWindow
-        The first stretch of clearance in which it turns; false if there is none.
+        First range of clearance in which the pair turns; false if no such range exists.
 
     Examples
     --------
@@ -303,20 +311,23 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
 def _window(sizes: TriangularSizes) -> ClearanceWindow:
     reach = sizes.maximum_excess
     jam = _minimum_excess(sizes)
-    leaning = _leaning_excess(sizes, jam)
-    low = max(jam, leaning)
-    clash = _stretch(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
-    still = _stretch(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
-    # equal wheels do both at once, and the driven wheel that stands lets the next tooth in
-    run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < still[1] * (1 - 1e-9) else "dwell"
+    overhang = _overhang_excess(sizes, jam)
+    low = max(jam, overhang)
+    clash = _first_range(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
+    dwell = _first_range(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
+    # equal wheels reach both limits at once, and the dwelling driven wheel admits the next tooth
+    run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < dwell[1] * (1 - 1e-9) else "dwell"
     starts: dict[Literal["jam", "overhang", "clash", "dwell"], float]
-    starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "dwell": still[0]}
+    starts = {"jam": jam, "overhang": overhang, "clash": clash[0], "dwell": dwell[0]}
     jam_kind = max(starts, key=lambda kind: starts[kind])
-    return ClearanceWindow(starts[jam_kind], min(clash[1], still[1]), run_kind, reach, jam_kind, sizes.side)
+    return ClearanceWindow(starts[jam_kind], min(clash[1], dwell[1]), run_kind, reach, jam_kind, sizes.side)
 
 
 def _minimum_excess(sizes: TriangularSizes) -> float:
-    """The excess from which back flanks have play: 0 where they always have, the reach where they never do."""
+    """Return the excess above which the coast flanks have backlash.
+
+    It is 0 if they always have, and the maximum excess if they never have.
+    """
     reach = sizes.maximum_excess
 
     def backlash(excess: float) -> float:
@@ -327,53 +338,58 @@ def _minimum_excess(sizes: TriangularSizes) -> float:
     return _first_sign_change(backlash, reach * _NEARLY_0, reach)
 
 
-def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
-    """The excess up to which the path reaches a leaning flank; 0 if it does not where the pair ceases to jam."""
+def _overhang_excess(sizes: TriangularSizes, jam: float) -> float:
+    """Return the excess up to which the path reaches an overhanging flank; 0 if it does not where the pair ceases to
+    jam.
+    """
     reach = sizes.maximum_excess
-    # at the jam itself the play is 0 but for rounding
+    # at the jam limit itself the backlash is 0 except for rounding
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
 
-    def stands(excess: float) -> float:
-        return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0  # a step: `root` halves
+    def margin(excess: float) -> float:
+        return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0  # a step function: `root` bisects
 
-    if low >= reach or not any(sizes.at(low).lean) or stands(low) > 0:
+    if low >= reach or not any(sizes.at(low).lean) or margin(low) > 0:
         return 0.0
-    return _first_sign_change(stands, low, reach)
+    return _first_sign_change(margin, low, reach)
 
 
-def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Where a margin first holds: from 0 or `low` if it does there, else from where it begins to; 0, 0 if never."""
+def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
+    """Return the first range of excess in which `margin` is positive.
+
+    The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.
+    """
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
         if start < reach and margin(start) > 0:
             return 0.0, _first_sign_change(margin, start, reach)
     if low >= reach:
         return 0.0, 0.0
     start = _first_sign_change(margin, max(low * (1 + 1e-9), reach * _NEARLY_0), reach)
-    # so near to where tips last touch the sign is that of rounding
+    # close to the excess at which tips last touch the sign is due to rounding
     if start >= reach * (1 - 1e-6):
         return 0.0, 0.0
     return start, _first_sign_change(margin, start + 1e-9 * reach, reach)
 
 
 def _entry(path: RealPath) -> float:
-    """Below 0 where a couple comes in below the others."""
+    """Return the margin at entry: below 0 if a tooth pair enters below the others."""
     last = path.pieces[-1]
     return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
 
 
 def _exit(path: RealPath) -> float:
-    """Below 0 where a couple leaves before another one can drive."""
+    """Return the margin at exit: below 0 if a tooth pair leaves before another one can drive."""
     first = path.pieces[0]
     return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """The least excess from `low` at which `value` changes its sign; `reach` if it never does."""
-    # looked at in 16 steps before `root`: a stretch shorter than one of them may be passed over
+    """Return the smallest excess above `low` at which `value` changes its sign; `reach` if it never does."""
+    # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)
     for step in range(1, steps + 1):
-        # short of the reach, where tips barely touch and the path has no length
+        # below the maximum excess, where tips barely touch and the path has zero length
         high = start + (reach * (1 - _NEARLY_0) - start) * step / steps
         at_high = value(high)
         if (at_high > 0) != (at_low > 0):
@@ -383,19 +399,22 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 
 
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
-    """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
+    """Return the excess whose minimum backlash on the second wheel's pitch circle is `backlash`.
+
+    The root is unique because the backlash increases with the excess.
+    """
 
     def backlash_at(excess: float) -> float:
         D = sizes.factor(excess) * sizes.deepest_distance
         return TriangularContact(sizes.at(excess)).backlash * D * sizes.z2 / sizes.pitch_sum
 
-    # at the greatest excess itself tips do not touch, and there is no play
+    # at the maximum excess itself tips do not touch and the backlash is undefined
     low, high = 0.0, sizes.maximum_excess * (1 - 1e-9)
     minimum, most = backlash_at(low), backlash_at(high)
     if not minimum <= backlash <= most:
         raise refused(
             f"no clearance gives a backlash of {text}",
             f"these teeth have from {max(minimum, 0):.6g} to {most:.6g} (in m, or the plain unit)",
-            "give a backlash between the two",
+            "give a backlash in this range",
         )
     return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

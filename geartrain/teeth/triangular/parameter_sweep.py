@@ -1,4 +1,4 @@
-"""Verdict and figures of a pair of triangular wheels as one or two parameters vary."""
+"""Verdict and figures of a pair with triangular teeth as one or two parameters vary."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from geartrain.teeth.triangular.real_path import matches
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 TransmissionFactory = Callable[..., TriangularTransmission]
-"""A law from the values of the varied parameters, by name."""
+"""Function that builds a transmission from the values of the varied parameters, by name."""
 
 ASTRIDE = "astride"
 _MOST_CHANGES = 100
@@ -34,7 +34,7 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class ParameterSweep:
-    """Values of the parameters (one array each, all of one shape), what follows from them, and the verdicts.
+    """Results of a sweep: parameter values (one array each, all of one shape), figures, and verdicts.
 
     `phases` names the phases of the real path in order of time, such as "approach+recess".
     """
@@ -51,11 +51,11 @@ class ParameterSweep:
 
     @property
     def labels(self) -> NDArray[np.str_]:
-        """The phases of pairs that run, the verdict of others."""
+        """Phases of pairs that run, verdicts of the others."""
         return np.where(self.verdicts == "runs", self.phases, self.verdicts)
 
     def rows(self) -> Iterator[tuple[object, ...]]:
-        """One row for each point, the first parameter slowest."""
+        """Yield one row for each point, the first parameter varying slowest."""
         arrays = (*self.parameters.values(), self.verdicts, self.phases, *self.columns.values())
         return zip(*(array.ravel().tolist() for array in arrays), strict=True)
 
@@ -63,7 +63,10 @@ class ParameterSweep:
 def sweep(
     make: TransmissionFactory, ranges: Mapping[str, Sequence[float]], on_point: Callable[[], None] = lambda: None
 ) -> ParameterSweep:
-    """The law at every combination of one or two ranges. What cannot be built gets the verdict "none" and NaN."""
+    """Evaluate the transmission at every combination of one or two ranges.
+
+    A combination that cannot be built has the verdict "none" and NaN figures.
+    """
     shape = tuple(len(values) for values in ranges.values())
     grids = np.meshgrid(*(np.asarray(values, dtype=float) for values in ranges.values()), indexing="ij")
     numbers = np.full((len(COLUMNS), int(np.prod(shape))), nan)
@@ -107,7 +110,10 @@ def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, st
 
 
 def phases_of(transmission: TriangularTransmission) -> str:
-    """The phases of the real path from its entry on, such as "approach+recess"; one through matching is "astride"."""
+    """Return the phases of the real path from its entry on, such as "approach+recess".
+
+    A path that passes through the matching position is "astride".
+    """
     path = transmission.intervals
     through = [matches(path[at - 1], path[at], transmission.period) for at in range(len(path))]
     entries = [at for at, matched in enumerate(through) if not matched and path[at].held is None]
@@ -123,7 +129,7 @@ def phases_of(transmission: TriangularTransmission) -> str:
 
 @dataclass(frozen=True)
 class VerdictChange:
-    """Where verdict or phases change: between `before` below `value` and `after` above it."""
+    """Parameter value at which verdict or phases change from `before` below it to `after` above it."""
 
     value: float
     before: str
@@ -131,7 +137,7 @@ class VerdictChange:
 
 
 def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list[VerdictChange]:
-    """Every change seen along a sweep of one parameter, halved down to rounding, at most a hundred."""
+    """Locate every change along a sweep of one parameter by bisection, at most 100 changes."""
     values = found.parameters[name].tolist()
     labels = [_label(v, p) for v, p in zip(found.verdicts.tolist(), found.phases.tolist(), strict=True)]
     seen: list[VerdictChange] = []
@@ -147,9 +153,10 @@ def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list
 def _locate(
     make: TransmissionFactory, name: str, low: float, high: float, before: str, after: str
 ) -> tuple[float, str]:
+    # 60 bisections reduce any range to neighbouring floats
     for _ in range(60):
         middle = low + (high - low) / 2
-        # a hundred or so floats from each other: the verdict is no sharper
+        # about 100 floats apart: the verdict has no finer resolution
         if not low < middle < high or high - low < 1e-13 * abs(high):
             break
         verdict, phases, _row = _point(make, {name: middle})
@@ -163,9 +170,9 @@ def _label(verdict: str, phases: str) -> str:
 
 
 def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[float, float] | None:
-    """The value of the parameter at which a pair that runs is most efficient, and that efficiency.
+    """Return the parameter value of maximum efficiency among pairs that run, and that efficiency.
 
-    Looked for among the points of the sweep, then between the neighbours of the best by golden section.
+    The best point of the sweep is refined between its neighbours by golden-section search.
     """
     values = found.parameters[name].tolist()
     efficiency = np.where(found.verdicts == "runs", found.columns["efficiency_mean"], nan)
@@ -179,7 +186,7 @@ def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[f
 
     low, high = values[max(at - 1, 0)], values[min(at + 1, len(values) - 1)]
     golden = (5**0.5 - 1) / 2
-    # by 0.618^40 = 4e-9: a maximum is so flat that values tell half the digits only
+    # 0.618^40 = 4e-9: function values resolve only half the digits of a maximum
     for _ in range(40):
         a, b = high - golden * (high - low), low + golden * (high - low)
         low, high = (low, b) if value(a) >= value(b) else (a, high)

@@ -1,14 +1,14 @@
-"""The real path of contact: which couple of teeth drives where, and whether it can.
+"""Real path of contact of triangular teeth: the tooth pair that drives at each position, and verdicts on it.
 
-Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`tooth_pair`), so that it follows
-U(t) = min over k, docs/teeth.md (10), and, dragged, y <- min(y, U(t)) as t decreases. Less the mean motion this is the
-least of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between matching and the ends of reach g is convex, or
-concave and then convex (few teeth), so that on each such piece only its ends, or the two couples about its minimum, can
-drive: the cost does not grow with the number of couples in reach.
+Every tooth pair k prevents the driven wheel from lagging behind f(t + k p1) - k p2 (`tooth_pair`). The driven wheel
+therefore follows U(t) = min over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t decreases. Less the mean
+motion this is the minimum of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between the matching position and
+the ends of contact g is convex, or concave and then convex (few teeth). On each such piece only its ends, or the two
+tooth pairs next to its minimum, can drive, so the cost does not grow with the number of tooth pairs within range.
 
-The envelope of the couples falls with time, but may leap: up where a couple leaves before the next one can drive (the
-driven wheel dwells until one reaches it), down where a couple comes in tip against tip (a clash). A collision is where
-the speed ratio leaps as another couple takes over.
+The envelope of the tooth pairs decreases with time, but it may be discontinuous. It steps up where a pair leaves
+before the next one can drive (the driven wheel dwells until one reaches it), and down where a pair enters tip against
+tip (a clash). A collision is a step of the speed ratio as another tooth pair takes over.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, RETURN, SLIP, ToothPair
 
 DWELL = "dwell"
-_ROUNDING = 1e-11  # of a pitch: what is shorter is no interval
-_SMALL = 1e-10  # of a pitch: a lesser leap or gap is none
+_ROUNDING = 1e-11  # of a pitch: shorter intervals are discarded
+_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding
 
 
 @dataclass(frozen=True, slots=True)
 class MonotonePiece:
-    """A stretch of alpha_1 in one phase where tau only rises (convex) or only falls."""
+    """Range of alpha_1 in one phase in which tau is monotonic: f is convex or concave."""
 
     phase: str
     low: float
@@ -41,23 +41,22 @@ class MonotonePiece:
 
 @dataclass(frozen=True, slots=True)
 class DriveInterval:
-    """A stretch of alpha_1 from `start` down to `end` in which one couple drives, or none does (standstill).
+    """Range of alpha_1 from `start` down to `end` in which one tooth pair drives, or none does (dwell).
 
-    `tooth_pair` counts teeth: alpha_1 = t + couple p1 for a position t common to all intervals of a path. In a
-    standstill
-    it is the couple that has just let go, and `held` the angle alpha_2 at which it left the driven wheel standing.
+    `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1 for a position t common to all intervals of a path. In a
+    dwell it is the pair that has just let go, and `held` is the angle alpha_2 at which it left the driven wheel.
     """
 
     phase: str
-    """Which part of a tooth drives."""
+    """Phase of contact: approach, recess or dwell."""
     start: float
-    """Angle alpha_1 at which it begins [rad]."""
+    """Angle alpha_1 at the start [rad]."""
     end: float
-    """Angle alpha_1 at which it ends [rad]."""
+    """Angle alpha_1 at the end [rad]."""
     tooth_pair: int
-    """Number of the couple of teeth."""
+    """Number of the tooth pair."""
     held: float | None = None
-    """Angle alpha_2 at which the driven wheel stands still [rad]; None while a couple drives."""
+    """Angle alpha_2 at which the driven wheel dwells [rad]; None while a tooth pair drives."""
 
     @property
     def width(self) -> float:
@@ -66,27 +65,27 @@ class DriveInterval:
 
 
 class RealPath:
-    """Contact of all couples of teeth over one pitch of the driver."""
+    """Contact of all tooth pairs over one pitch of the driver."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """`slips` adds contact that bounds the driven wheel but cannot push it."""
+        """Create the path; `slips` adds contact that limits the driven wheel but cannot push it."""
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
 
-    # ---------------------------------------------------------------------------------------------------- one couple
+    # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """f(x) less the mean motion: what the driven wheel lags behind it, in its own angle."""
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind the mean motion (rad)."""
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
-        """d g / d x: tau less its mean."""
+        """Return d g / d x: tau less its mean."""
         return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Recess, then approach, each cut where the curvature of f changes its sign; none where there are no teeth."""
+        """Pieces of recess, then approach, each cut where the curvature of f changes sign; empty without valleys."""
         if not self.sizes.has_valleys:
             return []
         first, last = self.sizes.entry, self.sizes.exit
@@ -95,10 +94,10 @@ class RealPath:
         for phase, low, high in ((RECESS, last, matching), (APPROACH, matching, first)):
             if high > low:
                 found += self._cut(phase, low, high)
-        return [*self._slips(), *found] if self.slips else found
+        return [*self._slip_pieces(), *found] if self.slips else found
 
-    def _slips(self) -> Iterator[MonotonePiece]:
-        """Contact with leaning flanks on the exit side."""
+    def _slip_pieces(self) -> Iterator[MonotonePiece]:
+        """Yield the contacts with overhanging flanks on the exit side."""
         sizes = self.sizes
         for phase, low, high in ((RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit)):
             if high > low:
@@ -112,26 +111,26 @@ class RealPath:
         if first == last:
             return [MonotonePiece(phase, low, high, first)]
         a, b = low, high
-        # bisection to neighbouring floats: only the sign of the curvature's formula is needed, and no derivative of it
+        # bisection to neighbouring floats, as it needs only the sign of the curvature and no derivative
         while a < (middle := a + (b - a) / 2) < b:
             a, b = (middle, b) if (slope(middle) > 0) == first else (a, middle)
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """g where tau passes through its mean between `low` and `high`, where tau is monotone."""
+        """Return the extremes of g between `low` and `high`, where tau is monotonic: none or one."""
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
         x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.tooth_pair.slope(phase, x), low, high)
         return [self.g(phase, x)]
 
-    # ------------------------------------------------------------------------------------------------- all couples
+    # ------------------------------------------------------------------------------------------------ all tooth pairs
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """The parts of the pieces, none longer than a pitch, on which a couple can be the lowest of its piece."""
-        return [branch for piece in self.pieces for branch in self._lowest(piece)]
+        """Parts of the pieces, at most one pitch long, on which a tooth pair can be the lowest of its piece."""
+        return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
-    def _lowest(self, piece: MonotonePiece) -> list[MonotonePiece]:
+    def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
         low, high, pitch = piece.low, piece.high, self.pitch
         if high - low <= pitch:
             return [piece]
@@ -152,11 +151,13 @@ class RealPath:
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
-        """g(x + p1) - g(x)."""
+        """Return the increase g(x + p1) - g(x) over one pitch."""
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """The least g over the couples at position t, `besides` one of them; infinite where none is in reach."""
+        """Return the minimum of g over the tooth pairs at position t except pair `besides`; infinite if none is within
+        range.
+        """
         minimum = inf
         for piece in self.pieces:
             first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
@@ -168,12 +169,12 @@ class RealPath:
     def _candidates(self, piece: MonotonePiece, t: float, first: int, last: int) -> set[int]:
         if last - first < 4 or not piece.convex:
             return {k for k in (first, first + 1, last - 1, last) if first <= k <= last}
-        # two couples on either side of the bottom, where one would do: rounding may shift it
-        bottom = round((self._bottom(piece) - t) / self.pitch)
-        return {k for k in range(bottom - 2, bottom + 3) if first <= k <= last} | {first, last}
+        # two tooth pairs on either side of the minimum instead of one, as rounding may shift it
+        nearest = round((self._minimiser(piece) - t) / self.pitch)
+        return {k for k in range(nearest - 2, nearest + 3) if first <= k <= last} | {first, last}
 
-    def _bottom(self, piece: MonotonePiece) -> float:
-        """Where g is least in a convex piece."""
+    def _minimiser(self, piece: MonotonePiece) -> float:
+        """Return the minimiser of g in a convex piece."""
         low, high = piece.low, piece.high
         if self.slope(piece.phase, low) >= 0:
             return low
@@ -187,7 +188,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """What drives over one pitch as t decreases, standstills not yet put in; gaps are left out."""
+        """Drive intervals over one pitch as t decreases, before dwells are inserted; gaps are omitted."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:
@@ -196,10 +197,10 @@ class RealPath:
         for early, late in pairwise(sorted(cuts)):
             if late - early > _ROUNDING * self.pitch:
                 found += self._cell(base - early, base - late)
-        return self._closed(_joined(found))
+        return self._with_whole_first(_join_neighbours(found))
 
-    def _closed(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """The period begun where an interval begins, not in the midst of one."""
+    def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
+        """Shift the period so that it begins where an interval begins, not within one."""
         if not found:
             return found
         first, last = found[0], found[-1]
@@ -209,9 +210,9 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """One stretch of t in which no branch begins or ends."""
+        """Yield the drive intervals of a range of t in which no branch begins or ends."""
         middle = low + (high - low) / 2
-        found = {}  # the two ends of a concave piece may be one stretch of one couple
+        found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
             k = floor((branch.high - middle) / self.pitch)
             if middle + k * self.pitch >= branch.low:
@@ -232,7 +233,9 @@ class RealPath:
     def _lowest_at(
         self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
     ) -> tuple[MonotonePiece, int]:
-        """The lowest branch at t, the last one where it is as low to rounding: branches may coincide for a while."""
+        """Return the lowest branch at t, preferring the previous one within rounding because branches may coincide for
+        a while.
+        """
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
         minimum = min(heights)
         if last is not None and heights[active.index(last)] <= minimum + self._noise:
@@ -241,13 +244,13 @@ class RealPath:
 
     @cached_property
     def _noise(self) -> float:
-        """The rounding of g, whose two terms are no larger than these."""
+        """Rounding error of g, from the magnitude of its two terms."""
         return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
     ) -> Iterator[float]:
-        """Where two branches are equally low."""
+        """Yield the positions t at which two branches intersect."""
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
         low, high = low + i * self.pitch, high + i * self.pitch
@@ -263,7 +266,7 @@ class RealPath:
             return float(self.tooth_pair.slope(a.phase, x) - self.tooth_pair.slope(b.phase, x + shift))
 
         def bounds(c: float, d: float) -> tuple[float, float]:
-            # where the difference bends one way its slope is bounded by the ends; three points speak for the stretch
+            # where the curvature of the difference has one sign, its slope is bounded by the ends; three samples decide
             bends = (bend(c), bend((c + d) / 2), bend(d))
             if min(bends) > 0 or max(bends) < 0:
                 ends = sorted((slope(c), slope(d)))
@@ -276,8 +279,8 @@ class RealPath:
             yield bracketed_root(difference, slope, c, d) - i * self.pitch
 
 
-def _joined(cells: list[DriveInterval]) -> list[DriveInterval]:
-    """Neighbours of one couple in one phase as one interval."""
+def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
+    """Join neighbouring intervals of the same tooth pair and phase."""
     found: list[DriveInterval] = []
     for cell in cells:
         last = found[-1] if found else None
@@ -293,15 +296,15 @@ def _joined(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """A collision: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
+    """Collision: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
 
-    `kind` is the phase that begins, or "matching" where the flank of one couple falls on the other's.
+    `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the other's.
     """
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
-    """The phase that begins, or `matching`."""
+    """Phase that begins, or `matching`."""
     alpha1: float
     """Angle of the driver [rad]."""
     before: float
@@ -316,9 +319,9 @@ class SpeedJump(Result):
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """True if one couple goes on from flank to flank, through the position where they match."""
+    """Return True if one tooth pair continues from flank to flank through the matching position."""
     faces = last.held is None and new.held is None and last.phase != new.phase
-    # both are the same root, found from either side
+    # both are the same root, computed from either side
     return faces and abs(last.end - new.start) < 1e-9 * pitch
 
 
@@ -327,25 +330,26 @@ def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class DraggedPath:
-    """The real path with standstills, and how far the entering tips overlap in a clash (rad of the driven wheel)."""
+    """Real path with dwells, and the overlap of the entering tips in a clash (rad of the driven wheel)."""
 
     intervals: tuple[DriveInterval, ...]
     clash: float
-    lost: float  # the driven wheel's law leaps by this at standstills, per pitch (rad)
-    arrested: bool = False  # the driven wheel is left standing for good
+    lost: float  # driven angle lost in dwells per pitch (rad)
+    arrested: bool = False  # the driven wheel stops for good
 
 
 def drag(path: RealPath) -> DraggedPath:
-    """Let the driven wheel stand wherever no couple pushes it."""
+    """Insert a dwell of the driven wheel wherever no tooth pair pushes it."""
     envelope = path.envelope
     if not envelope:
         return DraggedPath((), 0.0, inf)
+    # start at the minimum of g, which the driven wheel reaches whatever its earlier position
     first = min(range(len(envelope)), key=lambda at: _minimum(path, envelope[at])) if len(envelope) > 1 else 0
     order = [*envelope[first:], *(_next_pitch(each) for each in envelope[:first])]
-    walk = _Walk(path, order[0])
+    traversal = _PitchTraversal(path, order[0])
     for interval in (*order[1:], _next_pitch(order[0])):
-        walk.on_to(interval)
-    return walk.result()
+        traversal.append(interval)
+    return traversal.result()
 
 
 def _next_pitch(interval: DriveInterval) -> DriveInterval:
@@ -353,37 +357,39 @@ def _next_pitch(interval: DriveInterval) -> DriveInterval:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """The least of g over an interval, which the driven wheel reaches whatever came before."""
+    """Return the minimum of g over an interval, which the driven wheel reaches from any earlier position."""
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
-class _Walk:
-    """One pitch from the lowest point of the envelope to the same point again."""
+class _PitchTraversal:
+    """Traversal of one pitch, from the lowest point of the envelope to the same point again."""
 
     def __init__(self, path: RealPath, first: DriveInterval) -> None:
         self.path, self.first = path, first
         self.small, self.gap = _SMALL * path.sizes.p2, _SMALL * path.pitch
         self.done: list[DriveInterval] = [first]
-        self.held: DriveInterval | None = None  # the couple that let go
+        self.held: DriveInterval | None = None  # the tooth pair that let go
         self.clash = self.lost = 0.0
         self.arrested = False
 
-    def on_to(self, interval: DriveInterval) -> None:
-        """The next interval of the envelope: join it, stand until it comes down, or meet its tip."""
+    def append(self, interval: DriveInterval) -> None:
+        """Append the next interval of the envelope: join it, dwell until it reaches the driven wheel, or clash with its
+        tip.
+        """
         last = self.held or self.done[-1]
-        y = self._standing(last, interval)
-        leap = self.path.tooth_pair.angle(interval.phase, interval.start) - y
+        y = self._dwell_angle(last, interval)
+        step = self.path.tooth_pair.angle(interval.phase, interval.start) - y
         gap = last.end - interval.start + (interval.tooth_pair - last.tooth_pair) * self.path.pitch
-        if leap < -self.small:
-            # a tooth that enters an empty reach ahead of its mate passes by, and nothing pushes the mate any more
+        if step < -self.small:
+            # a tooth that enters ahead of its mate while no other touches passes it, and its push ends
             self.arrested |= gap > self.gap
-            self.clash = self.clash if gap > self.gap else max(self.clash, -leap)
-        if self.held is None and (leap > self.small or gap > self.gap):
+            self.clash = self.clash if gap > self.gap else max(self.clash, -step)
+        if self.held is None and (step > self.small or gap > self.gap):
             self.held = last
-            self.lost += max(leap, 0.0)
-        if self.held is not None and leap > self.small:
-            # an interval that ends above the driven wheel never comes down to it
+            self.lost += max(step, 0.0)
+        if self.held is not None and step > self.small:
+            # an interval that ends above the driven wheel never reaches it
             if self.path.tooth_pair.angle(interval.phase, interval.end) >= y:
                 return
             start = bracketed_root(
@@ -394,15 +400,15 @@ class _Walk:
             )
             interval = DriveInterval(interval.phase, start, interval.end, interval.tooth_pair)
         if self.held is not None:
-            self._stand_until(interval)
+            self._dwell_until(interval)
         self.done.append(interval)
 
-    def _standing(self, last: DriveInterval, interval: DriveInterval) -> float:
-        """Where `last` left the driven wheel, as the angle alpha_2 of the couple of `interval`."""
+    def _dwell_angle(self, last: DriveInterval, interval: DriveInterval) -> float:
+        """Return the angle at which `last` left the driven wheel, as alpha_2 of the tooth pair of `interval`."""
         y = self.path.tooth_pair.angle(last.phase, last.end)
         return float(y + (interval.tooth_pair - last.tooth_pair) * self.path.sizes.p2)
 
-    def _stand_until(self, interval: DriveInterval) -> None:
+    def _dwell_until(self, interval: DriveInterval) -> None:
         last, self.held = self.held, None
         assert last is not None
         end = interval.start + (last.tooth_pair - interval.tooth_pair) * self.path.pitch
@@ -410,7 +416,7 @@ class _Walk:
         self.done.append(DriveInterval(DWELL, last.end, end, last.tooth_pair, float(held)))
 
     def result(self) -> DraggedPath:
-        """The walk closed: what is left of the first interval after the last standstill."""
+        """Return the closed path, its first interval shortened to begin after the last dwell."""
         last = self.done.pop()
         first = DriveInterval(last.phase, last.start, self.first.end, last.tooth_pair - 1)
         return DraggedPath((first, *self.done[1:]), self.clash, self.lost, self.arrested)

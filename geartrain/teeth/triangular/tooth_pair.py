@@ -1,12 +1,13 @@
-"""One couple of teeth in contact: driven angle, speed ratio, its slope, and friction, in approach and in recess.
+"""Contact of one tooth pair in approach and in recess: driven angle, speed ratio, its slope, and friction.
 
-alpha_1 = x and alpha_2 = y are the angles of the two apices from the line of centres, positive on the entry side, and
-decrease as the driver pushes. In approach the driven apex slides on the driver's flank, in recess the driver's apex on
-the driven flank. Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems"; they are
-written so that nothing cancels at large tooth numbers. In an internal pair the radius of the ring and the centre
-distance are negative in them and alpha_2, tau and its slope change their sign; where the ring drives, the half
-apertures are negative too, which mirrors the pair. Each function takes numbers with `m = math`, or arrays with
-`m = numpy` (2.0 or later).
+alpha_1 = x and alpha_2 = y are the angles of the two apices from the line of centres. They are positive on the entry
+side and decrease as the driver pushes. In approach the driven apex slides on the driver's flank, in recess the
+driver's apex slides on the driven flank. Equations are numbered as in F. Sorge, "A note on the mechanics of ancient
+gear systems", and are written so that nothing cancels at large tooth numbers.
+
+In an internal pair the radius of the ring gear and the centre distance are negative in these equations, and alpha_2,
+tau and its slope change their sign. If the ring gear drives, the half aperture angles are negative too, which mirrors
+the pair. Each function takes numbers with `m = math`, or arrays with `m = numpy` (2.0 or later).
 """
 
 from __future__ import annotations
@@ -19,19 +20,24 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 APPROACH, RECESS = "approach", "recess"
 SLIP, RETURN = "slip", "return"
-"""Contact that cannot push: the driver's apex on a driven flank that leans, an apex on the far side of a leaning flank.
+"""Contact phases that cannot push, with overhanging flanks only.
 
-They occur with leaning flanks only, and bound the play; the driven wheel would turn back, so it stands instead."""
+In slip the driver's apex touches an overhanging driven flank; in return the driven apex touches the far side of an
+overhanging driver flank. Both limit the backlash. The driven wheel would turn back, so it dwells instead.
+"""
 
 FlankLine: TypeAlias = tuple[Any, Any, Any, Any, Any, Any]
-"""u, sin psi, cos psi, c, s, q: psi = x + beta1 the driver's flank, s and q sine and cosine of psi + y."""
+"""Values u, sin psi, cos psi, c, s, q of a contact in approach.
+
+psi = x + beta1 is the direction of the driver's flank; s and q are sine and cosine of psi + y.
+"""
 
 DrivenApex: TypeAlias = tuple[Any, Any, Any, Any, Any]
-"""sin x, cos x, arm R2 cos(beta2) - v with v of Eq. (16, lesser root), and sine and cosine of alpha_2."""
+"""Values sin x, cos x, arm R2 cos(beta2) - v with v of Eq. (16, smaller root), and sine and cosine of alpha_2."""
 
 
 class ToothPair:
-    """The constants of one couple of teeth, and what follows from them at any position."""
+    """Constants of one tooth pair, and its contact at any position."""
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
 
@@ -45,8 +51,8 @@ class ToothPair:
 
     # ------------------------------------------------------------------------------------------------------- approach
 
-    def _line(self, x: Any, m: ModuleType) -> FlankLine:
-        """Of an approach at x."""
+    def _flank_line(self, x: Any, m: ModuleType) -> FlankLine:
+        """Compute the contact values in approach at x."""
         # half angles: 1 - cos x would cancel near the line of centres
         u, w = m.sin(x / 2), m.cos(x / 2)
         sine, cosine = 2 * u * w, 1 - 2 * u * u
@@ -54,12 +60,12 @@ class ToothPair:
         cos_psi = self.cos1 * cosine - self.sin1 * sine
         c = (2 * self.R1 * u * (self.cos1 * w - self.sin1 * u) - self.delta * sin_psi) / self.R2
         s = sin_psi + c
-        # a flank that grazes the tip circle has s = 1, give or take its rounding
+        # a flank tangent to the tip circle has s = 1 up to rounding
         return u, sin_psi, cos_psi, c, s, m.sqrt(abs((1 - s) * (1 + s)))
 
     def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """alpha_2 in approach, Eq. (7)."""
-        return self._angle_on_flank(self._line(x, m), m)
+        """Return alpha_2 in approach, Eq. (7)."""
+        return self._angle_on_flank(self._flank_line(x, m), m)
 
     def _angle_on_flank(self, line: FlankLine, m: ModuleType) -> Any:
         _, sin_psi, cos_psi, c, s, q = line
@@ -67,62 +73,68 @@ class ToothPair:
         return self.side * m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """R1 cos(beta1) - v, with v of Eq. (9): from the contact to the foot of O1 on the flank's line."""
-        if self.leans:  # W and its divisor vanish together; so few teeth lose nothing by the plain difference
+        """Return R1 cos(beta1) - v, with v of Eq. (9): distance of the contact from the foot of O1 on the flank."""
+        # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
+        if self.leans:
             return self.D * cos_psi - self.R2 * q
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         return self.R1 * self.cos1 - W / (self.D * cos_psi - self.R1 * self.cos1 + self.R2 * q)
 
     def approach_normal_arms(self, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Distances of both centres from the common normal in approach; the second is O2C cos(psi) of Eq. (11)."""
-        return self._arms_on_flank(self._line(x, m))
+        """Return the distances of both centres from the common normal in approach; the second is O2C cos(psi) of Eq.
+        (11).
+        """
+        return self._arms_on_flank(self._flank_line(x, m))
 
     def _arms_on_flank(self, line: FlankLine) -> tuple[Any, Any]:
         u, _, cos_psi, _, _, q = line
         return self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
 
     def approach_speed(self, x: Any, m: ModuleType = math) -> Any:
-        """tau in approach, Eq. (12)."""
-        return self._speed_on_flank(self._line(x, m))
+        """Return the speed ratio tau in approach, Eq. (12)."""
+        return self._speed_on_flank(self._flank_line(x, m))
 
     def _speed_on_flank(self, line: FlankLine) -> Any:
         first, second = self._arms_on_flank(line)
         return first / second
 
     def approach_slope(self, x: Any, m: ModuleType = math) -> Any:
-        """d tau / d alpha_1 in approach: (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]."""
-        u, sin_psi, cos_psi, _, s, q = self._line(x, m)
+        """Return d tau / d alpha_1 in approach: (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]."""
+        u, sin_psi, cos_psi, _, s, q = self._flank_line(x, m)
         more = 1 + self._driver_arm(u, cos_psi, q) / (self.R2 * q)
         return self.side * more * (more * s / q - sin_psi / cos_psi)
 
     def approach_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Side of the line of centres (sign of alpha_2), and the tangents tan2, tan1 of Eq. (32).
+        """Return the side of the line of centres (sign of alpha_2), and the tangents tan2, tan1 of Eq. (32).
 
-        The driver turning wheel 2 loses eta = (1 - f side tan2) / (1 - f side tan1).
+        The efficiency with wheel 1 driving is eta = (1 - f side tan2) / (1 - f side tan1).
         """
-        u, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        u, sin_psi, cos_psi, c, s, q = self._flank_line(x, m)
         side = self.side * m.copysign(1.0, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
         mirror = self.mirror
         return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
 
     def approach_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Speed of sliding in approach over the driver's: R2 |sin y| / cos psi, the distance from C, times 1 + tau."""
-        _, sin_psi, cos_psi, c, s, q = self._line(x, m)
-        # (1 + tau) / cos psi is D over the driven wheel's distance from the normal
+        """Return the sliding velocity in approach over the driver's angular speed.
+
+        It is R2 |sin y| / cos psi, the distance from C, times 1 + tau.
+        """
+        _, sin_psi, cos_psi, c, s, q = self._flank_line(x, m)
+        # (1 + tau) / cos psi is D over the distance of the driven axis from the normal
         return abs(self.D) * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
 
     # --------------------------------------------------------------------------------------------------------- recess
 
-    def _apex(self, x: Any, m: ModuleType) -> DrivenApex:
-        """Of a recess at x."""
+    def _driven_apex(self, x: Any, m: ModuleType) -> DrivenApex:
+        """Compute the contact values in recess at x."""
         u = m.sin(x / 2)
         sine, cosine = 2 * u * m.cos(x / 2), 1 - 2 * u * u
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         foot = self.R2 * self.cos2
         square = foot * foot - W
-        # below 0 where teeth overlap down past their flanks; the greater of it and 0, for arrays and numbers
+        # negative where teeth overlap beyond their flanks; max(square, 0) written for arrays and numbers
         arm = self.sign2 * m.sqrt((square + abs(square)) / 2)
-        # the lesser root foot - arm as a quotient: the difference would cancel
+        # the smaller root foot - arm as a quotient, because the difference would cancel
         v = W / (foot + arm)
         across, along = self.R1 * sine, self.R2 - self.delta + 2 * self.R1 * u * u
         inner, outer = self.R2 - v * self.cos2, v * self.sin2
@@ -130,122 +142,129 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def recess_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """alpha_2 in recess, Eq. (17) with its quadrants."""
-        *_, sin_y, cos_y = self._apex(x, m)
+        """Return alpha_2 in recess, Eq. (17) with its quadrants."""
+        *_, sin_y, cos_y = self._driven_apex(x, m)
         return self.side * m.atan2(sin_y, cos_y)
 
-    def _turned(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, sine of x."""
+    def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
+        """Return arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, and sine of x."""
         sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
         return arm, cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine, sin_psi, cos_psi, sine
 
     def recess_normal_arms(self, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Distances of both centres from the common normal in recess; the first is O1C cos(psi2) of Eq. (18)."""
-        return self._arms_at_apex(self._apex(x, m))
+        """Return the distances of both centres from the common normal in recess; the first is O1C cos(psi2) of Eq.
+        (18).
+        """
+        return self._arms_at_apex(self._driven_apex(x, m))
 
     def _arms_at_apex(self, apex: DrivenApex) -> tuple[Any, Any]:
-        arm, q, *_ = self._turned(apex)
+        arm, q, *_ = self._apex_directions(apex)
         return self.mirror * self.R1 * q, self.sign2 * arm
 
     def recess_speed(self, x: Any, m: ModuleType = math) -> Any:
-        """tau in recess, Eq. (19)."""
-        return self._speed_at_apex(self._apex(x, m))
+        """Return the speed ratio tau in recess, Eq. (19)."""
+        return self._speed_at_apex(self._driven_apex(x, m))
 
     def _speed_at_apex(self, apex: DrivenApex) -> Any:
         first, second = self._arms_at_apex(apex)
         return first / second
 
     def recess_slope(self, x: Any, m: ModuleType = math) -> Any:
-        """d tau / d alpha_1 in recess: tau (1 + tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)].
+        """Return d tau / d alpha_1 in recess: tau (1 + tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)].
 
-        Turned back, the driven wheel meets the driver in approach at the ratio 1/tau: that slope, times tau cubed.
+        In reversed motion the driven wheel meets the driver in approach at the ratio 1/tau. The result is the slope of
+        that motion times tau cubed.
         """
-        arm, q, s, sin_psi, cos_psi, _ = self._turned(self._apex(x, m))
+        arm, q, s, sin_psi, cos_psi, _ = self._apex_directions(self._driven_apex(x, m))
         tau = self.R1 * q / arm
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def recess_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
-        arm, q, s, _, _, sine = self._turned(self._apex(x, m))
+        """Return the side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
+        arm, q, s, _, _, sine = self._apex_directions(self._driven_apex(x, m))
         mirror = self.mirror
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def recess_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Speed of sliding in recess over the driver's: R1 |sin x| / cos psi2 times 1 + tau."""
-        sine, _, arm, _, _ = self._apex(x, m)
+        """Return the sliding velocity in recess over the driver's angular speed: R1 |sin x| (1 + tau) / cos psi2."""
+        sine, _, arm, _, _ = self._driven_apex(x, m)
         return abs(self.D * self.R1 * sine / arm)
 
     # ------------------------------------------------------------------------------------------------------- returning
 
     def return_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """alpha_2 of the driven apex where, past the exit, it leaves the driver's leaning flank: the far root."""
-        _, sin_psi, cos_psi, _, s, _ = self._line(-x, m)
+        """Return alpha_2 where the driven apex leaves the driver's overhanging flank past the exit: the second root."""
+        _, sin_psi, cos_psi, _, s, _ = self._flank_line(-x, m)
         return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
 
     def return_speed(self, x: Any, m: ModuleType = math) -> Any:
-        """Its derivative, below 0."""
-        _, _, cos_psi, _, _, q = self._line(-x, m)
+        """Return d alpha_2 / d alpha_1 of the return phase, which is below 0."""
+        _, _, cos_psi, _, _, q = self._flank_line(-x, m)
         return -1 - self.D * cos_psi / (self.R2 * q)
 
     def return_slope(self, x: Any, m: ModuleType = math) -> Any:
-        """Its second derivative."""
-        _, sin_psi, cos_psi, _, s, q = self._line(-x, m)
+        """Return the second derivative of alpha_2 by alpha_1 in the return phase."""
+        _, sin_psi, cos_psi, _, s, q = self._flank_line(-x, m)
         more = self.D * cos_psi / (self.R2 * q)
         return more * (more * s / q - sin_psi / cos_psi)
 
     # ----------------------------------------------------------------------------------------------------------- both
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """alpha_2 (rad) at alpha_1 = x (rad)."""
+        """Return alpha_2 (rad) at alpha_1 = x (rad) in a phase."""
         if phase == RETURN:
             return self.return_angle(x, m)
         return self.approach_angle(x, m) if phase == APPROACH else self.recess_angle(x, m)
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """tau = d alpha_2 / d alpha_1."""
+        """Return the speed ratio tau = d alpha_2 / d alpha_1."""
         if phase == RETURN:
             return self.return_speed(x, m)
         return self.approach_speed(x, m) if phase == APPROACH else self.recess_speed(x, m)
 
     def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """alpha_2 and tau; what both need of the contact is worked out once."""
+        """Return alpha_2 and tau; their common intermediate values are computed once."""
         if phase == RETURN:
             return self.return_angle(x, m), self.return_speed(x, m)
         if phase == APPROACH:
-            line = self._line(x, m)
+            line = self._flank_line(x, m)
             return self._angle_on_flank(line, m), self._speed_on_flank(line)
-        apex = self._apex(x, m)
+        apex = self._driven_apex(x, m)
         *_, sin_y, cos_y = apex
         return self.side * m.atan2(sin_y, cos_y), self._speed_at_apex(apex)
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """d tau / d alpha_1 (1/rad)."""
+        """Return the slope d tau / d alpha_1 (1/rad)."""
         if phase == RETURN:
             return self.return_slope(x, m)
         return self.approach_slope(x, m) if phase == APPROACH else self.recess_slope(x, m)
 
     def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Side and tangents: eta = (1 - f side tan2) / (1 - f side tan1)."""
+        """Return the side of the line of centres (1 or -1) and the tangents tan2, tan1 of the friction efficiency.
+
+        eta = (1 - f side tan2) / (1 - f side tan1) at friction coefficient f.
+        """
         return self.approach_friction(x, m) if phase == APPROACH else self.recess_friction(x, m)
 
     def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:
-        """Sliding efficiency at friction f, Eqs. (32) and (33) corrected."""
+        """Return the sliding efficiency at friction f, Eqs. (32) and (33) corrected."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
 
     def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Distances n1, n2 of both centres from the common normal: tau = n1/n2."""
+        """Return the distances n1, n2 of both centres from the common normal; tau = n1/n2."""
         return self.approach_normal_arms(x, m) if phase == APPROACH else self.recess_normal_arms(x, m)
 
     def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Speed of sliding over the driver's angular speed, docs/shapes.md (14)."""
+        """Return the sliding velocity over the driver's angular speed, docs/shapes.md (14)."""
         return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31) corrected.
+        """Return the distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31)
+        corrected.
 
-        That line is the normal, turned about the contact by the angle of friction: with h1, h2 the distances of the
+        That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
         centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).
         """
         n1, n2 = self.normal_arms(phase, x, m)
@@ -254,10 +273,13 @@ class ToothPair:
         return n1 * (1 - f * side * tan1) / length, n2 * (1 - f * side * tan2) / length
 
     def instant_centre(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """O1C: where the common normal meets the line of centres, from the driver's axis, docs/teeth.md (11b)."""
+        """Return the distance O1C of the instant centre from the driver's axis, docs/teeth.md (11b).
+
+        The common normal intersects the line of centres there.
+        """
         n1, n2 = self.normal_arms(phase, x, m)
         return self.D * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
-        """f(x) = min(approach, recess) for |x| up to alpha_1max: alpha_2 at first contact, whatever the phase."""
+        """Return f(x) = min(approach, recess) for |x| up to alpha_1max: alpha_2 at first contact in either phase."""
         return float(min(self.approach_angle(x), self.recess_angle(x)))

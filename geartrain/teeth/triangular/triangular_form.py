@@ -1,9 +1,10 @@
-"""Triangular teeth as a pair declares them, and the sizes that follow from the declaration."""
+"""Declaration of triangular teeth, and the sizes that follow from it."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
@@ -25,23 +26,23 @@ _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
 FEWEST = 3
-_UNLIKE = 10  # how far radii may be from the ratio of their teeth
-_THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
+_MAXIMUM_QUOTIENT = 10  # maximum factor between the ratio of radii and the ratio of tooth numbers
+_THINNEST = 0.001 / 360  # turn: the valleys of thinner teeth vanish in rounding
 TRIANGULAR_SCOPE = (
-    "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate is taken for a spur wheel"
+    "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate wheel is treated as a spur wheel"
 )
 
 
 class Triangular(ToothForm):
-    """Triangular teeth, as in ancient gearing: straight flanks that meet in a point.
+    """Triangular teeth, as in ancient gearing: straight flanks that meet in an apex.
 
-    The ratio changes within each pitch, and teeth collide as they take over (docs/teeth.md; F. Sorge, "A note on the
-    mechanics of ancient gear systems"). How far the axes stand apart is given in one of five ways: `clearance_factor`,
-    `excess`, `backlash`, `centre_distance` or `window`.
+    The speed ratio varies within each pitch, and teeth collide at the changeover between tooth pairs (docs/teeth.md;
+    F. Sorge, "A note on the mechanics of ancient gear systems"). The centre distance is given by exactly one of five
+    parameters: `clearance_factor`, `excess`, `backlash`, `centre_distance` or `window`.
 
     See Also
     --------
-    geartrain.teeth.Involute : teeth that keep their ratio.
+    geartrain.teeth.Involute : Teeth with a constant speed ratio.
 
     Examples
     --------
@@ -56,29 +57,29 @@ class Triangular(ToothForm):
 
     form: Literal["triangular"] = Field(description="The name of this form")
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(twice), WithJsonSchema(_ONE_OR_TWO)] = Field(
-        description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
+        description="Half aperture angle of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
     clearance_factor: Figure | None = Field(
         None,
-        description="Centre distance over that at which a tip touches the bottom of a space: above 1, in a ring "
-        "below 1",
+        description="Centre distance divided by the one at which a tip touches the bottom of a space: above 1, or "
+        "below 1 with a ring",
     )
     excess: Figure | None = Field(
         None,
         description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor",
     )
     backlash: Length | None = Field(
-        None, description="Least play over a pitch, as an arc of the second wheel's pitch circle"
+        None, description="Minimum backlash over a pitch, as an arc of the second wheel's pitch circle"
     )
-    centre_distance: Length | None = Field(None, description="Distance of the two axes")
+    centre_distance: Length | None = Field(None, description="Centre distance of the pair")
     window: Figure | None = Field(
-        None, description="Where between jamming (0) and losing contact (1) the clearance lies"
+        None, description="Position of the clearance between jamming (0) and loss of contact (1)"
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,
-        description="How the tip radii follow from the tooth numbers, or the two radii themselves, or one number: "
-        "the second over the first, in the ratio of their teeth (1 is pitch_true). Default equal_depth, with a ring "
-        "pitch_true",
+        description="Rule for the tip radii, or the two radii, or one number: the ratio of the second radius to the "
+        "first divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or pitch_true with "
+        "a ring",
     )
 
     @model_validator(mode="after")
@@ -86,14 +87,14 @@ class Triangular(ToothForm):
         for angle in self.half_angle:
             turns = angle.si / RADIANS_PER_TURN
             if not _THINNEST <= turns < 0.25:
-                within = "outside 0 to 90 deg" if not 0 < turns < 0.25 else "thinner than any tooth can be cut"
+                within = "outside 0 to 90 deg" if not 0 < turns < 0.25 else "too small for a tooth to be cut"
                 raise PydanticCustomError(
                     "half_angle",
                     "half_angle {angle} is {within}",
                     {
                         "angle": angle.text,
                         "within": within,
-                        "fix": "a triangular tooth has a half aperture between 0 and 90 deg, and 0.001 deg at least",
+                        "fix": "give a half aperture angle between 0 and 90 deg, at least 0.001 deg",
                     },
                 )
         given = [name for name in _CLEARANCES if getattr(self, name) is not None]
@@ -109,9 +110,9 @@ class Triangular(ToothForm):
 
     def _check_clearance(self) -> None:
         bounds = (
-            (self.clearance_factor, 0, None, "a clearance factor is above 1, in a ring between 0 and 1"),
-            (self.excess, 0, None, "an excess is above 0: at 0 a tip touches the bottom of a space"),
-            (self.window, 0, 1, "a window's fraction lies between 0, jamming, and 1, losing contact"),
+            (self.clearance_factor, 0, None, "give a clearance factor above 1, or between 0 and 1 with a ring"),
+            (self.excess, 0, None, "give an excess above 0; at 0 a tip touches the bottom of a space"),
+            (self.window, 0, 1, "give a fraction between 0 (jamming) and 1 (loss of contact)"),
         )
         for figure, low, high, fix in bounds:
             if figure is None:
@@ -124,13 +125,13 @@ class Triangular(ToothForm):
                 )
 
     def _check_lengths(self) -> None:
-        if isinstance(self.radii, Figure) and not 1 / _UNLIKE <= self.radii.value <= _UNLIKE:
+        if isinstance(self.radii, Figure) and not 1 / _MAXIMUM_QUOTIENT <= self.radii.value <= _MAXIMUM_QUOTIENT:
             raise PydanticCustomError(
                 "radii",
                 "a ratio of radii of {text} is out of range",
                 {
                     "text": self.radii.text,
-                    "fix": "write the second radius over the first in the ratio of teeth, near 1",
+                    "fix": "give the ratio of the radii divided by the ratio of the tooth numbers, near 1",
                 },
             )
         lengths = {"backlash": self.backlash, "centre_distance": self.centre_distance}
@@ -140,8 +141,8 @@ class Triangular(ToothForm):
             if length.value < 0 or (name != "backlash" and length.value == 0):
                 raise PydanticCustomError(
                     "length",
-                    "{name} {text} is no length",
-                    {"name": name, "text": length.text, "fix": "write it above 0"},
+                    "{name} {text} is out of range",
+                    {"name": name, "text": length.text, "fix": "give a length above 0"},
                 )
         if len({length.unit is None for length in given.values()}) > 1:
             raise PydanticCustomError(
@@ -150,29 +151,35 @@ class Triangular(ToothForm):
                 {"names": ", ".join(given), "fix": "give all with a unit, or all without"},
             )
 
+    @classmethod
+    def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """Return parameters with equilateral teeth in the middle of their clearance window, where none are given."""
+        placed = {} if any(name in parameters for name in _CLEARANCES) else {"window": "0.5"}
+        return {"half_angle": "30 deg", **placed, **parameters}
+
     @property
     def has_lengths(self) -> bool:
-        """True for teeth declared in units of length."""
+        """True if the teeth are declared in units of length."""
         lengths = (self.centre_distance, self.backlash, *self._given_radii)
         return any(length is not None and length.unit for length in lengths)
 
     @property
     def _given_radii(self) -> tuple[Length, ...]:
-        """The two radii, where they are given as lengths."""
+        """Tip radii if they are given as lengths; empty otherwise."""
         return self.radii if isinstance(self.radii, tuple) else ()
 
     def in_metres(self, module: float | None) -> bool:
-        """Whether the lengths of `sizes` are in m.
+        """Return whether the lengths of `sizes` are in m.
 
         Parameters
         ----------
         module : float or None
-            Of both wheels [m].
+            Module of both wheels [m].
 
         Returns
         -------
         bool
-            True where lengths with a unit are declared, or radii follow from a module.
+            True if lengths with a unit are declared, or radii follow from a module.
         """
         return self.has_lengths or (module is not None and not isinstance(self.radii, Figure | tuple))
 
@@ -180,13 +187,16 @@ class Triangular(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """With those of clearance, path and collisions."""
+        """Return the class of figures that includes clearance, path of contact and collisions."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
 
         return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving: a contrate is as a spur wheel, bevels are refused."""
+        """Build the mesh of a pair, its first wheel driving.
+
+        A contrate wheel is treated as a spur wheel. Bevels are refused.
+        """
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         del shaft_angle
@@ -198,62 +208,62 @@ class Triangular(ToothForm):
         return TriangularMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem:
-        """Why the play of triangular teeth is not for a maker to say.
+        """Explain why a maker's backlash does not apply to triangular teeth.
 
         Returns
         -------
         Problem
-            Their play follows from their clearance.
+            Their backlash follows from their clearance factor.
         """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
-            "their play follows from their clearance, and thinner teeth would have another motion",
-            "leave --backlash out, or declare a larger `clearance_factor`",
+            "their backlash follows from their clearance, and thinner teeth would move differently",
+            "omit --backlash, or declare a larger `clearance_factor`",
         )
 
     def sizes(
         self, z1: int, z2: int, pitch_distance: float | None = None, ring: Literal[0, 1, 2] = 0
     ) -> TriangularSizes:
-        """Radii, half angles and clearance of a pair.
+        """Compute radii, half aperture angles and clearance of a pair.
 
         Parameters
         ----------
         z1, z2 : int
             Teeth of the driver and of the driven wheel, 3 or more.
         pitch_distance : float, optional
-            Half the module of each wheel times its teeth, summed, of a ring subtracted [m]; the centre distance at
-            which a tip touches the bottom of a space.
+            Half the sum of module times teeth of both wheels, or half the difference for a ring gear [m]. It becomes
+            the centre distance at which a tip touches the bottom of a space.
         ring : {0, 1, 2}
-            Which wheel has its teeth inside; 0 for an external pair.
+            Number of the wheel that is a ring gear; 0 for an external pair.
 
         Returns
         -------
         TriangularSizes
-            Lengths in m, or in the unit of plain radii, or with a tip radius of 1 where nothing gives a length.
+            Lengths in m; otherwise in the unit of plain radii, or with a tip radius of 1 if no length is given.
 
         Raises
         ------
         GearTrainError
-            Where the declaration gives no pair that can be built.
+            If the declaration gives no pair that can be built.
         """
         for z in (z1, z2):
             if z < FEWEST:
                 what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no triangular teeth"
                 raise refused(what, TRIANGULAR_SCOPE, f"give at least {FEWEST} teeth, or another tooth_form")
         if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
-            what = f"a ring of {(z1, z2)[ring - 1]} teeth has no room for a wheel of {(z2, z1)[ring - 1]}"
-            raise refused(what, "it needs one tooth more at least", "give the ring more teeth")
-        sizes = self._placed(self._unplaced(z1, z2, ring), pitch_distance)
+            what = f"a ring of {(z1, z2)[ring - 1]} teeth cannot contain a wheel of {(z2, z1)[ring - 1]} teeth"
+            raise refused(what, "it needs at least one tooth more than its pinion", "give the ring more teeth")
+        sizes = self._sizes_at_clearance(self._sizes_at_deepest(z1, z2, ring), pitch_distance)
         if sizes.surrounds:
             raise refused(
-                "the teeth overlap all round",
-                f"the tips of the ring lie {sizes.D:.6g} or less within those of its wheel on every side",
+                "the teeth overlap at every angle",
+                f"the tip circle of the ring lies within that of its wheel at the centre distance {sizes.D:.6g}",
                 "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance",
             )
         return sizes
 
-    def _unplaced(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
-        """The two wheels, at the distance at which a tip touches the bottom of a space."""
+    def _sizes_at_deepest(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
+        """Return the sizes of the two wheels at the distance at which a tip touches the bottom of a space."""
         from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 
         beta1, beta2 = (angle.si for angle in self.half_angle)
@@ -268,17 +278,17 @@ class Triangular(ToothForm):
             R1, R2 = (radius.si for radius in radii)
         return TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0, ring)
 
-    def _placed(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
-        """The same wheels at the declared clearance, and in m where a pitch distance is given."""
+    def _sizes_at_clearance(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
+        """Return the sizes at the declared clearance, in m if a pitch distance is given."""
         from geartrain.teeth.triangular.clearance_window import excess_of_backlash
 
         if not sizes.has_valleys:
-            return sizes.at(self._factor(sizes))
+            return sizes.at(self._declared_excess(sizes))
         if not self._given_radii and pitch_distance is not None:
             scale = pitch_distance / sizes.deepest_distance
             sizes = replace(sizes, R1=sizes.R1 * scale, R2=sizes.R2 * scale)
         if self.clearance_factor is not None or self.excess is not None:
-            return sizes.at(self._factor(sizes))
+            return sizes.at(self._declared_excess(sizes))
         if self.window is not None:
             window = sizes_window(sizes)
             return sizes.at(window.at(float(self.window.value)))
@@ -286,16 +296,18 @@ class Triangular(ToothForm):
         assert length is not None
         if not self._given_radii and (pitch_distance is None or length.unit is None):
             raise refused(
-                f"the length {length.text} has nothing to be compared with",
-                "neither radii nor modules with a unit give these wheels a size",
+                f"the length {length.text} cannot be related to the size of these wheels",
+                "neither radii nor modules with a unit are declared",
                 "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
             )
         if self.centre_distance is not None:
             return sizes.at(sizes.side * (self.centre_distance.si / sizes.deepest_distance - 1))
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
-    def _factor(self, sizes: TriangularSizes) -> float:
-        """The declared excess, taken exactly before it is rounded. Raises `GearTrainError` where it is not above 0."""
+    def _declared_excess(self, sizes: TriangularSizes) -> float:
+        """Return the declared excess, subtracted exactly before rounding. Raises `GearTrainError` if it is not
+        positive.
+        """
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
         excess = sizes.side * (self.clearance_factor.value - 1)
@@ -318,7 +330,7 @@ class Triangular(ToothForm):
         pitch_distance: float | None = None,
         ring: Literal[0, 1, 2] = 0,
     ) -> TriangularTransmission:
-        """The transmission function of a pair.
+        """Return the transmission function of a pair.
 
         Parameters
         ----------
@@ -327,23 +339,23 @@ class Triangular(ToothForm):
         friction : float
             Coefficient of friction, 0 or more.
         driver : {1, 2}
-            Which wheel drives.
+            The wheel that drives.
         direction : {1, -1}
-            -1 turns back, on the other flanks.
+            Direction of rotation; with -1 the opposite flanks drive.
         pitch_distance : float, optional
             As in `sizes` [m].
         ring : {0, 1, 2}
-            Which wheel has its teeth inside; 0 for an external pair.
+            Number of the wheel that is a ring gear; 0 for an external pair.
 
         Returns
         -------
         TriangularTransmission
-            Its `verdict` says whether the pair can turn.
+            Its `verdict` reports whether the pair can turn.
 
         Raises
         ------
         GearTrainError
-            Where the declaration gives no pair that can be built.
+            If the declaration gives no pair that can be built.
         """
         from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -352,7 +364,7 @@ class Triangular(ToothForm):
 
 
 def refusal(kinds: tuple[str, str], internal: bool) -> str:
-    """Why a pair cannot have triangular teeth; empty if it can."""
+    """Return the reason why a pair cannot have triangular teeth; empty if it can."""
     known = ("spur",) if internal else ("spur", "contrate")
     odd = [kind for kind in kinds if kind not in known]
     if odd and internal:
@@ -361,14 +373,14 @@ def refusal(kinds: tuple[str, str], internal: bool) -> str:
 
 
 def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """The window of a pair. Raises `GearTrainError` where no clearance works."""
+    """Return the clearance window of a pair. Raises `GearTrainError` if no clearance works."""
     from geartrain.teeth.triangular.clearance_window import find_window
     from geartrain.teeth.triangular.triangular_mesh import OTHER_SHAPES
 
     window = find_window(sizes)
     if not window:
         raise refused(
-            f"no clearance lets {sizes.z1} and {sizes.z2} triangular teeth turn",
+            f"no clearance lets wheels of {sizes.z1} and {sizes.z2} triangular teeth turn",
             f"up to a factor of {window.jam_factor:.6g} there is {window.jam_kind}, and from "
             f"{window.run_factor:.6g} on {window.run_kind}",
             OTHER_SHAPES[bool(sizes.ring)],

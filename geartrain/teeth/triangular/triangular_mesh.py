@@ -1,4 +1,4 @@
-"""Triangular teeth of a gear pair: their window of clearance, why they do not turn, and the figures of the pair."""
+"""Mesh of a gear pair with triangular teeth: clearance window, reasons why it does not turn, and its figures."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ OTHER_SHAPES = (
 )
 _WORDS = (
     "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
-    "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
+    "wheel, mean sliding efficiency at constant driver torque, relative jumps of normal velocity at collisions."
 )
-_PLACE = ("pair", "drives", "clearance factor", "window", "verdict")
-_TRANSMISSION = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+_CLEARANCE_HEADER = ("pair", "drives", "clearance factor", "window", "verdict")
+_TRANSMISSION_HEADER = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
 _WINDOW = (
     *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
     *(Key("reach", "reach_factor"), "works"),
@@ -46,7 +46,7 @@ _SIZES = (
 
 @dataclass(frozen=True)
 class TriangularTooth(WheelRequirement):
-    """A tooth of z that ends in a point: its tip radius (modules), and half its aperture (rad)."""
+    """Tooth with an apex: tooth number, tip radius (modules), and half aperture angle (rad)."""
 
     z: int
     tip_radius: float
@@ -55,49 +55,49 @@ class TriangularTooth(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tips (modules)."""
+        """Radius of the tip circle (modules)."""
         return self.tip_radius
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """True for teeth as tall and as sharp."""
+        """Return True for triangular teeth with the same tip radius and half aperture angle."""
         if not isinstance(other, TriangularTooth):
             return False
         pairs = (self.tip_radius, other.tip_radius), (self.half_angle, other.half_angle)
         return all(abs(a - b) <= SAME_SIZE * max(a, 1.0) for a, b in pairs)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Straight from the middle of a space to the tip."""
+        """Return the outline of one tooth: straight lines from the middle of a space to the tip and back."""
         from geartrain.teeth.triangular.pair_geometry import depth
 
         del others
         tip, half = self.tip_radius, pi / self.z
         root = tip * (1 - depth(-self.z if self.ring else self.z, self.half_angle))
-        kinks = ((root, -half), (tip, 0.0), (root, half))
+        vertices = ((root, -half), (tip, 0.0), (root, half))
         return CutTooth(
             "ring" if self.ring else "external",
             tip,
             root,
-            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in kinks),
+            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in vertices),
         )
 
 
 class TriangularDetails(NamedForm, Protocol):
-    """What such a mesh reads of its form besides the name: see the methods of the form."""
+    """Interface of the tooth form that such a mesh uses, besides its name; see the methods of the form."""
 
     def in_metres(self, module: float | None) -> bool:
-        """Whether lengths are in metres for wheels of some module (m)."""
+        """Return whether lengths are in metres for wheels of some module (m)."""
 
 
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
-    """A gear pair with triangular teeth."""
+    """Gear pair with triangular teeth."""
 
     tooth_form: TriangularDetails
     transmission: TriangularTransmission
 
     @cached_property
     def reversed(self) -> TriangularTransmission:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
         from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
         return TriangularTransmission(
@@ -106,13 +106,13 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Whether these teeth can turn."""
+        """Verdict on whether these teeth can turn."""
         found = self.transmission.verdict
         return found if found else found.explained(*explain_clearance(self.transmission, self.window))
 
     @cached_property
     def window(self) -> ClearanceWindow | None:
-        """Clearances at which they can; None where there are no such teeth."""
+        """Clearance window of the pair; None if such teeth do not exist."""
         from geartrain.teeth.triangular.clearance_window import find_window
 
         sizes = self.transmission.sizes
@@ -120,11 +120,13 @@ class TriangularMesh(GearMesh):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Both wheels': triangular teeth have sizes up to a scale."""
+        """Tip radii of both wheels by name, up to a common scale."""
         return {self.driver: self.transmission.sizes.R1, self.driven: self.transmission.sizes.R2}
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """As large as its wheel that has a size already; else as lengths declare it, or so that pitch circles touch."""
+        """Return the scale of the pair, from the first of: a wheel whose size is fixed, declared lengths, touching
+        pitch circles.
+        """
         D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
         if module is not None and self.tooth_form.has_lengths:
@@ -134,7 +136,7 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """As large as its law says where that is in m; else so that pitch circles touch."""
+        """Size from the declaration if it is in m; otherwise the size at which pitch circles touch."""
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):
             return self.size({})
@@ -142,13 +144,13 @@ class TriangularMesh(GearMesh):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Of the centre distance that the law has, where that is in m; else as large as the modules say."""
+        """Pitch radius at the declared centre distance if that is in m; otherwise the pitch radius from the modules."""
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
-        """A point at the tip radius; straight flanks need no tolerance."""
+        """Return the requirement on a tooth: an apex at the tip radius. Straight flanks need no tolerance."""
         del tolerance
         sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
@@ -157,10 +159,10 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def separation(self) -> float:
-        """Mean force between the axes over that along the pitch circles, under a constant torque on the driven wheel.
+        """Ratio of the mean separating force to the tangential force, under a constant torque on the driven wheel.
 
-        The normal leans by psi against the pitch line and passes both centres at n1 + n2 = D cos(psi), with a ring at
-        the difference: (31) of docs/strength.md.
+        The normal makes the angle psi with the pitch line and passes both centres at n1 + n2 = D cos(psi), or at the
+        difference with a ring gear: (31) of docs/strength.md.
         """
         sizes, arms = self.transmission.sizes, self.transmission.contact.path.tooth_pair.normal_arms
         radius, total, whole = sizes.D * sizes.z2 / sizes.pitch_sum, 0.0, 0.0
@@ -174,22 +176,25 @@ class TriangularMesh(GearMesh):
 
     @property
     def has_cut_sizes(self) -> bool:
-        """True."""
+        """True, because the sizes of triangular teeth can have manufacturing errors."""
         return True
 
     @property
     def cut_sizes(self) -> TriangularSizes:
-        """The sizes that manufacturing errors are drawn about."""
+        """Nominal sizes about which manufacturing errors are drawn."""
         return self.transmission.sizes
 
     def account(self) -> PairAccount:
-        """Its clearance, its law and its collisions."""
+        """Report the clearance, the transmission function and the collisions of the pair."""
         figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
-        tables = AccountTable(_PLACE, _place_row(self)), AccountTable(_TRANSMISSION, _transmission_row(self, figures))
+        tables = (
+            AccountTable(_CLEARANCE_HEADER, _clearance_row(self)),
+            AccountTable(_TRANSMISSION_HEADER, _transmission_row(self, figures)),
+        )
         return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
-        """Everything that is wrong, with what would mend it."""
+        """Yield every problem of the pair with a remedy."""
         yield from (fault.problem for fault in self.verdict.faults)
         if self.wheels.friction_law is not None:
             yield from self.friction_faults()
@@ -211,18 +216,18 @@ class TriangularFigures(PairFigures):
     )
 
     sizes: TriangularSizes
-    """In m, or the plain unit of radii."""
+    """Sizes in m, or in the plain unit of the radii."""
     window: ClearanceWindow | None
-    """Clearance factors between which the pair turns; None where there are no such teeth."""
+    """Clearance window in which the pair turns; None if such teeth do not exist."""
     intervals: tuple[DriveInterval, ...]
-    """The real path, in order of time, one pitch of the driver."""
+    """Real path of contact, in order of time, over one pitch of the driver."""
     jumps: tuple[SpeedJump, ...]
-    """The collisions of a pitch."""
+    """Collisions of one pitch."""
     impacts: Any = None
-    """What they cost, where a run of the pair is declared; else None."""
+    """Energy losses of the collisions, if the operating speed of the pair is declared; else None."""
 
 
-def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
+def _clearance_row(mesh: TriangularMesh) -> tuple[str, ...]:
     transmission, window = mesh.transmission, mesh.window
     where = (
         "-"
@@ -254,7 +259,7 @@ def triangular_figures(
     impacts: Result | None = None,
     losses: SlidingEfficiency | None = None,
 ) -> TriangularFigures:
-    """Of a pair, whatever train it is in; `losses` where they are not those of the law alone."""
+    """Return the figures of a pair in any train; `losses` replaces the losses of the transmission function."""
     found, moves = transmission.verdict, bool(transmission.intervals)
     return TriangularFigures(
         (transmission.sizes.z1, transmission.sizes.z2),
@@ -273,7 +278,7 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Why a pair does not turn, and what would let it: the window of clearance, and which end was passed."""
+    """Return cause and remedy of a pair that does not turn: its clearance window, and the bound that is violated."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor
@@ -288,15 +293,15 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
     return (
         f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
         f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
-        f"give a clearance between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
+        f"give a clearance factor between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
     )
 
 
 def explain_friction_lock(transmission: TriangularTransmission) -> tuple[str, str, str]:
-    """What, why, and what to do, where friction locks."""
+    """Return problem, cause and remedy if friction locks the teeth."""
     return (
         f"a friction of {transmission.friction:g} locks these teeth",
-        "before the line of centres the driver pushes the driven apex against its own sliding: friction times the "
-        f"tangent of the flank's lean reaches 1 at {transmission.locking_friction:.6g}",
+        "before the line of centres sliding opposes the push on the driven apex: friction times the tangent of the "
+        f"flank's inclination reaches 1 at a friction of {transmission.locking_friction:.6g}",
         f"give a friction below {transmission.locking_friction:.4g}, or let the other wheel drive",
     )

@@ -1,4 +1,4 @@
-"""The transmission function of triangular teeth, vectorised over driver angles; a table of contact over one pitch."""
+"""Transmission function of triangular teeth, vectorised over driver angles, and a table of contact over one pitch."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
 
 _USUAL = 5  # rows for each interval of the real path
-_BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
-_GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights on each smooth stretch
-_ROUNDING = 1e-14  # of the mean of tau: what a stretch may be off by
-_DEEPEST = 40  # halvings of a stretch
+_BLOCK = 16384  # samples per block, so that intermediate arrays fit the cache
+_GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights for each smooth stretch
+_ROUNDING = 1e-14  # of the mean of tau: quadrature tolerance of a stretch
+_DEEPEST = 40  # maximum number of bisections of a stretch
 
 
 @lru_cache(maxsize=4096)
 def _contact(sizes: TriangularSizes) -> TriangularContact:
-    """Equal pairs of a long train share one contact."""
+    """Return the contact of a pair; cached, so that equal pairs of a long train share it."""
     return TriangularContact(sizes)
 
 
 class TriangularTransmission(TransmissionFunction):
-    """The transmission function of a pair of wheels with triangular teeth.
+    """Transmission function of a pair of wheels with triangular teeth.
 
-    The function of a pair that dwells at each pitch has those dwells; that of a pair that jams or clashes is what its
-    front flanks alone would do.
+    If the driven wheel dwells in each pitch, the function includes these dwells. If the pair jams or clashes, the
+    function describes the drive flanks without regard to the other flanks.
 
     Parameters
     ----------
@@ -54,11 +54,12 @@ class TriangularTransmission(TransmissionFunction):
     friction : float
         Coefficient of friction, 0 or more.
     direction : {1, -1}
-        -1 turns backwards: angles S and q keep their sense and decrease, and the back flanks drive.
+        Direction of rotation. With -1, angles S and q keep their sign convention and decrease, and the coast flanks
+        drive.
 
     See Also
     --------
-    geartrain.teeth.Triangular : its method `transmission` gives it from a declaration.
+    geartrain.teeth.Triangular : Its method `transmission` returns one from a declaration.
 
     Examples
     --------
@@ -77,40 +78,40 @@ class TriangularTransmission(TransmissionFunction):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """The real path: what drives, in order of time, one pitch of the driver in all."""
+        """Real path of contact: drive intervals in order of time, one pitch of the driver in total."""
         return self.contact.intervals
 
     @property
     def verdict(self) -> PairVerdict:
-        """Whether the pair can turn."""
+        """Verdict on whether the pair can turn."""
         return self.contact.verdict
 
     # ---------------------------------------------------------------------------------------------------- over samples
 
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission error (rad of the driven wheel) at driver angles S (rad)."""
+        """Return the transmission error (rad of the driven wheel) at driver angles S (rad)."""
         lag = self._map(S, self._lag)
         return -lag if self.direction > 0 else self.sizes.p2 + lag
 
     def speed(self, S: ArrayLike) -> Floats:
-        """tau at driver angles S (rad)."""
+        """Return the speed ratio tau at driver angles S (rad)."""
         return self._map(S, self._tau)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Sliding efficiency at driver angles S (rad); NaN in a standstill."""
+        """Return the sliding efficiency at driver angles S (rad); NaN in a dwell."""
         return self._map(S, self._eta)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Of the one couple in contact; NaN in a standstill."""
-        return ContactRubbing(*(each[None] for each in self._map_all(S, self._rubs, 3)))
+        """Return sliding and friction of the single tooth pair in contact; NaN in a dwell."""
+        return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
-        """Speed of sliding over that of the pitch line.
+        """Return the sliding velocity over the pitch-line velocity.
 
         Parameters
         ----------
         phase : {"approach", "recess"}
-            Of the couple in contact.
+            Phase of the tooth pair in contact.
         x : ndarray
             Its alpha_1 [rad].
         """
@@ -119,35 +120,35 @@ class TriangularTransmission(TransmissionFunction):
         return found
 
     def coefficient(self, phase: str, x: Floats, by: PairFriction | None) -> float | Floats:
-        """Coefficient of friction.
+        """Return the coefficient of friction at given contacts.
 
         Parameters
         ----------
         phase, x
-            As of `sliding`.
+            As in `sliding`.
         by : PairFriction or None
-            Friction by the speed of sliding; None for the coefficient of this function.
+            Friction as a function of sliding velocity; None for the constant coefficient of this function.
         """
         return self.friction if by is None else by(self.sliding(phase, x))
 
-    def _rubs(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Sliding over the pitch line's speed, and what friction adds to the power that enters and leaves."""
+    def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
+        """Return sliding over pitch-line velocity, and the friction terms of the powers that enter and leave."""
         if interval.held is not None:
             return nan, nan, nan
         side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
         return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Transmission error (rad of the driven wheel) and tau; where in the path an angle falls is found once."""
+        """Return transmission error (rad of the driven wheel) and tau, locating each angle in the path only once."""
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
     def reversed_motion(self) -> TriangularTransmission:
-        """The law of the other flanks; angles keep their sense and decrease."""
+        """Return the transmission function of the opposite flanks; angles keep their sign convention and decrease."""
         return TriangularTransmission(self.sizes, self.friction, -self.direction)
 
     def alpha1(self, S: ArrayLike) -> Floats:
-        """alpha_1 (rad) of the couple that drives.
+        """Return alpha_1 (rad) of the tooth pair that drives.
 
         Parameters
         ----------
@@ -162,7 +163,7 @@ class TriangularTransmission(TransmissionFunction):
     def _map_all(
         self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
     ) -> list[Floats]:
-        """Some values of an interval at each driver angle, `count` of them."""
+        """Evaluate `count` functions of an interval and alpha_1 at each driver angle."""
         S = np.asarray(S, dtype=float)
         flat = S.ravel()
         found = [np.empty_like(flat) for _ in range(count)]
@@ -177,6 +178,7 @@ class TriangularTransmission(TransmissionFunction):
         edges, gone = self._edges, np.empty_like(S)
         behind(S if self.direction > 0 else -S, self.period, gone, np.empty_like(S))
         gone += self._start
+        # both terms are within one period, so one subtraction is sufficient
         gone -= np.where(gone < self.period, 0.0, self.period)
         if len(self.intervals) == 1:
             values = what(self.intervals[0], self.intervals[0].start - gone)
@@ -191,26 +193,26 @@ class TriangularTransmission(TransmissionFunction):
                 each[chosen] = value
 
     @cached_property
-    def _driven(self) -> tuple[DriveInterval, ...]:
-        """The real path. Raises `RangeError` for a pair that has none: it has no law."""
+    def _drive_intervals(self) -> tuple[DriveInterval, ...]:
+        """Drive intervals of the real path. Raises `RangeError` for a pair without one."""
         if not self.intervals:
-            what = "give a clearance within the window of the pair, or teeth that exist"
-            raise RangeError(Problem(self.verdict.text, "these teeth have no law", what))
+            fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
+            raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
         return self.intervals
 
     @cached_property
     def _start(self) -> float:
-        """Where the first interval starts, as a position within the pitch of the line of centres."""
-        first = self._driven[0]
+        """Start of the first interval, as an angle within the pitch from the line of centres (rad)."""
+        first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
     @cached_property
     def _edges(self) -> Floats:
-        """The driver's angle from the start of the first interval to the edges of all."""
-        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._driven])))
+        """Driver angles from the start of the first interval to the edges of all intervals (rad)."""
+        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._drive_intervals])))
 
     def kinks(self) -> list[float]:
-        """Driver angles (rad) at the ends of all stretches."""
+        """Return the driver angles (rad) at the ends of all smooth stretches."""
         edges = dict(zip(self.intervals, self._edges.tolist(), strict=False))
         angles = [edges[interval] + interval.start - high - self._start for interval, high, _ in self.stretches]
         return [self.direction * angle for angle in angles]
@@ -238,10 +240,10 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """The intervals cut where something has a corner: where tau turns, and at the line of centres."""
+        """Smooth stretches: the intervals cut at kinks, at extremes of tau, and at the line of centres."""
         return [
             (interval, high, low)
-            for interval in self._driven
+            for interval in self._drive_intervals
             for high, low in pairwise(sorted({interval.start, interval.end, *self._kinks(interval)}, reverse=True))
         ]
 
@@ -255,7 +257,7 @@ class TriangularTransmission(TransmissionFunction):
             yield centre
 
     def _line_of_centres(self, phase: str) -> float:
-        """alpha_1 where the contact is on the line of centres: there sliding turns round."""
+        """Return alpha_1 at which the contact is on the line of centres, where sliding reverses."""
         if phase != APPROACH:
             return 0.0
         tooth_pair = self.contact.path.tooth_pair
@@ -266,10 +268,10 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
-        """Each stretch with nodes in alpha_1 and weights whose sum over all stretches is 1."""
-        return [node for stretch in self.stretches for node in self._graded(self._tau, *stretch)]
+        """Quadrature nodes in alpha_1 of each stretch, and weights whose sum over all stretches is 1."""
+        return [node for stretch in self.stretches for node in self._adaptive_nodes(self._tau, *stretch)]
 
-    def _graded(
+    def _adaptive_nodes(
         self,
         what: Callable[[DriveInterval, Floats], Any],
         interval: DriveInterval,
@@ -277,7 +279,10 @@ class TriangularTransmission(TransmissionFunction):
         low: float,
         depth: int = 0,
     ) -> list[tuple[DriveInterval, Floats, Floats]]:
-        """Nodes on one stretch, halved until `what` is integrated to rounding: near a grazing flank tau is steep."""
+        """Return Gauss nodes on one stretch, bisected until `what` is integrated to rounding.
+
+        tau is steep near a flank tangent to the tip circle.
+        """
         x, weights = self._gauss(high, low)
         middle = (high + low) / 2
         halves = [self._gauss(high, middle), self._gauss(middle, low)]
@@ -286,23 +291,23 @@ class TriangularTransmission(TransmissionFunction):
         if abs(finer - whole) <= _ROUNDING * max(self.sizes.ratio, abs(finer)) or depth == _DEEPEST:
             return [(interval, x, weights)]
         ends = ((high, middle), (middle, low))
-        return [node for pair in ends for node in self._graded(what, interval, *pair, depth + 1)]
+        return [node for pair in ends for node in self._adaptive_nodes(what, interval, *pair, depth + 1)]
 
     def _gauss(self, high: float, low: float) -> tuple[Floats, Floats]:
         points, weights = _GAUSS
         return (high + low) / 2 + (high - low) / 2 * points, (high - low) / 2 / self.period * weights
 
-    def _ends(self, what: Callable[[DriveInterval, Any], Any]) -> list[float]:
+    def _end_values(self, what: Callable[[DriveInterval, Any], Any]) -> list[float]:
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
 
     def speed_range(self) -> tuple[float, float]:
-        """Least and greatest tau; it is monotone between corners."""
-        ends = self._ends(self._tau)
+        """Return the minimum and maximum of tau, which is monotonic on each stretch."""
+        ends = self._end_values(self._tau)
         return min(ends), max(ends)
 
     def error_range(self) -> tuple[float, float]:
-        """Least and greatest transmission error (rad of the driven wheel)."""
-        lags = self._ends(self._lag)
+        """Return the minimum and maximum transmission error (rad of the driven wheel)."""
+        lags = self._end_values(self._lag)
         for interval, high, low in self.stretches:
             if interval.held is None:
                 lags += self.contact.path.extremes(interval.phase, low, high)
@@ -311,39 +316,45 @@ class TriangularTransmission(TransmissionFunction):
         return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
 
     def error_moments(self) -> tuple[float, float]:
-        """Mean and rms of the transmission error (rad of the driven wheel)."""
+        """Return the mean of the transmission error and its rms about the mean (rad of the driven wheel)."""
         lags = [(self._lag(interval, x), weights) for interval, x, weights in self.nodes]
         mean = sum(float(weights @ lag) for lag, weights in lags)
-        # about the mean found first: the mean of squares less the square of the mean would cancel
+        # two passes: the mean of squares minus the square of the mean would cancel
         square = sum(float(weights @ (lag - mean) ** 2) for lag, weights in lags)
         return (-mean if self.direction > 0 else self.sizes.p2 + mean), sqrt(square)
 
     def efficiency_mean(self) -> float:
-        """Mean over the driver's angle in contact at constant driver torque, Eq. (34); NaN where friction locks."""
+        """Return the mean efficiency over the driver's angle in contact at constant driver torque, Eq. (34).
+
+        NaN if friction locks.
+        """
         if self.friction >= self.locking_friction:
             return nan
         return self.contact.mean(("driver", self.friction), lambda: self._contact_mean(self._eta))
 
     def efficiency_at_constant_load(self) -> float:
-        """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
+        """Return work output over work input per pitch at constant load torque; NaN if friction locks."""
         if self.friction >= self.locking_friction:
             return nan
         work = partial(self._contact_mean, lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
         return self.contact.mean(("load", self.friction), lambda: self._contact_mean(self._tau) / work())
 
     def _contact_mean(self, what: Callable[[DriveInterval, Any], Any]) -> float:
-        """Mean over the driver's angle in contact; near the locking friction 1/eta is steeper than tau."""
+        """Return the mean of `what` over the driver's angle in contact.
+
+        Nodes are graded for `what` itself, because 1/eta is steeper than tau near the locking friction.
+        """
         stretches = [stretch for stretch in self.stretches if stretch[0].held is None]
-        held = [node for stretch in stretches for node in self._graded(what, *stretch)]
+        held = [node for stretch in stretches for node in self._adaptive_nodes(what, *stretch)]
         whole = sum(float(weights.sum()) for _, _, weights in held)
         return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
 
     def efficiency_minimum(self) -> float:
-        """Least sliding efficiency: at an end of a stretch, or within, looked for with a thousand samples each."""
+        """Return the minimum sliding efficiency, from 1001 samples of each stretch."""
         minimum = inf
         for interval, high, low in self.stretches:
             if interval.held is None:
-                # the line of centres itself belongs to both sides, where nothing is lost
+                # the line of centres itself, where nothing is lost, belongs to both sides and is excluded
                 x = np.linspace(high, low, 1001)
                 x[[0, -1]] = high - 1e-12 * (high - low), low + 1e-12 * (high - low)
                 minimum = min(minimum, float(self._eta(interval, x).min()))
@@ -351,19 +362,21 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def locking_friction(self) -> float:
-        """The friction at which some point of the real path locks, f tan = 1 before the line of centres; else inf."""
+        """Friction coefficient at which a point of the real path locks: f tan = 1 before the line of centres; infinite
+        if none.
+        """
         steepest = 0.0
         for interval, high, low in self.stretches:
             if interval.held is None:
                 x = np.linspace(high, low, 101)
                 side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
-                # the middle one of 101: stretches end at the line of centres, so that one sample tells the side
+                # the middle sample of 101 gives the side, because stretches end at the line of centres
                 inner = side[50] > 0
                 steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Greatest d tau / d alpha_1 (1/rad), for alpha_1 falls as the driver turns."""
+        """Return the maximum d tau / d alpha_1 (1/rad): tau falls fastest there, as alpha_1 decreases with time."""
         tooth_pair = self.contact.path.tooth_pair
         steepest = 0.0
         for interval, high, low in self.stretches:
@@ -373,9 +386,11 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def jumps(self) -> list[SpeedJump]:
-        """Every collision of a pitch, in order of time."""
+        """Collisions of one pitch, in order of time."""
         found = []
-        for last, new in zip(self._driven, (*self._driven[1:], self._driven[0]), strict=True):
+        for last, new in zip(
+            self._drive_intervals, (*self._drive_intervals[1:], self._drive_intervals[0]), strict=True
+        ):
             if new.held is not None:
                 continue
             before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
@@ -385,7 +400,7 @@ class TriangularTransmission(TransmissionFunction):
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Every collision of a pitch."""
+        """Return the speed ratios before and after every collision of one pitch."""
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
 
 
@@ -394,7 +409,7 @@ class TriangularTransmission(TransmissionFunction):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Contact over one pitch, in order of time, both ends of every interval among the rows."""
+    """Table of contact over one pitch, in order of time; both ends of every interval are rows."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -402,29 +417,33 @@ class ContactCourse(Result):
     )
 
     phases: tuple[str, ...]
-    """Of each row."""
+    """Phase of contact of each row."""
     alpha1: Floats
     """Angle of the driver's apex from the line of centres [rad]."""
     alpha2: Floats
     """Angle of the driven wheel's apex from the line of centres [rad]."""
     speed_ratio: Floats
-    """tau."""
+    """Speed ratio tau, driven over driver."""
     instant_centre: Floats
-    """O1C, from the driver's axis, in the unit of the law's lengths; NaN in a standstill, as what follows."""
+    """Distance O1C of the instant centre from the driver's axis, in the unit of the sizes.
+
+    It is NaN in a dwell, like the columns below.
+    """
     driver_arm: Floats
     """Arm b1 of the force about the driver's axis."""
     driven_arm: Floats
     """Arm b2 of the force about the driven wheel's axis."""
     efficiency: Floats
-    """tau b2/b1; NaN too where friction locks."""
+    """Efficiency tau b2/b1; also NaN where friction locks."""
 
 
 def contact_course(
     transmission: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
 ) -> ContactCourse:
-    """The course of a pair, `samples` rows for each interval of its real path; none for teeth that never touch.
+    """Tabulate the contact of a pair with `samples` rows for each interval of its real path; empty if teeth never
+    touch.
 
-    friction   in place of the law's own, where it depends on speed
+    friction   friction as a function of sliding velocity, which replaces the constant coefficient of the transmission
     """
     at = [(each, np.linspace(each.start, each.end, samples)) for each in transmission.intervals]
     tooth_pair = transmission.contact.path.tooth_pair

@@ -1,4 +1,4 @@
-// Arbors, and the arms of carriers: what holds the wheels.
+// Arbors and carrier arms.
 
 import { PARTS } from "./colours.js";
 import { rodsOf } from "./parts.js";
@@ -94,7 +94,7 @@ export function supports(scene, reach, radii, size) {
 
 const typical = (values) => [...values].sort((one, other) => one - other)[values.length >> 1];
 
-/** Where along its child's axis a carrier's arm stands: at the carrier's own wheel, else below the child's wheels. */
+/** Position of a carrier's arm along its child's axis: at the carrier's own wheel, else below the child's wheels. */
 function heightOf(scene, carrier, child, [low, high], thick) {
   const wheels = scene.wheels.filter((wheel) => wheel.body === carrier && wheel.kind !== "ring");
   const places = wheels.map((wheel) => along(child, wheel.centre));

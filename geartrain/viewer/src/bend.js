@@ -15,7 +15,7 @@ export class Bend {
     this.cast = new Map(); // of each casting its corners as they were, and in the frame of the wave
   }
 
-  /** Bent as the wave stands now: `castings`, those that have been cast. */
+  /** Bends the `castings` to the present position of the wave. */
   turn(castings) {
     const { machine, wave, body } = this;
     this.where = machine.moves ? machine.angle(wave.by) - machine.angle(body) : 0;

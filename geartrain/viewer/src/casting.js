@@ -1,4 +1,4 @@
-// Castings: shapes set where they stand and joined to one geometry, which one call draws.
+// Castings: positioned shapes merged into one geometry, which is drawn by one call.
 
 import { BufferAttribute, BufferGeometry, Matrix4, Mesh, Sphere, Vector3 } from "three";
 
@@ -10,7 +10,7 @@ export class Casting {
   /**
    * A shape, `count` times round its z axis.
    *
-   * matrix       where it stands in the zero pose
+   * matrix       its position in the zero pose
    * body, slot   by index
    * lift         how far it goes along the main direction when the picture is taken apart, a number or a function of
    *              each point

@@ -1,4 +1,4 @@
-// What things are painted with where nobody says otherwise.
+// Default colours.
 
 import { FAULT, LINE, QUIET, SERIES } from "./series.js";
 

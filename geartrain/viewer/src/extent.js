@@ -1,4 +1,4 @@
-// How far a train reaches: what a camera must have in its picture.
+// Extent of a train, which the picture must include.
 
 import { Box3, Sphere, Vector3 } from "three";
 
@@ -8,7 +8,7 @@ import { ringRim } from "./wheels.js";
 const ROUND = 16; // points of a circle
 const LEAST_DEEP = 0.6; // of a train taken apart, over its width
 const MOST_DEEP = 1.3;
-const LAYER = 0.14; // what each layer asks for
+const LAYER = 0.14; // thickness reserved for each layer
 const PARTED = [0.8, 12]; // how far layers may go, over their distance
 
 const STILL = () => new Vector3();
@@ -64,7 +64,7 @@ export function ballOf(scene, circles, corners = []) {
   return box.getBoundingSphere(new Sphere());
 }
 
-/** Points that a picture of the whole must hold, taken apart as it is. */
+/** Points that a picture of the whole train must include, in its present exploded state. */
 export function outlineOf(scene, poses) {
   const lifted = (point, body) => (poses.skewed[body] ? point : poses.apart(point, poses.height(point)));
   return circlesOf(scene, (body) => poses.shift(body)).flatMap((circle) => pointsOf(circle).map((point) => lifted(point, circle.body)));

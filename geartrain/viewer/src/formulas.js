@@ -104,7 +104,7 @@ export class CountFormulas {
 }
 
 const skewed = (...wheels) => wheels.every(({ cone, kind }) => !cone && kind !== "contrate");
-export const MEAN = "Teeth and pins ripple as they were computed for the declared counts only, so that this is mean motion.";
+export const MEAN = "The motion of teeth and pins was computed only for the declared counts, so mean motion is shown.";
 
 /** A count that a wheel can have, of a number or of text; null for others. */
 export function countOf(value) {
@@ -139,7 +139,7 @@ export function decimals(value) {
 
 function asRead(sense, speed) {
   if (speed === null) return "";
-  if (speed.numerator === 0n) return "stands still";
+  if (speed.numerator === 0n) return "at rest";
   return `${speed.numerator > 0n === sense > 0 ? "clockwise" : "counter-clockwise"} as read`;
 }
 
@@ -148,13 +148,13 @@ function verdictOf(scene, broken) {
   const still = ({ carrier }) => carrier !== null && scene.bodies[carrier].parent === null;
   const said = broken.map((condition) => {
     const { text, zero, carrier } = condition;
-    if (!zero) return "at these counts the train is locked, or free";
-    if (carrier === null) return `no longer so: ${text}`;
-    const held = still(condition) ? "hold each other still" : `can only turn with ${scene.bodies[carrier].id} as one body`;
+    if (!zero) return "with these counts the train is locked or free";
+    if (carrier === null) return `no longer satisfied: ${text}`;
+    const held = still(condition) ? "lock each other" : `can only turn with ${scene.bodies[carrier].id} as one body`;
     return `${text.replace(/ closes$/, "")} no longer closes: its wheels ${held}`;
   });
   const kind = broken.some(still) ? "locked" : "not determined";
-  return { kind, text: `${[...new Set(said)].join("; ")}. What then turns, \`geartrain solve\` tells of the saved train.`, links: [], loops: [], advice: [] };
+  return { kind, text: `${[...new Set(said)].join("; ")}. Save the train and run \`geartrain solve\` to see which links still turn.`, links: [], loops: [], advice: [] };
 }
 
 /** A circuit in words with other counts, where its words are its counts. */

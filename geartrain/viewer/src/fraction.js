@@ -27,7 +27,7 @@ export class Fraction {
     }
   }
 
-  /** The float rounded to so many decimals: a hand can tell no less than nine, and short fractions stay short. */
+  /** The float rounded to `digits` decimals. */
   static near(value, decimals = 9) {
     return new Fraction(BigInt(Math.round(value * 10 ** decimals)), 10n ** BigInt(decimals));
   }
@@ -99,7 +99,7 @@ function quotient(numerator, denominator) {
 }
 
 function fromFloat(value) {
-  if (!Number.isFinite(value)) throw new RangeError(`${value} is no number of turns`);
+  if (!Number.isFinite(value)) throw new RangeError(`${value} is not a number of turns`);
   let exponent = 0;
   while (!Number.isInteger(value)) {
     value *= 2;
@@ -110,7 +110,7 @@ function fromFloat(value) {
 
 function fromText(text) {
   const found = /^\s*([+-]?)(\d*)(?:\.(\d*))?(?:e([+-]?\d{1,4}))?(?:\s*\/\s*(\d+))?\s*$/i.exec(text.replace("−", "-"));
-  if (!found || !(found[2] || found[3])) throw new RangeError(`"${text}" is no number`);
+  if (!found || !(found[2] || found[3])) throw new RangeError(`"${text}" is not a number`);
   const [, sign, whole, decimals = "", power = "0", below = "1"] = found;
   if (BigInt(below) === 0n) throw new RangeError(`"${text}" divides by zero`);
   const exponent = BigInt(power) - BigInt(decimals.length);

@@ -1,9 +1,9 @@
-// Where a camera stands so that what is to be seen fills its picture.
+// Camera position for which the visible parts fill the picture.
 
 import { vector } from "./space.js";
 
 /**
- * The point looked at, and how far off the camera stands.
+ * Target point and distance of the camera.
  *
  * points    that must be seen
  * towards   unit vector from what is seen to the camera

@@ -1,4 +1,4 @@
-// The ground on which a train stands: nothing but its soft shadow there, under what reaches down to it.
+// Ground below a train, drawn only as a soft shadow.
 
 import { CircleGeometry, GLSL3, Mesh, RawShaderMaterial } from "three";
 

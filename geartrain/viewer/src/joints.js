@@ -30,7 +30,7 @@ export function couplingParts(scene, coupling, size) {
   return parts;
 }
 
-/** Pins that stand about an axis, and rings for the holes that they move in. */
+/** Pins around an axis, and rings for the holes in which they move. */
 function holesParts(coupling, pinBody, slotBody, height) {
   const pin = bar(coupling.pin_diameter / 2, -height, height, 24);
   const wide = coupling.hole / 2;

@@ -1,4 +1,4 @@
-// Error laws of pairs as tables of polynomials, and pairs that depend on each other.
+// Transmission errors of pairs as piecewise polynomials, and pairs that depend on each other.
 
 const SETTLED = 2e-15; // rad, over the scale of the angles added
 const MOST_STEPS = 120;

@@ -1,4 +1,4 @@
-// How the parts of a train look now: their colours, what is highlighted, what is out of the way.
+// Appearance of the parts of a train: colours, highlights, hidden parts.
 
 import { Color } from "three";
 

@@ -1,4 +1,4 @@
-// The page comes alive: scenes from its JSON, a machine for each, the interface round them, and then the pictures.
+// Start of the page: scenes from its JSON, a machine for each, the interface, and then the pictures.
 
 import { Fraction } from "./fraction.js";
 import { Machine } from "./motion.js";
@@ -8,7 +8,7 @@ import { Showcase } from "./ui/showcase.js";
 import { Stage } from "./view.js";
 
 const { scenes: given, options } = JSON.parse(document.getElementById("scenes").textContent);
-// beside a simulated run the same train can stand as it would be if all its drive flanks touched
+// the same train with all drive flanks in contact can be shown next to a simulated run
 const scenes = given.flatMap((scene) => (scene.run ? [scene, { ...scene, touching: true }] : [scene]));
 const machines = scenes.map((scene) => new Machine(scene));
 
@@ -36,12 +36,12 @@ const app = {
     try {
       app.stages[index] = new Stage(document.createElement("canvas"), machines[index], options);
     } catch (error) {
-      console.warn(`no picture in three dimensions: ${error.message}`);
+      console.warn(`3D graphics are not available: ${error.message}`);
       app.stages[index] = new Plan(machines[index]);
     }
     return app.stages[index];
   },
-  /** Browsers keep only so many drawing contexts: what is not shown has none. */
+  /** Browsers limit the number of drawing contexts, so hidden stages have none. */
   close(index) {
     app.stages[index]?.dispose();
     app.stages[index] = null;
@@ -50,7 +50,7 @@ const app = {
 
 function named(list, key, name) {
   const index = list.findIndex((each) => each[key] === name);
-  if (index < 0) throw new RangeError(`there is no "${name}"`);
+  if (index < 0) throw new RangeError(`unknown name "${name}"`);
   return index;
 }
 

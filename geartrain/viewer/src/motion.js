@@ -22,12 +22,12 @@ export class Machine {
     this.turns = Fraction.of(0);
     if (scene.run) {
       this.run = new Run(scene.run);
-      this.simulated = !scene.touching; // else the run only says where its lead stands
+      this.simulated = !scene.touching; // else the run gives only the position of the driving link
       this.initial = this.ahead.at(this.turns); // a run counts from the pose in which all drive flanks touch
     }
   }
 
-  /** Time in a simulated run (s), which turns of the lead at its mean speed stand for. */
+  /** Time in a simulated run (s), from the turns of the driving link at its mean speed. */
   time(turns = this.turns) {
     return Number(Fraction.of(turns)) * this.run.period;
   }
@@ -95,7 +95,7 @@ export class Machine {
     };
   }
 
-  /** The same in a simulated run, whose whole angle stands for the error. */
+  /** The same in a simulated run, where the whole angle is the error. */
   played(index, turns) {
     const { body, base } = this.scene.pointers[index];
     const time = this.time(turns);

@@ -1,4 +1,4 @@
-// What everything is painted with: one slot for each thing that can change its look by itself.
+// Palette of the materials: one slot for each part whose appearance can change.
 
 import { Color, DataTexture, NearestFilter, RGBAFormat, UnsignedByteType } from "three";
 

@@ -1,4 +1,4 @@
-// What holds the wheels, as it is made: turned parts and flat ones, straight from the scene.
+// Structural parts as manufactured: turned and flat parts from the scene.
 
 import { ShapeUtils, Vector2 } from "three";
 
@@ -27,7 +27,7 @@ export function builtParts(scene, main) {
     const upright = isParallel(direction, main.toArray());
     const cover = COVERS.includes(kind) ? vector(direction) : null;
     const shape = flat ? flatShape(part) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL ? ROUND : 40);
-    // what stands along the way layers move is stretched when they do
+    // parts along the direction in which layers move are stretched
     const at = upright && !flat ? null : vector(place);
     return { body, kind, cover, colour: colourOf(part), gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
   });
@@ -110,7 +110,7 @@ export function rodsOf(scene, index) {
     });
 }
 
-/** Points that hold all parts, where these stand in the zero pose: {point, body, at}, `at` as of the part. */
+/** Points whose hull includes all parts in the zero pose: {point, body, at}, `at` as of the part. */
 export function cornersOf(scene, main) {
   return scene.parts.flatMap(({ body, place, direction, across, bands, outlines, height }) => {
     const matrix = frameAt(place, direction, across);

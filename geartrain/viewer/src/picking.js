@@ -1,4 +1,4 @@
-// Hands on the picture: a tap chooses a wheel, a drag on the crank's handle turns it.
+// Pointer input in the picture: a tap selects a wheel, a drag of the handle turns the crank.
 
 import { Plane, Raycaster, Vector2 } from "three";
 

@@ -1,4 +1,4 @@
-// Where the bodies of a train stand. Each is a node under the body that bears its axis, and is turned about its axis
+// Poses of the bodies of a train. Each is a node under the body that bears its axis, and is turned about its axis
 // by the angle its parent sees; taken apart, layers move along the direction of most wheels.
 
 import { Group, Matrix4, Vector3 } from "three";
@@ -20,7 +20,7 @@ const balls = ({ bodies, dials, pointers }) =>
 const slides = ({ bodies, dials, pointers }) =>
   pointers.flatMap(({ body, dial }, slide) => (dial !== null && dials[dial].scale.turns > 1 ? [{ ...bodies[body], as: body, slide }] : []));
 
-/** Where what hangs stands when the body by which it moves has turned by `joint`. */
+/** Pose of a hanging part when the body that moves it has turned by `joint`. */
 function hung(matrix, { kind, point, direction, down, length, rate }, joint) {
   const frame = frameAt(point, direction, down);
   const now = length + Math.max(0.1 * length - length, rate * joint); // no higher than its barrel
@@ -53,7 +53,7 @@ export class Poses {
     return parent !== null && (!isParallel(direction, this.main.toArray()) || this.isSkew(parent));
   }
 
-  /** Every node where its body stands now, and its matrix into `array`. */
+  /** Updates every node to the present pose of its body, and writes its matrix into `array`. */
   turn(array) {
     this.bodies.forEach((body, index) => {
       if (body.parent === null) return;
@@ -77,7 +77,7 @@ export class Poses {
     return joint + 2 * Math.PI * Math.round((mean - joint) / (2 * Math.PI));
   }
 
-  /** Layers apart: 0 as they stand, 1 fully. */
+  /** Exploded view of the layers, 0 (assembled) to 1. */
   explode(share) {
     this.share = share;
     this.bodies.forEach(({ parent }, index) => {

@@ -1,4 +1,4 @@
-// A simulated motion: the angle of every body, the state of every contact and its blows, at any moment of the run.
+// A simulated motion: angles of bodies, states of contacts and impacts at any time of the run.
 // Nothing is simulated here: samples come with the scene, and angles go straight from each to the next.
 
 const GLOW = 0.35; // s as the reader sees them: how long a blow is seen
@@ -53,7 +53,7 @@ export class Run {
     for (let at = before(times, from) + 1; at < times.length && times[at] <= to; at += 1) yield [times[at], this.strength(speeds[at])];
   }
 
-  /** How strong a blow with a closing speed looks beside the hardest: 0 to 1. */
+  /** Brightness of an impact with a closing speed, relative to the strongest: 0 to 1. */
   strength(speed) {
     return 0.4 + 0.6 * Math.sqrt(speed / this.hardest);
   }

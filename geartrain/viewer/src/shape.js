@@ -1,4 +1,4 @@
-// Shapes: corners with the way they face and the way they were brushed, and the triangles between them.
+// Shapes: vertices with normals and brushing directions, and triangles.
 
 const TURN = 2 * Math.PI;
 

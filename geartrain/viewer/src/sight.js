@@ -1,4 +1,4 @@
-// What stands before wheels, as an eye sees them, and how well they are seen.
+// Occlusion of wheels, and their visibility.
 
 import { Ray } from "three";
 
@@ -52,7 +52,7 @@ export class Sight {
     this.swept = scene.wheels.flatMap((wheel, n) => discsOf(scene, wheel).map((disc) => pointsOver({ ...disc, inner: this.wheels[n].inner })));
   }
 
-  /** Whether a bar stands before much of a wheel, wherever that is carried. */
+  /** Whether a bar hides much of a wheel in any position. */
   isCovering({ from, to, radius }, eye) {
     const ray = new Ray(eye.clone());
     const on = eye.clone();
@@ -63,7 +63,7 @@ export class Sight {
     return this.swept.some((points) => points.filter(isBehind).length > COVERED * points.length);
   }
 
-  /** The share of wheels, as they stand at the beginning, before which a flat part stands. */
+  /** The share of the wheels, in their initial positions, that a flat part hides. */
   hidden({ inverse, outline }, eye) {
     const from = eye.clone().applyMatrix4(inverse);
     const to = eye.clone();

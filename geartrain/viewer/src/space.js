@@ -33,7 +33,7 @@ export function foot(point, direction, otherPoint, otherDirection) {
   return p.addScaledVector(d, along);
 }
 
-/** Where a point stands along a body's axis. */
+/** Coordinate of a point along a body's axis. */
 export const along = (body, point) => vector(point).sub(vector(body.point)).dot(vector(body.direction));
 
 /** The point of a body's axis at a place along it. */
@@ -44,7 +44,7 @@ export const offAxis = (body, point) => onAxis(body, along(body, point)).distanc
 
 export const isParallel = (one, other) => Math.abs(vector(one).dot(vector(other))) > 1 - 1e-6;
 
-/** True where two bodies turn about one line, as they stand. */
+/** True if two bodies turn about one line in their present positions. */
 export function sharesAxis(scene, one, other, size) {
   const [a, b] = [scene.bodies[one], scene.bodies[other]];
   return isParallel(a.direction, b.direction) && offAxis(a, b.point) < 1e-6 * size;

@@ -1,4 +1,4 @@
-// Where contacts of a simulated run are: a flash where teeth strike, a ring where they are apart. Seen through all else.
+// Markers of the contacts of a simulated run: a flash at an impact, a ring at separated teeth, drawn over all else.
 
 import { BufferAttribute, BufferGeometry, Color, GLSL3, Points, RawShaderMaterial } from "three";
 
@@ -67,7 +67,7 @@ export class Sparks {
     position.needsUpdate = look.needsUpdate = true;
   }
 
-  /** Made for a picture of so many pixels across. */
+  /** Sizes the markers for a picture of a given width (px). */
   scale(pixels) {
     const crowd = Math.min(1, Math.max(0.5, Math.sqrt(12 / this.places.length)));
     this.material.uniforms.unit.value = crowd * Math.min(160, Math.max(48, 0.14 * pixels));

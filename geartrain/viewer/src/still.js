@@ -1,4 +1,4 @@
-// Stills: a stage drawn at once, as a picture that can be kept.
+// Stills: a stage drawn as a picture that can be saved.
 
 import { svg } from "./ui/element.js";
 

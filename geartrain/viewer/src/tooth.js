@@ -56,7 +56,7 @@ export function toothShape(points, base, at, fine = FINE, hand = 1) {
   return shape;
 }
 
-/** A pin, or another closed curve, through two faces, out of which its ends stand. */
+/** A pin, or another closed curve, through two faces, beyond which its ends extend. */
 export function pinShape(points, at) {
   const through = (rho, angle, end) => at(rho, angle, end ? 1 + PROUD : -PROUD);
   const edge = simplify([...points, points[0]]);

@@ -5,7 +5,7 @@ import { flatShape } from "./parts.js";
 import { frameAt, vector } from "./space.js";
 import { blankOf, pinShape, toothShape } from "./tooth.js";
 
-const MOST_TEETH = 2000; // of a wheel: more cannot be told apart
+const MOST_TEETH = 2000; // of a wheel: more cannot be distinguished
 const MANY_TEETH = 12000; // of a train: beyond, all are drawn more simply
 const SEEN = 0.0005; // of a train's size: bends of a tooth that are slighter are not drawn
 const GLOSS = 0.75;

@@ -119,7 +119,7 @@ export class World {
     const foot = own[side > 0 ? 1 : 0];
     const rod = rodsOf(scene, scene.crank).sort((one, other) => side * (other[0] - one[0]))[0];
     const crank = crankOf(scene, scene.crank, end, side, 0.12 * size, size);
-    crank.at = onAxis(body, last); // taken apart, it goes as far as what it stands on
+    crank.at = onAxis(body, last); // in the exploded view, it moves as far as its support
     for (const part of crank.parts) part.at = crank.at;
     const bar = (from, to, at) => ({ body: scene.crank, colour: PARTS.arbor, ...barBetween(onAxis(body, from), onAxis(body, to), rod ? rod[2] : 0.009 * size), at });
     crank.parts.push(bar(foot - side * 0.01 * size, last, null), bar(last - side * 0.005 * size, end, crank.at));
@@ -149,7 +149,7 @@ export class World {
     this.cut = true;
   }
 
-  /** Every body where it stands now. */
+  /** Updates the pose of every body. */
   turn() {
     const { value } = this.uniforms.poses;
     this.poses.turn(value.image.data);
@@ -158,7 +158,7 @@ export class World {
     this.sparks?.set(this.machine.time());
   }
 
-  /** Thin wheels as their waves stand now. */
+  /** Updates thin wheels to the present position of their waves. */
   bend() {
     for (const bend of this.bends) bend.turn(this.castings);
   }
@@ -169,7 +169,7 @@ export class World {
     cutOpen(this.materials, this.opened);
   }
 
-  /** Layers apart: 0 as they stand, 1 fully. */
+  /** Exploded view of the layers, 0 (assembled) to 1. */
   explode(share) {
     this.uniforms.share.value = share;
     this.poses.explode(share);
@@ -177,7 +177,7 @@ export class World {
     this.ground.fit(this.outline());
   }
 
-  /** Points that a picture of the whole must hold, taken apart as it is. */
+  /** Points that a picture of the whole must include, in its present exploded state. */
   outline() {
     const { crank, poses } = this;
     const swing = crank ? pointsOf({ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }) : [];

@@ -12,7 +12,7 @@ export function circuits(host, { trains }) {
   const sheet = new Sheet(host, {
     height: HIGH,
     label: "The graph of a train: links, turning pairs and gear pairs",
-    hint: "Point at a gear pair, a heavy line, or reach it with the tab key: its circuit lights up.",
+    hint: "Point at a gear pair (heavy line), or focus it with the Tab key, to highlight its circuit.",
   });
   const field = svg("g");
   sheet.picture.append(field);
@@ -42,7 +42,7 @@ function drawn(train, sheet) {
       if (kind !== "revolute") group.setAttribute("aria-pressed", String(own));
     });
     for (const [link, node] of Object.entries(nodes)) node.classList.toggle("gd-carrier", link === circuit.carrier);
-    const rows = { circuit: along(train, circuit).join(" \u2013 "), carrier: circuit.carrier, "seen from it": circuit.ratio };
+    const rows = { circuit: along(train, circuit).join(" \u2013 "), carrier: circuit.carrier, "relative ratio": circuit.ratio };
     sheet.tell(Object.entries(rows), [name]);
     sheet.say(circuit.equation.replaceAll(" - ", " \u2212 ").replace(/^-/, "\u2212"));
   }

@@ -1,4 +1,4 @@
-// Phase closure: a second planet is dragged round, and meshes with the ring only where its teeth meet the gaps.
+// Phase closure: the user drags a second planet, which meshes with the ring only where its teeth meet gaps.
 
 import { BRASS } from "../colours.js";
 import { Fraction } from "../fraction.js";
@@ -18,7 +18,7 @@ export function closure(host, { planet: count, sets }) {
   const sheet = new Sheet(host, {
     height: WIDE,
     label: "Planets between a sun and a ring",
-    hint: "Drag the second planet round the sun, or use the arrow keys: blue fits, red does not.",
+    hint: "Drag the second planet around the sun, or use the arrow keys. Blue fits, red does not.",
   });
   const scale = WIDE / 2 / (1.02 * Math.max(...Object.values(sets).map(({ wheels }) => rimOf(wheels.r))));
   const view = sheet.plane([scale, scale], [WIDE / 2, WIDE / 2]);
@@ -59,7 +59,7 @@ export function closure(host, { planet: count, sets }) {
       rows.push([`planet ${n + 1}`, `${turns}`, `${miss}`]);
     });
     sheet.tell(rows, [PLACE, OFF]);
-    sheet.say(`A sun of ${state.sun} and a ring of ${wheels.r.teeth} teeth: planets go in at multiples of 1/${shown(places())} turn.`);
+    sheet.say(`A sun of ${state.sun} and a ring of ${wheels.r.teeth} teeth: planets can be assembled at multiples of 1/${shown(places())} turn.`);
   }
 
   handle(sheet, planets[1], {

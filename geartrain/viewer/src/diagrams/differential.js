@@ -1,4 +1,4 @@
-// The differential from the side: both axle shafts are dragged, and the crown turns by half their sum.
+// The differential from the side: the user drags both axle shafts, and the crown turns by half their sum.
 
 import { BRASS, PARTS } from "../colours.js";
 import { Fraction, partOfProduct } from "../fraction.js";
@@ -20,7 +20,7 @@ export function differential(host, { scene, shares, crown, spider }) {
   const sheet = new Sheet(host, {
     height: 480,
     label: "A differential seen from the side",
-    hint: "Drag the left or the right wheel up and down; or turn the one in focus with the arrow keys.",
+    hint: "Drag the left or the right wheel up and down, or turn the focused wheel with the arrow keys.",
   });
   const sides = Object.keys(shares);
   const made = Object.fromEntries(sides.map((side) => [side, Fraction.of(0)]));
@@ -59,7 +59,7 @@ export function differential(host, { scene, shares, crown, spider }) {
     const planet = turns(spider).minus(turns(crown));
     sheet.tell([...sides, crown].map((link) => [link, `${turns(link)}`]).concat([["spider on the crown", `${planet}`]]), [MADE]);
     const [left, right] = sides.map((side) => shown(made[side]));
-    sheet.say(`The ${crown} makes half the sum of both sides: (${left} + ${right.startsWith("\u2212") ? `(${right})` : right}) / 2 = ${shown(turns(crown))} turns.`);
+    sheet.say(`The ${crown} turns by half the sum of both sides: (${left} + ${right.startsWith("\u2212") ? `(${right})` : right}) / 2 = ${shown(turns(crown))} turns.`);
   }
 
   for (const side of sides) {

@@ -1,4 +1,4 @@
-// What a reader drags: by mouse, finger or arrow keys, in steps that are exact fractions.
+// Handles that the user drags by mouse, finger or arrow keys, in steps that are exact fractions.
 
 import { Fraction } from "../fraction.js";
 
@@ -10,7 +10,7 @@ const KEYS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
  *
  * plane    the group in whose coordinates the reader's pointer is given to `moved`
  * label    what it is called
- * value    the Fraction it stands for now; `set` takes a new one, a whole number of `parts` of a unit
+ * value    its present Fraction; `set` takes a new one, a whole number of `parts` of a unit
  * moved    units from one point [x, y] to another
  * text     its value in words
  * page     steps of the keys for pages; `key`, of the arrows; `least`, `most` where it ends

@@ -1,4 +1,4 @@
-// Self-locking: the basic efficiency of a set is dragged, and what of its power arrives either way.
+// Self-locking: the user drags the basic efficiency of a set; the power transmitted in both directions is shown.
 
 import { Fraction } from "../fraction.js";
 import { svg } from "../ui/element.js";
@@ -15,8 +15,8 @@ const COLOURS = ["gd-one", "gd-two"];
 export function locking(host, { basic, ratio, ways }) {
   const sheet = new Sheet(host, {
     height: 420,
-    label: "How much of the power arrives, by the efficiency of the pairs of teeth",
-    hint: "Drag the upright line to better or worse teeth, or use the arrow keys.",
+    label: "Transmitted power as a function of the efficiency of each mesh",
+    hint: "Drag the vertical line to change the efficiency, or use the arrow keys.",
   });
   const values = basic.map((text) => Fraction.of(text));
   const [least, most] = [values[0], values.at(-1)].map(Number);
@@ -28,7 +28,7 @@ export function locking(host, { basic, ratio, ways }) {
   const [, bottom] = chart.to([least, 0]);
   for (const at of [least, (least + most) / 2, most]) sheet.write(String(at), [chart.to([at, 0])[0], bottom + 20]);
   for (const at of [0, 1]) sheet.write(String(at), [FIELD[0] - 14, chart.to([least, at])[1] + 5]);
-  sheet.write("efficiency of each pair of teeth", [WIDE / 2, bottom + 44]);
+  sheet.write("efficiency of each mesh", [WIDE / 2, bottom + 44]);
   const bars = Object.keys(ways).map((way, n) => bar(sheet, way, n));
   const grip = svg("g", {}, svg("rect", { x: -18, y: FIELD[1] - 6, width: 36, height: FIELD[3] + 12, class: "gd-reach-fill" }), svg("line", { y1: FIELD[1], y2: bottom, class: "gd-cursor" }), svg("circle", { cy: bottom, r: 9, class: "gd-dot" }));
   const dots = Object.keys(ways).map((_, n) => svg("circle", { r: 6, class: `gd-point ${COLOURS[n]}` }));
@@ -47,18 +47,18 @@ export function locking(host, { basic, ratio, ways }) {
     const rows = found.map(([way, share]) => [way, share === null ? "locks" : share.toFixed(6)]);
     const whole = values[at].times(values[at]);
     const limit = Fraction.of(1).over(ratio);
-    sheet.tell([["each pair of teeth", decimal(values[at])], ["e, of both", decimal(whole, 6)], ["limit, 1/i\u2080", `${limit} = ${decimal(limit, 6)}`], ...rows], [NAME]);
+    sheet.tell([["each mesh", decimal(values[at])], ["e, of both", decimal(whole, 6)], ["limit, 1/i\u2080", `${limit} = ${decimal(limit, 6)}`], ...rows], [NAME]);
     const locked = found.filter(([, share]) => share === null).map(([way]) => way);
     sheet.say(
       locked.length
-        ? `Self-locking where ${locked.join(" and ")}: no torque, however great, turns the set that way.`
-        : "Both ways turn.",
+        ? `Self-locking where ${locked.join(" and ")}: no torque can turn the set in this direction.`
+        : "The set turns in both directions.",
     );
   }
 
   handle(sheet, grip, {
     plane: sheet.picture,
-    label: "Efficiency of each pair of teeth",
+    label: "Efficiency of each mesh",
     value: () => values[at],
     set: (wanted) => ((at = Math.round((Number(wanted) - least) * parts)), show()),
     moved: ([x], [u]) => ((u - x) / FIELD[2]) * (most - least),
@@ -80,6 +80,6 @@ function bar(sheet, way, n) {
   sheet.picture.append(lost, kept);
   return (share) => {
     kept.setAttribute("width", (BARS.wide * (share ?? 0)).toFixed(2));
-    words.textContent = share === null ? `${way}: it locks` : `${way}: ${(100 * share).toFixed(1)} % arrives`;
+    words.textContent = share === null ? `${way}: self-locking` : `${way}: ${(100 * share).toFixed(1)} % transmitted`;
   };
 }

@@ -1,4 +1,4 @@
-// Pin and slot: a wheel drives another about an axis beside its own, and is seen from there as on an epicycle.
+// Pin and slot: a wheel drives another about a parallel axis, about which its pin moves on an epicycle.
 
 import { BRASS, PARTS } from "../colours.js";
 import { Fraction } from "../fraction.js";
@@ -18,8 +18,8 @@ const NOW = "now";
 export function pin(host, { wheels, pin_radius: r, offset: e, transmission: table }) {
   const sheet = new Sheet(host, {
     height: 480,
-    label: "A wheel with a pin that works in the slot of another wheel",
-    hint: "Drag the wheel round, or use the arrow keys.",
+    label: "A wheel whose pin engages the slot of another wheel",
+    hint: "Drag the wheel, or use the arrow keys.",
   });
   const law = new Law(table);
   const view = sheet.plane([SCALE, SCALE], CENTRE);
@@ -27,7 +27,7 @@ export function pin(host, { wheels, pin_radius: r, offset: e, transmission: tabl
   const chart = sheet.chart([40, 352, WIDE - 60, 110], [0, 1], [-1.1 * Math.asin(e / r), 1.1 * Math.asin(e / r)]);
   chart.line([[0, 0], [1, 0]], { class: "gd-curve gd-mean" });
   chart.line(Array.from({ length: 241 }, (_, n) => [n / 240, law.at((TURN * n) / 240)[0]]), { class: "gd-curve gd-one" });
-  sheet.write("how far the slot is ahead, over a turn of the pin", [WIDE / 2, 346]);
+  sheet.write("angle by which the slot is ahead, over one turn of the pin", [WIDE / 2, 346]);
   const dot = svg("circle", { r: 6, class: "gd-dot" });
   sheet.picture.append(dot);
   let turned = Fraction.of("1/5");
@@ -45,11 +45,11 @@ export function pin(host, { wheels, pin_radius: r, offset: e, transmission: tabl
         ["pin, in degrees", `${degrees}`],
         ["slot, in degrees", (Number(degrees) + DEGREES * error).toFixed(6)],
         ["ahead by", (DEGREES * error).toFixed(6)],
-        ["at most", (DEGREES * Math.asin(e / r)).toFixed(6)],
+        ["maximum", (DEGREES * Math.asin(e / r)).toFixed(6)],
       ],
       [NOW],
     );
-    sheet.say("The pin goes round its own axis evenly. From the slot's axis it is on an epicycle: the small circle, whose centre goes round evenly.");
+    sheet.say("The pin moves uniformly about its own axis. About the slot's axis it moves on an epicycle: a small circle whose centre moves uniformly.");
   }
 
   handle(sheet, parts.driver, {

@@ -1,4 +1,4 @@
-// What every diagram has: a picture, a line that says what to drag, choices, and a table of the numbers it shows.
+// Common parts of the diagrams: picture, instructions, choices, and a table of the numbers shown.
 
 import { el, fresh, svg } from "../ui/element.js";
 import { shown } from "../ui/number.js";
@@ -51,7 +51,7 @@ export class Sheet {
     return words;
   }
 
-  /** One of several: `options` are [value, text], `first` the value at the start; `chosen` is told of the new one. */
+  /** One of several: `options` are [value, text], `first` the value at the start; `chosen` is called with the new one. */
   choice(label, options, chosen, first = options[0][0]) {
     const name = fresh("gd");
     const buttons = options.map(([value, text]) =>

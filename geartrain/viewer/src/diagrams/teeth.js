@@ -1,4 +1,4 @@
-// A pair of triangular teeth: the driver is dragged, an apex rides on a flank, and the ratio of the moment swings.
+// A pair of triangular teeth: the user drags the driver; the apex on the flank and the instantaneous ratio are shown.
 
 import { BRASS } from "../colours.js";
 import { Fraction } from "../fraction.js";
@@ -22,7 +22,7 @@ export function teeth(host, { pairs }) {
   const sheet = new Sheet(host, {
     height: 470,
     label: "Triangular teeth of two wheels in contact",
-    hint: "Drag the driver, at the left, downwards; or use the arrow keys.",
+    hint: "Drag the driver (left) downwards, or use the arrow keys.",
   });
   const pane = sheet.pane([0, 0, WIDE, PANE]);
   const below = svg("g");
@@ -48,7 +48,7 @@ export function teeth(host, { pairs }) {
       ],
       [TELLS],
     );
-    sheet.say(TOUCHES[moment.at(-1)] ?? "No tooth touches: the driven wheel stands.");
+    sheet.say(TOUCHES[moment.at(-1)] ?? "No teeth are in contact: the driven wheel is at rest.");
   }
 
   sheet.choice("Teeth", Object.entries(pairs).map(([name, { title }]) => [name, title]), open);
@@ -95,7 +95,7 @@ class Pair {
     return this.mean + this.law.at(angle)[1];
   }
 
-  /** What stands after so many pitches of the driver. */
+  /** State after a number of pitches of the driver. */
   at(passed) {
     const angle = this.law.period * passed.part;
     const count = this.given.moments.length;

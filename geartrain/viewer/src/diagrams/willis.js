@@ -1,4 +1,4 @@
-// Willis' inversion: the same turning seen from the ground and from the carrier, in whose frame the ratio is fixed.
+// Willis' inversion: the same motion relative to the frame and to the carrier, where the ratio is fixed.
 
 import { BRASS, PARTS } from "../colours.js";
 import { Fraction } from "../fraction.js";
@@ -10,15 +10,15 @@ import { rimOf, wheelPath } from "./outline.js";
 import { Sheet, WIDE, glide } from "./sheet.js";
 
 const DEGREES = 180 / Math.PI;
-const GROUND = "from the ground";
-const ARM = "from the carrier";
+const GROUND = "relative to the frame";
+const ARM = "relative to the carrier";
 
 /** data   `scene`, whose links are `sun`, `ring`, `carrier`, `planet`; `held`, by the link held the speeds of all */
 export function willis(host, { scene, held, sun, ring, carrier, planet }) {
   const sheet = new Sheet(host, {
     height: 480,
-    label: "A sun, a planet and a ring, to be turned",
-    hint: "Drag the carrier, the sun or the ring; or turn the one in focus with the arrow keys.",
+    label: "A sun, a planet and a ring that can be turned",
+    hint: "Drag the carrier, the sun or the ring, or turn the focused member with the arrow keys.",
   });
   const index = (link) => scene.bodies.findIndex(({ id }) => id === link);
   const machines = Object.fromEntries(Object.entries(held).map(([link, speeds]) => [link, new Machine(turningAs(scene, speeds))]));
@@ -48,7 +48,7 @@ export function willis(host, { scene, held, sun, ring, carrier, planet }) {
     sheet.say(
       below.equals(0)
         ? "All numbers are turns."
-        : `All numbers are turns. Seen from the carrier, ${sun} : ${ring} = ${shown(above)} : ${shown(below)} = ${shown(above.over(below))}, wherever they stand and whatever is held.`,
+        : `All numbers are turns. Relative to the carrier, ${sun} : ${ring} = ${shown(above)} : ${shown(below)} = ${shown(above.over(below))}, in every position and with any member fixed.`,
     );
   }
 

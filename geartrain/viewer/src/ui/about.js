@@ -1,4 +1,4 @@
-// What is to be said of a train as a whole: its note, what could not be shown, its sources.
+// General information on a train: note, simplifications of the picture, sources.
 import { el, link } from "./element.js";
 
 function notice(each) {
@@ -25,13 +25,13 @@ function source([key, each]) {
 }
 
 function movement(scene) {
-  if (scene.run && !scene.touching) return el("p", {}, "Every angle is that of a simulation with inertia, play and friction, to 0.006 degrees.");
+  if (scene.run && !scene.touching) return el("p", {}, "All angles are those of a simulation with inertia, backlash and friction, to 0.006 degrees.");
   const { kind, why } = scene.movement;
   const words = {
-    exact: "Every angle is exact: a rational multiple of the turns of the crank.",
-    real: "Mean speeds are exact; teeth and pins ripple as computed beforehand, and nothing is guessed in this page.",
-    mean: "What turns here are the mean speeds; what teeth and pins do could not be followed.",
-    still: "Nothing turns here.",
+    exact: "All angles are exact: rational multiples of the turns of the crank.",
+    real: "Mean speeds are exact; the deviations caused by teeth and pins were computed in advance.",
+    mean: "Only mean motion is shown; the motion of teeth and pins could not be computed.",
+    still: "The train does not move.",
   };
   return el("p", {}, words[kind] ?? "", why && ` ${why}`);
 }
@@ -52,11 +52,11 @@ export function about(side, many) {
     ),
     movement(scene),
     scene.notices.length
-      ? [el("h4", {}, "What could not be shown as it is"), el("ul", { class: "notices" }, scene.notices.map(notice))]
+      ? [el("h4", {}, "Simplifications of the picture"), el("ul", { class: "notices" }, scene.notices.map(notice))]
       : null,
     el("h4", {}, "Sources"),
     sources.length
       ? el("ul", { class: "sources" }, sources.map(source))
-      : el("p", { class: "quiet" }, "None are named."),
+      : el("p", { class: "quiet" }, "No sources are given."),
   );
 }

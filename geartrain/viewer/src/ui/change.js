@@ -1,4 +1,4 @@
-// What was changed here: counts, meshes that no longer fit their axes, outputs beside those declared; and the train as YAML.
+// Changes of tooth counts: meshes that no longer fit their axes, outputs compared with those declared, the train as YAML.
 import { Fraction } from "../fraction.js";
 import { MEAN, countOf } from "../formulas.js";
 import { copy } from "./copying.js";
@@ -9,7 +9,7 @@ import { difference, relative } from "./outputs.js";
 const PLAIN_NAME = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 const WORDS = new Set(["null", "true", "false", "yes", "no", "on", "off", "y", "n"]);
 
-const NOTHING = "All counts are as declared. Under Wheels a tooth more or less can be given to each: all speeds then change at once, exactly, and here stands what else does.";
+const NOTHING = "All tooth counts are as declared. They can be changed under Wheels: all speeds are then recomputed exactly, and the changes are listed here.";
 
 /** A name as YAML reads it back: plain where that is safe, else in quotes. */
 const scalar = (name) => (PLAIN_NAME.test(name) && !WORDS.has(name.toLowerCase()) ? name : JSON.stringify(name));
@@ -30,17 +30,17 @@ export function asYaml(side) {
   ].join("\n");
 }
 
-const wayOf = (further) => (further ? "further apart than they stand" : "nearer together than they stand");
+const wayOf = (further) => (further ? "further apart" : "closer together");
 
-/** How a pair stands on its axes, in words; empty where it fits. */
+/** Describes by how much a pair misfits its axes; empty if it fits. */
 export function misfit({ pair, off, apart, module }) {
-  if (off === null && apart === null) return `${pair.id}: its axes meet, and its wheels have to be cut and set along them anew`;
+  if (off === null && apart === null) return `${pair.id}: its axes intersect, so its wheels must be redesigned and repositioned`;
   if (off === null && !apart) return "";
-  if (off === null) return `${pair.id}: asks for axes ${Math.abs(apart).toPrecision(3)} mm ${wayOf(apart > 0)} (as drawn)`;
+  if (off === null) return `${pair.id}: needs axes ${Math.abs(apart).toPrecision(3)} mm ${wayOf(apart > 0)} (as drawn)`;
   if (off.numerator === 0n) return "";
   const size = off.numerator < 0n ? Fraction.of(0).minus(off) : off;
   const modules = `${size} ${size.equals(1) ? "module" : size.denominator === 1n ? "modules" : "of a module"}`;
-  return `${pair.id}: asks for axes ${modules} ${wayOf(off.numerator > 0n)} (${(Number(size) * module).toPrecision(3)} mm as drawn)`;
+  return `${pair.id}: needs axes ${modules} ${wayOf(off.numerator > 0n)} (${(Number(size) * module).toPrecision(3)} mm as drawn)`;
 }
 
 export class Change {
@@ -56,7 +56,7 @@ export class Change {
     const broken = side.meshes.map(misfit).filter(Boolean);
     return el(
       "section",
-      { class: "change", "aria-label": "what is changed" },
+      { class: "change", "aria-label": "changes" },
       el("div", { class: "row" }, el("h3", {}, many ? `${side.label}, changed` : "Changed"), reset),
       el(
         "ul",
@@ -66,7 +66,7 @@ export class Change {
       el("h4", {}, "Meshes"),
       broken.length
         ? el("ul", { class: "misfits" }, broken.map((text) => el("li", { class: "bad" }, text)))
-        : el("p", {}, "All still fit their axes."),
+        : el("p", {}, "All meshes still fit their axes."),
       side.declared.movement.kind === "real" && el("p", { class: "quiet" }, MEAN),
       el("h4", {}, "Outputs"),
       this.#outputs(side),
@@ -82,7 +82,7 @@ export class Change {
       const cells = [before, pointer.shown].map((text) => el("td", { class: "number" }, text === null ? "not determined" : shown(text)));
       return [el("tr", { "data-turned": pointer.output }, el("th", { scope: "row" }, pointer.output), cells, el("td", {}, gap ? relative(gap.part) : ""))];
     });
-    if (!rows.length) return el("p", {}, "None turns otherwise than declared.");
+    if (!rows.length) return el("p", {}, "No output speed has changed.");
     const heads = ["output", "declared", "now", "change"];
     return el(
       "div",
@@ -100,9 +100,9 @@ export class Change {
       setTimeout(() => URL.revokeObjectURL(address), 1000);
       this.say(`${file} saved`);
     };
-    const take = async () => this.say((await copy(text)) ? "the declaration is copied" : "the browser does not let this page copy");
+    const take = async () => this.say((await copy(text)) ? "declaration copied" : "the browser does not permit copying");
     return [
-      el("h4", {}, "As a declaration"),
+      el("h4", {}, "Declaration"),
       el("pre", { class: "yaml", tabindex: 0 }, text),
       el(
         "div",
@@ -114,7 +114,7 @@ export class Change {
   }
 }
 
-/** Buttons and a field for the count of a wheel; nothing where it cannot be changed. `key` tells them from others. */
+/** Buttons and a field for the count of a wheel; null if it cannot be changed. `key` identifies them. */
 export function stepper(side, index, onCounts, key, typed = false) {
   const at = side.formulas?.at(index) ?? null;
   if (at === null) return null;

@@ -1,4 +1,4 @@
-// The legend that tells what the colours of the wheels mean.
+// The legend of the colours of the wheels.
 import { STATUS, lossColour, speedColour } from "../colours.js";
 import { el } from "./element.js";
 
@@ -19,7 +19,7 @@ function speedLegend(scene) {
   return [
     ramp(...faster(1), `${positive}, slow to fast`),
     ramp(...faster(-1), `${negative}, slow to fast`),
-    swatch(speedColour(0, 1), "stands still"),
+    swatch(speedColour(0, 1), "at rest"),
   ];
 }
 
@@ -28,14 +28,14 @@ function statusLegend(scene) {
     scene.wheels.filter((wheel) => (wheel.status in STATUS ? wheel.status : "") === status).length;
   return Object.entries(STATUS)
     .filter(([status]) => count(status))
-    .map(([status, colour]) => swatch(colour, `${status || "not said"} (${count(status)})`));
+    .map(([status, colour]) => swatch(colour, `${status || "not stated"} (${count(status)})`));
 }
 
 function lossLegend(scene) {
   if (!scene.wheels.some((wheel) => typeof wheel.loss === "number"))
-    return [el("li", {}, "No losses: this train declares no loads and friction.")];
+    return [el("li", {}, "No losses, because the train declares no loads or friction.")];
   const most = Math.max(...scene.wheels.map((wheel) => wheel.loss ?? 0));
-  const words = `lost at its meshes: none to ${(most * 100).toPrecision(2)} % of the power put in`;
+  const words = `power loss at the meshes: 0 to ${(most * 100).toPrecision(2)} % of the input power`;
   return [ramp(lossColour(0, 1), lossColour(1, 1), words)];
 }
 

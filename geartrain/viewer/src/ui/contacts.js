@@ -1,8 +1,8 @@
-// The panel of a simulated run: what drives it, how far outputs are ahead, what each contact does now and on the whole.
+// The panel of a simulated run: drive, deviations of the outputs, state and statistics of each contact.
 import { el } from "./element.js";
 import { speedInWords } from "./playhead.js";
 
-const STATES = { d: "drive flank", c: "coast flank", a: "apart", "": "\u2013" };
+const STATES = { d: "drive flank", c: "coast flank", a: "separated", "": "\u2013" };
 const KINDS = { pair: "", pin: "pin", escapement: "escapement" };
 
 const SLIGHT = 2e-4; // rad: angles of the page are not better
@@ -22,7 +22,7 @@ export class Contacts {
       "div",
       {},
       played.map((side) => this.#side(side, sides.length > 1)),
-      played.length ? null : el("p", { class: "quiet" }, "Here all drive flanks touch, as where wheels have no inertia."),
+      played.length ? null : el("p", { class: "quiet" }, "In this motion all drive flanks are in contact, as without inertia."),
     );
   }
 
@@ -32,10 +32,10 @@ export class Contacts {
       "section",
       {},
       many && el("h3", {}, side.label),
-      el("ul", { class: "legend tells" }, key("blow", "a blow"), key("apart", "teeth apart"), key("coast", "on the coast flank")),
+      el("ul", { class: "legend tells" }, key("blow", "impact"), key("apart", "teeth separated"), key("coast", "contact on the coast flank")),
       run.contacts.length
         ? el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "contacts" }, this.#table(side))
-        : el("p", { class: "quiet" }, "No pair has real teeth, a pin or a loss: nothing parts, nothing strikes."),
+        : el("p", { class: "quiet" }, "No pair has real teeth, a pin or a loss, so there are no separations or impacts."),
       this.#outputs(side),
       el("p", {}, words(run)),
       run.complete ? null : el("p", { class: "bad" }, "The simulation was stopped before its end."),
@@ -45,7 +45,7 @@ export class Contacts {
 
   #table(side) {
     const { scene, machine } = side;
-    const head = ["contact", "now", "apart", "coast", "blows/s", "hardest"];
+    const head = ["contact", "now", "separated", "coast", "impacts/s", "maximum"];
     const rows = scene.run.contacts.map((contact, index) => {
       const now = el("td", { class: "now" });
       this.rows.push({ now, state: () => machine.run.state(index, machine.time()) });
@@ -68,7 +68,7 @@ export class Contacts {
     return el(
       "table",
       { class: "outputs contacts" },
-      el("caption", { class: "unseen" }, "Contacts: what they do now, and shares of the whole run"),
+      el("caption", { class: "unseen" }, "Contacts: present state, and shares of the whole run"),
       el("thead", {}, el("tr", {}, head.map((each) => el("th", { scope: "col" }, each)))),
       el("tbody", {}, rows),
     );
@@ -77,7 +77,7 @@ export class Contacts {
   #outputs({ scene, machine }) {
     if (!scene.run.deviations.length) return null;
     if (!scene.run.deviations.some(({ ahead, behind }) => settled(ahead, SLIGHT) || settled(behind, SLIGHT)))
-      return el("p", {}, "No output leaves the motion in which all drive flanks touch.");
+      return el("p", {}, "No output deviates from the motion with all drive flanks in contact.");
     const rows = scene.run.deviations.map((lead) => {
       const index = scene.pointers.findIndex(({ output }) => output === lead.output);
       const now = el("td", { class: "number" });
@@ -95,11 +95,11 @@ export class Contacts {
     return el(
       "div",
       { class: "scroll" },
-      el("p", {}, "Outputs against the motion in which all drive flanks touch:"),
+      el("p", {}, "Outputs relative to the motion with all drive flanks in contact:"),
       el(
         "table",
         { class: "outputs" },
-        el("thead", {}, el("tr", {}, ["output", "ahead now", "greatest ahead", "behind"].map((each) => el("th", { scope: "col" }, each)))),
+        el("thead", {}, el("tr", {}, ["output", "ahead now", "maximum ahead", "maximum behind"].map((each) => el("th", { scope: "col" }, each)))),
         el("tbody", {}, rows),
       ),
     );
@@ -116,13 +116,13 @@ export class Contacts {
   }
 }
 
-/** Without what rounding, or the tolerance of the samples, makes of nothing. */
+/** An angle with values below rounding, or below the tolerance of the samples, set to 0. */
 const settled = (angle, least = 1e-7) => (Math.abs(angle) < least ? 0 : angle);
 
 const key = (kind, text) => el("li", {}, el("span", { class: `swatch ${kind}` }), text);
 
 function words({ driven, link, torque, rate, skip }) {
-  const by = { rate: "kept at its rate", torque: "driven by a torque or a weight", spring: "driven by a spring", hand: "driven by a hand that yields" }[driven];
-  const before = skip ? ` The first ${rounded(skip)} s are left out.` : "";
-  return `${link} is ${by}: ${speedInWords(rate)} of the input on the mean, with ${rounded(1000 * torque)} N mm.${before}`;
+  const by = { rate: "kept at constant speed", torque: "driven by a torque or a weight", spring: "driven by a spring", hand: "driven by a hand of finite stiffness" }[driven];
+  const before = skip ? ` The first ${rounded(skip)} s are omitted.` : "";
+  return `${link} is ${by}: mean speed of the input ${speedInWords(rate)}, torque ${rounded(1000 * torque)} N mm.${before}`;
 }

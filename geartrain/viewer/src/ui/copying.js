@@ -1,4 +1,4 @@
-// Exact values that go to the clipboard by a click.
+// Exact values that a click copies to the clipboard.
 import { el } from "./element.js";
 import { shown } from "./number.js";
 
@@ -18,7 +18,7 @@ export async function copy(text) {
   }
 }
 
-/** A button that shows an exact value and copies it; `say` tells the reader what happened. */
+/** A button that shows an exact value and copies it; `say` announces the result. */
 export function copyable(text, say) {
   const button = el(
     "button",
@@ -31,7 +31,7 @@ export function copyable(text, say) {
     const done = await copy(text);
     if (focus instanceof HTMLElement) focus.focus({ preventScroll: true });
     button.classList.toggle("copied", done);
-    say(done ? `${text} copied` : "the browser does not let this page copy");
+    say(done ? `${text} copied` : "the browser does not permit copying");
     setTimeout(() => button.classList.remove("copied"), 1200);
   });
   return button;

@@ -1,4 +1,4 @@
-// The crank: a wheel to drag, and the buttons, speed and place beside it.
+// The crank: a wheel to drag, with buttons, speed and position.
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
 import { el, field, icon, svg } from "./element.js";
@@ -143,7 +143,7 @@ export class Crank {
   #go(event) {
     event.preventDefault();
     const wanted = typed(this.place.value);
-    this.#tell(this.place, wanted, "That is no number of turns: write 12, 2.5, 235/19 or 1e6.");
+    this.#tell(this.place, wanted, "This is not a number of turns; write 12, 2.5, 235/19 or 1e6.");
     if (wanted) this.drive.goTo(wanted);
   }
 
@@ -187,7 +187,7 @@ export class Crank {
     });
     const turnsOf = () => {
       const date = this.epoch.read(day.value);
-      this.#tell(day, date, "That is no date: write -204-05-12 or 12 May 205 BC, with 18:30 behind it or not.");
+      this.#tell(day, date, "This is not a date; write -204-05-12 or 12 May 205 BC, optionally followed by 18:30.");
       return date && this.epoch.turnsAt(date);
     };
     const go = (event) => {
@@ -205,7 +205,7 @@ export class Crank {
       { class: "go day", onsubmit: go },
       field("Go to date", day),
       el("button", { type: "submit" }, "Go"),
-      el("button", { type: "button", onclick: run, title: "Turn there in eight seconds" }, "Run"),
+      el("button", { type: "button", onclick: run, title: "Run to this date in eight seconds" }, "Run"),
     );
   }
 

@@ -15,7 +15,7 @@ const at = (point) => `${point[0].toFixed(2)} ${point[1].toFixed(2)}`;
 
 const pathOf = (line) => `M${engraved(line).map(([x, y]) => at([RIM * x, -RIM * y])).join("L")}`;
 
-/** Where the zero mark stands as one faces the dial: radians clockwise from the top. */
+/** Angle of the zero mark for an observer in front of the dial: radians clockwise from the top. */
 export function zeroOf(dial) {
   const [nx, , nz] = dial.normal;
   const right = [nz, 0, -nx]; // up x normal
@@ -26,7 +26,7 @@ export function zeroOf(dial) {
 }
 
 export class Dial {
-  /** `dial` as in the scene, or null for a plain face; `hands` the readings that stand on it. */
+  /** `dial` as in the scene, or null for a plain face; `hands` its readings. */
   constructor(name, dial, hands) {
     this.scale = dial?.scale ?? PLAIN;
     this.engraving = dial?.engraving ?? [];
@@ -66,7 +66,7 @@ export class Dial {
     return group;
   }
 
-  /** Where the first target of a pointer stands: an open circle on its scale. */
+  /** Marker of the first target of a pointer: an open circle on its scale. */
   #sky({ order, pointer }) {
     const [target] = pointer.targets;
     if (!target) return null;

@@ -1,4 +1,4 @@
-// The dials of a train beside its picture, each with what its hands read.
+// The dials of a train, each with the readings of its hands.
 import { NEEDLES } from "../colours.js";
 import { el } from "./element.js";
 import { Dial } from "./dial.js";

@@ -1,4 +1,4 @@
-// Where the crank stands: exact turns of the lead, and the play of time.
+// State of the crank: exact turns of the driving link, and playback.
 import { Fraction } from "../fraction.js";
 
 const FINE = 14; // decimals of a turn in a simulated run: a clock's lead makes one in hours
@@ -40,7 +40,7 @@ export class Drive {
     this.goTo(this.at.plus(Fraction.near(turns, this.run ? FINE : undefined)), settled);
   }
 
-  /** By so many units of the input. */
+  /** Moves by a number of units of the input. */
   unit(times) {
     if (this.run) this.goToTime(this.run.blowFrom(this.time, times));
     else this.goTo(this.at.plus(this.step.times(times)));
@@ -55,7 +55,7 @@ export class Drive {
     this.goTo(Fraction.near(time / this.run.period, FINE), settled);
   }
 
-  /** Where a simulated run stands (s). */
+  /** Time in a simulated run (s). */
   get time() {
     return Number(this.at) * this.run.period;
   }
@@ -97,7 +97,7 @@ export class Drive {
     });
   }
 
-  /** Moves by steps, which are told the milliseconds since the last that was taken, until something else is done. */
+  /** Moves in steps, called with the milliseconds since the last step, until another action. */
   #moving(on, step) {
     this.playing = on && this.movable;
     this.#tell(!this.playing);

@@ -1,4 +1,4 @@
-// Elements of the page. Text goes in as text nodes only: what a train says of itself is never HTML.
+// Elements of the page. Text is inserted as text nodes only, so that texts of a train are never parsed as HTML.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -24,7 +24,7 @@ export function svg(tag, attributes, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
-/** A link that opens beside the page; plain text unless the address is http or https. */
+/** A link that opens in a new tab; plain text unless the address is http or https. */
 export function link(address, text = address) {
   let url = null;
   try {

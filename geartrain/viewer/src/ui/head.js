@@ -65,12 +65,12 @@ export class Head {
     return el("span", { class: "changed" }, " changed: ", button, `; ${fits}`);
   }
 
-  /** What is shown, as it is now. */
+  /** Updates the head to what is shown. */
   write() {
     const { sides } = this;
     const many = sides.length > 1;
     const titles = [...new Set(sides.map(({ scene }) => scene.title || scene.name))];
-    this.title.textContent = titles.join(" beside ");
+    this.title.textContent = titles.join(" and ");
     const names = [...new Set(sides.map(({ scene }) => scene.name))].join(", ");
     this.names.replaceChildren(names, ...sides.filter(({ steps }) => steps.length).slice(0, 1).map((side) => this.#told(side)));
     this.verdicts.replaceChildren(

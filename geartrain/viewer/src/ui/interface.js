@@ -68,7 +68,7 @@ class Interface {
       this.all.map((side) => side.figure),
     );
     document.body.prepend(
-      el("a", { class: "skip", href: "#panel" }, "To the panels"),
+      el("a", { class: "skip", href: "#panel" }, "Skip to the panels"),
       el(
         "div",
         { class: "house" },

@@ -1,10 +1,10 @@
-// Keys, and the page that tells them.
+// Keyboard shortcuts, and the dialog that lists them.
 import { el } from "./element.js";
 import { Fraction } from "../fraction.js";
 
 const TURNED = [
-  ["Left, Right", "turn back or on by five degrees; with Shift by one unit of the input"],
-  ["Page Up, Page Down", "one unit of the input on or back"],
+  ["Left, Right", "turn back or forward by five degrees; with Shift by one unit of the input"],
+  ["Page Up, Page Down", "one unit of the input forward or back"],
   ["G", "go to a number of turns"],
   ["B", "play backwards, or forwards again"],
 ];
@@ -12,21 +12,21 @@ const REST = [
   ["Home", "back to the start"],
   ["Space", "play or pause"],
   ["/", "find a wheel"],
-  ["1, 2, 3, 4", "look from the front, the back, the side, or freely"],
+  ["1, 2, 3, 4", "view from the front, the back, the side, or freely"],
   ["C", "next colours"],
   ["E", "take apart, put together"],
   ["H", "hide or show the front"],
   ["T", "teeth on or off"],
   ["?", "this list"],
-  ["Escape", "close, or let go of what is chosen"],
+  ["Escape", "close, or clear the selection"],
 ];
 const TIMED = [
-  ["Left, Right", "a twenty-fifth of a second as it is seen; with Shift to the blow before or the next"],
-  ["Page Up, Page Down", "to the next blow or the one before"],
-  ["G", "to the slider of time"],
+  ["Left, Right", "step by 1/25 s of playback; with Shift to the previous or next impact"],
+  ["Page Up, Page Down", "to the next or previous impact"],
+  ["G", "go to the time slider"],
 ];
 export const BY_HAND =
-  "Drag the crank, or the handle in the picture. Drag elsewhere in the picture to look around, pinch or scroll to come nearer, click a wheel to know it.";
+  "Drag the crank, or the handle in the picture. Drag elsewhere in the picture to rotate the view, pinch or scroll to zoom, click a wheel for details.";
 const TEXT = "input:not([type=checkbox]):not([type=range]), textarea, select";
 const LOOKS = { 1: "front", 2: "back", 3: "side", 4: "free" };
 
@@ -47,7 +47,7 @@ export class Keys {
         [...(actions.timed ? TIMED : TURNED), ...REST].map(([key, does]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, does)]),
       ),
       el("p", {}, BY_HAND),
-      el("label", { class: "field tick" }, el("span", {}, "Single letters are keys"), this.letters),
+      el("label", { class: "field tick" }, el("span", {}, "Single-letter shortcuts"), this.letters),
       close,
     );
     this.node = this.dialog;

@@ -1,4 +1,4 @@
-// What a listener is told: the turns, and where the pointers stand once all is at rest.
+// Announcements for screen readers: turns, and readings of the pointers once the train is at rest.
 import { el } from "./element.js";
 import { turns } from "./number.js";
 import { Reading, told } from "./reading.js";

@@ -13,7 +13,7 @@ export function difference(a, b) {
   return { gap: gap.toString(), part: from.numerator === 0n ? null : Number(gap.over(from)) };
 }
 
-/** A part as it is told: in ppm where it is small. */
+/** A relative value as text, in ppm if small. */
 export function relative(part) {
   if (part === null || part === 0) return "";
   const size = Math.abs(part);
@@ -21,10 +21,10 @@ export function relative(part) {
   return `${part < 0 ? "\u2212" : "+"}${text}`;
 }
 
-/** What stands in place of outputs where a train declares none. */
+/** Note for a train without declared outputs. */
 export function linksInWords({ bodies, pointers }, most = Infinity) {
   const [shown, all] = [Math.min(pointers.length, most), bodies.length - 1];
-  return `This train declares no output: here are ${shown < all ? `the first ${shown} of its ${all} links` : "its links"}.`;
+  return `This train declares no outputs; ${shown < all ? `the first ${shown} of its ${all} links are listed` : "its links are listed"}.`;
 }
 
 export class Outputs {
@@ -52,7 +52,7 @@ export class Outputs {
       {},
       names.length > 12 && this.search,
       !one &&
-        el("p", { class: "note" }, "The two trains count in different units, so their speeds are not subtracted."),
+        el("p", { class: "note" }, "The two trains use different units of speed, so no differences are shown."),
       sides.map(({ scene }) => !scene.asks && el("p", { class: "quiet" }, linksInWords(scene))),
       el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "outputs" }, this.#table()),
     );

@@ -37,7 +37,7 @@ export class Path {
   #way({ side, pointer }, many) {
     const steps = stations(side.scene, pointer);
     const base = side.scene.bodies[pointer.base];
-    const said = [pointer.text, base?.parent != null && `seen from ${base.id}`, pointer.note]
+    const said = [pointer.text, base?.parent != null && `relative to ${base.id}`, pointer.note]
       .filter(Boolean)
       .join("; ");
     return [
@@ -48,7 +48,7 @@ export class Path {
             { class: "steps", "data-side": side.label },
             steps.map((step) => this.#step(side, step)),
           )
-        : el("p", { class: "quiet" }, "No pair lies between."),
+        : el("p", { class: "quiet" }, "There are no pairs on the path."),
     ];
   }
 

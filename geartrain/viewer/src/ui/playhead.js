@@ -1,4 +1,4 @@
-// The head of a simulated run: buttons, how fast it is played, where in time it stands, and a strip of what contacts do.
+// Controls of a simulated run: buttons, playback speed, time, and a strip of the contacts.
 import { PAUSE, PLAY } from "./crank.js";
 import { el, field, icon } from "./element.js";
 import { Strip } from "./strip.js";
@@ -46,13 +46,13 @@ export class Playhead {
       el(
         "div",
         { class: "buttons" },
-        blow(-1, "to the blow before", "M6 5v14M19 5l-9 7 9 7z"),
+        blow(-1, "previous impact", "M6 5v14M19 5l-9 7 9 7z"),
         this.playing,
-        blow(1, "to the next blow", "M18 5v14M5 5l9 7-9 7z"),
+        blow(1, "next impact", "M18 5v14M5 5l9 7-9 7z"),
       ),
       el("div", { class: "where" }, this.time, el("span", { class: "quiet" }, `of ${seconds(run.duration, run.duration)}; ${speedInWords(side.scene.run.rate)} of ${side.lead}`)),
       this.#speed(paceOf(run)),
-      field("Again at the end", this.loop, { class: "field tick" }),
+      field("Repeat", this.loop, { class: "field tick" }),
       this.slider,
       this.strip.node,
     );
@@ -67,8 +67,8 @@ export class Playhead {
       this.run.pace = value;
       this.strip.pace = value;
       const text = Number(value.toPrecision(2));
-      pace.textContent = value === 1 ? "real time" : `${text} of real`;
-      slider.setAttribute("aria-valuetext", value === 1 ? "real time" : `${text} of real time`);
+      pace.textContent = value === 1 ? "real time" : `${text} \u00d7 real time`;
+      slider.setAttribute("aria-valuetext", value === 1 ? "real time" : `${text} \u00d7 real time`);
       this.drive.goTo(this.drive.at, !this.drive.playing);
     };
     slider.addEventListener("input", set);

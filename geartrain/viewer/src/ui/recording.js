@@ -1,4 +1,4 @@
-// The picture in motion, to a file of the reader's: a film of what the canvas shows while it is recorded.
+// Records the canvas as a film and saves it to a file.
 import { el, icon } from "./element.js";
 import { fileName, saveAs } from "./saving.js";
 

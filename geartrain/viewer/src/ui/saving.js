@@ -1,4 +1,4 @@
-// The picture as it stands, to a file of the reader's.
+// Saves the present picture to a file.
 import { drawingOf, pictureOf } from "../still.js";
 
 /** Saves what the sides show as one PNG, called after their trains; where there are plans only, as one SVG. */

@@ -14,8 +14,8 @@ const LOOKS = ["free", "front", "side", "back"];
 const EYE = "M2 12c3-5 6.5-7 10-7s7 2 10 7c-3 5-6.5 7-10 7s-7-2-10-7zM12 9.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5z";
 const LAYERS = "M12 3l9 4.5-9 4.5-9-4.5zM3 12l9 4.5 9-4.5M3 16.5l9 4.5 9-4.5";
 const IDLE = 45; // s without a hand until a kiosk goes on by itself
-const MOST = 6; // outputs that a kiosk tells
-const ROUND = 90; // s of one turn of the camera of a kiosk that is left alone
+const MOST = 6; // maximum number of outputs that a kiosk lists
+const ROUND = 90; // [s] period of the camera of an idle kiosk
 
 export class Showcase {
   /** What an address and the page ask for: null, or {kiosk, idle}. `#embed`, `#kiosk`, `#kiosk=20` (seconds of idleness) */
@@ -27,7 +27,7 @@ export class Showcase {
 
   constructor(app, { kiosk, idle }) {
     Object.assign(this, { app, kiosk, idle });
-    this.index = Math.max(0, app.machines.findIndex((machine) => machine.moves)); // what turns, before what stands
+    this.index = Math.max(0, app.machines.findIndex((machine) => machine.moves)); // moving trains take precedence
     this.scene = app.scenes[this.index];
     const { run } = app.machines[this.index];
     this.drive = new Drive(app, Fraction.of(this.scene.step));
@@ -67,7 +67,7 @@ export class Showcase {
     );
   }
 
-  /** What a kiosk tells as the train turns: the date, where there is one, and outputs, those with dials first. */
+  /** Readings shown in a kiosk: the date, if there is one, and outputs, those with dials first. */
   #outputs() {
     const { scene, index, app } = this;
     if (scene.epoch && !this.drive.run) this.epoch = new Epoch(scene.epoch);

@@ -5,7 +5,7 @@ import { Machine } from "../motion.js";
 import { el } from "./element.js";
 import { decimal } from "./number.js";
 
-const NO_PICTURE = "A plan, for this browser shows no 3D picture (WebGL). All else on this page holds.";
+const NO_PICTURE = "A plan is shown, because this browser has no 3D graphics (WebGL). Everything else works.";
 
 export class Side {
   constructor(app, index) {
@@ -19,7 +19,7 @@ export class Side {
     this.counts = this.formulas?.declared ?? [];
     this.stage = null;
     this.label = app.options?.compare ? this.scene.name : (this.scene.state ?? this.scene.name);
-    if (this.machine.run) this.label = [this.scene.state, this.machine.simulated ? "in time" : "teeth touching"].filter(Boolean).join(", ");
+    if (this.machine.run) this.label = [this.scene.state, this.machine.simulated ? "simulated" : "drive flanks in contact"].filter(Boolean).join(", ");
     this.legend = el("div", {});
     this.place = el("div", {});
     this.nothing = el("p", { class: "nothing", hidden: true }, NO_PICTURE);
@@ -41,7 +41,7 @@ export class Side {
   #name(canvas) {
     canvas.setAttribute("tabindex", "0");
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", `${this.label}, a picture that turns; the wheels are listed under Wheels`);
+    canvas.setAttribute("aria-label", `${this.label}, animated picture; the wheels are listed under Wheels`);
   }
 
   close() {

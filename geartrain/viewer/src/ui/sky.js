@@ -1,4 +1,4 @@
-// Outputs that have targets: where each pointer stands, where it would had it kept its target's speed, and the error.
+// Outputs with targets: reading of each pointer, reading at the speed of its target, and the error.
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
 import { copy } from "./copying.js";
@@ -39,7 +39,7 @@ export class Sky {
   #part(side, many) {
     const { scene } = side;
     if (!hasTargets(scene)) return many && el("p", { class: "quiet" }, `${side.label} has no targets.`);
-    const growth = scene.unit_days === null ? "in a unit" : "in a century";
+    const growth = scene.unit_days === null ? "per unit" : "per century";
     const heads = ["output, target", "pointer", "target", "pointer ahead", growth];
     return [
       many && el("h3", {}, side.label),
@@ -47,7 +47,7 @@ export class Sky {
       el(
         "p",
         { class: "tells quiet" },
-        "Mean motion alone, without the sky's anomalies: all are set alike where the turns are 0, and each target then turns at its one speed. An error is exact; a click copies it, in turns.",
+        "Mean motion without anomalies: pointers and targets agree at 0 turns, and each target has a constant speed. Errors are exact; click one to copy it in turns.",
       ),
       el(
         "div",
@@ -69,7 +69,7 @@ export class Sky {
     const error = el("button", { type: "button", class: "copy" });
     error.addEventListener("click", async () => {
       const text = error.dataset.exact;
-      this.say((await copy(text)) ? `${text} turns copied` : "the browser does not let this page copy");
+      this.say((await copy(text)) ? `${text} turns copied` : "the browser does not permit copying");
     });
     const span = scene.unit_days === null ? Fraction.of(scene.step) : Fraction.of(scene.step).times(CENTURY).over(scene.unit_days);
     this.rows.push({ reading: new Reading(scene, machine, index), target, own, sky, error, machine });
@@ -102,11 +102,11 @@ export class Sky {
 /** A name that may be broken behind its underscores. */
 const breakable = (name) => name.split(/(?<=_)/).flatMap((part) => [part, el("wbr")]);
 
-/** When the pointers stood where, who says so, and in which calendar. */
+/** Epoch of the pointers, with its source and calendar. */
 function epochInWords(scene) {
   const epoch = new Epoch(scene.epoch);
   const lead = scene.bodies[scene.driving_link].id;
-  const made = epoch.turns.numerator === 0n ? "All pointers stood at the start of their scales" : `${lead} had made ${epoch.turns} turns`;
+  const made = epoch.turns.numerator === 0n ? "All pointers were at the start of their scales" : `${lead} had made ${epoch.turns} turns`;
   const date = epoch.dateAt(epoch.turns);
   const cite = scene.sources[epoch.source]?.cite;
   const calendar = date.calendar === "julian" ? "Julian" : "Gregorian";

@@ -1,4 +1,4 @@
-// A strip that runs under a mark: for each contact when its teeth are apart or on the coast flank, and its blows.
+// A strip that scrolls under a mark: intervals without contact or on the coast flank, and impacts, for each contact.
 import { el } from "./element.js";
 
 const WINDOW = 6; // s as the reader sees them
@@ -18,11 +18,11 @@ export class Strip {
     this.node = el("canvas", {
       class: "strip",
       role: "img",
-      "aria-label": "contacts around this moment; the table under Contacts tells them in words",
+      "aria-label": "contacts near this moment; the table under Contacts lists them",
       style: `height: ${this.height}px`,
     });
     this.node.addEventListener("pointerdown", (event) => this.#grab(event));
-    this.width = 0; // asked for on every draw, it would have the page laid out each time
+    this.width = 0; // cached, because a query at every frame would force a layout of the page
     new ResizeObserver(() => {
       this.width = this.node.clientWidth;
       this.#draw();

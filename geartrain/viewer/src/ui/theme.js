@@ -1,7 +1,7 @@
-// Light or dark: as the system says until the reader chooses.
+// Light or dark theme: that of the system unless the user selects one.
 import { el } from "./element.js";
 
-const NAMES = { system: "As the system", light: "Light", dark: "Dark" };
+const NAMES = { system: "System", light: "Light", dark: "Dark" };
 
 export class Theme {
   /** `onChange(background)`: the colour behind the pictures */

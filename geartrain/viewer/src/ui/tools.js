@@ -1,4 +1,4 @@
-// How the picture is shown: from where, in which colours, taken apart or whole.
+// Tools of the picture: view, colours, exploded view.
 import { MODES, legend } from "./colours.js";
 import { el, field } from "./element.js";
 import { Recording } from "./recording.js";
@@ -43,7 +43,7 @@ export class Tools {
     this.row = el(
       "div",
       { class: "tools", role: "group", "aria-label": "picture" },
-      el("div", { class: "group", role: "group", "aria-label": "look from" }, this.looks),
+      el("div", { class: "group", role: "group", "aria-label": "view from" }, this.looks),
       field("Colours", this.colour),
       field("Apart", this.apart),
       field("Hide front", this.front, { class: "field tick" }),
@@ -58,7 +58,7 @@ export class Tools {
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), this.row);
     this.small = matchMedia(SMALL);
-    this.#asRoomIs(() => (this.node.open = !this.small.matches)); // where there is room the tools always stand open
+    this.#asRoomIs(() => (this.node.open = !this.small.matches)); // on wide pages the tools are always open
   }
 
   #asRoomIs(act) {
@@ -66,7 +66,7 @@ export class Tools {
     act();
   }
 
-  /** What is seldom chosen stands in its place where there is room, else among the tools. */
+  /** Places rarely used controls in the head on wide pages, else among the tools. */
   lodge(place, seldom) {
     this.#asRoomIs(() => (this.small.matches ? this.row : place).append(...seldom));
   }

@@ -1,4 +1,4 @@
-// The verdict on a train; a loop that holds it still is named in red, and a click shows it.
+// The verdict on a train; a loop that locks it is shown in red after a click.
 import { el } from "./element.js";
 
 /** Pairs of a loop by name and its wheels by index; where it has no pairs, its bodies. */

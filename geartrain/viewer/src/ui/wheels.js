@@ -1,11 +1,11 @@
-// The list of wheels with a search, and what is known of the one that is chosen.
+// The list of wheels with a search field, and the data of the selected wheel.
 import { stepper } from "./change.js";
 import { copyable } from "./copying.js";
 import { el, link } from "./element.js";
 import { shown } from "./number.js";
 
 const STATUS = { surviving: "surviving", reconstructed: "reconstructed", hypothetical: "hypothetical" };
-const percent = (part) => `${(part * 100).toPrecision(3)} % of the power put in`;
+const percent = (part) => `${(part * 100).toPrecision(3)} % of the input power`;
 
 /** Rows of what is known: [term, words or an element]. */
 export function facts(scene, wheel, say, teeth = null) {
@@ -21,12 +21,12 @@ export function facts(scene, wheel, say, teeth = null) {
         ];
   return [
     ["Teeth", teeth ?? copyable(String(wheel.teeth), say)],
-    ["In doubt", wheel.doubt],
+    ["Uncertain", wheel.doubt],
     ["Kind", wheel.kind],
     ["On", `${body.id}${body.role === "arbor" ? "" : ` (${body.role})`}`],
-    ["Status", STATUS[wheel.status] ?? "not said"],
+    ["Status", STATUS[wheel.status] ?? "not stated"],
     ...speed,
-    ["", body.bookkeeping ? "a sum over joints that are not parallel, and no rotation" : ""],
+    ["", body.bookkeeping ? "sum over joints that are not parallel, not a rotation" : ""],
     [
       "Circuits",
       pairs.length
@@ -41,7 +41,7 @@ export function facts(scene, wheel, say, teeth = null) {
               ),
             ),
           )
-        : "meshes with nothing",
+        : "no meshes",
     ],
     ["Loss", wheel.loss === null || wheel.loss === undefined ? "" : percent(wheel.loss)],
     ["Note", wheel.note],
@@ -68,7 +68,7 @@ export class Wheels {
       "aria-label": "find a wheel",
       oninput: () => this.#filter(),
     });
-    this.none = el("p", { class: "quiet", hidden: true }, "No wheel of that name.");
+    this.none = el("p", { class: "quiet", hidden: true }, "No wheel has this name.");
     this.node = el(
       "div",
       {},

@@ -25,7 +25,7 @@ _EXACT = 1e-11
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)
 """Standard deviations [rad] of random moves that break a symmetry at which the tangencies are not independent."""
 _MOST_DENSE = 600  # meshes; the time of a dense singular value decomposition grows with the cube of their number
-_PHASE_DAMPING = 1e-4  # keeps axes where neither loops nor pitches ask for a move
+_PHASE_DAMPING = 1e-4  # keeps axes that neither loops nor pitches determine
 _LONGEST = 0.1
 """Largest move of an axis in one step (rad)."""
 

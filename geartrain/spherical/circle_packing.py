@@ -302,7 +302,7 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
     best = (inf, axes, cones)
     for _ in range(_MOST_POLISH):
         size, moves = _newton(axes, cones, tangent + square, len(tangent))
-        # quadratic convergence ends where the residual no longer falls by 4
+        # quadratic convergence ends where the residual no longer falls by a factor of 4
         better, enough = size < best[0], size < 1e-13 and size > best[0] / 4
         if better:
             best = (size, axes, cones)

@@ -312,7 +312,7 @@ def _check_apart(vertices: Floats, near: float) -> None:
     for first, second in sorted(cKDTree(vertices).query_pairs(near)):
         raise _refused(
             f"vertices[{second}] repeats vertices[{first}] {_coordinates(vertices[first])}",
-            "the corners of a polyhedron are distinct",
+            "the vertices of a polyhedron must be distinct",
             "leave one of them out",
         )
 

@@ -252,7 +252,8 @@ class Tabular(Shown):
         """The text that the command prints for the result; without a command, its first rows as a table."""
         found = _described(self, self.TEXT or self.PAGE)
         if found is None:
-            found = picture_maker("report.document", "table_document")(repr(self), self.columns, _SHOWN)
+            table = picture_maker("report.document", "table_document")(self.columns, _SHOWN)
+            return f"{self!r}\n{_text_of(table)}"
         return found if isinstance(found, str) else _text_of(found)
 
     def _repr_html_(self) -> str:

@@ -73,7 +73,7 @@ def describe_train(found: TrainReport) -> Document:
     >>> from geartrain.report import collect_report
     >>> page = describe_train(collect_report(geartrain.load("planetary-24-18-60")))
     >>> [section.title for section in page.sections][:6]
-    ['Outputs', 'Speeds', 'Formulas', 'Structure', 'Fundamental circuits', 'Mobility']
+    ['Outputs', 'All outputs', 'Speeds', 'Mobility', 'Adjacency matrix', 'Formulas']
     """
     train, answers = found.train, found.states
     declared = train.declaration

@@ -127,7 +127,7 @@ def test_a_module_is_refused_where_the_declaration_has_sizes(tmp_path: Path) -> 
     file = tmp_path / "sized.yaml"
     file.write_text(text, encoding="utf-8")
     done = call("export", file, "-o", out, "--module", "1mm")
-    assert "sizes of its own" in str(done.exception)
+    assert "already has sizes" in str(done.exception)
     assert call("export", file, "-o", out).exit_code == 0
 
 

@@ -232,7 +232,7 @@ class StrengthQuestion:
 
     def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
         """Return omitted pairs in the order of the declaration, then arbors, then varying torques."""
-        swinging = [each for each in self.torques.left_out if each.what == "swing within a turn"]
+        swinging = [each for each in self.torques.left_out if each.what == "variation within a turn"]
         if self.over is None:
             why = "stresses are those of mean torques; `--over` uses the maximum over some turns"
             for each in swinging:

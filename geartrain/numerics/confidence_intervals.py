@@ -125,7 +125,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
     trimmed = int(n / (2 * sqrt(n - 4)))
     about = values - np.sort(values)[trimmed : n - trimmed].mean()
     kurtosis, c = n * float(np.sum(about**4)) / squares**2, n / (n - z)
-    half = z * c * sqrt((kurtosis - (n - 3) / n) / (n - 1)) / 2  # of the logarithm of the deviation
+    half = z * c * sqrt(max(0.0, kurtosis - (n - 3) / n) / (n - 1)) / 2  # of the logarithm of the deviation
     value = sqrt(squares / (n - 1))
     return IntervalEstimate(value, value * sqrt(c) * exp(-half), value * sqrt(c) * exp(half))
 

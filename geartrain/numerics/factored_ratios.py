@@ -1,8 +1,9 @@
-"""Numbers that are each a short ratio times another one, kept so and multiplied out when they are read.
+"""Numbers stored as a short ratio to another number, and multiplied out when they are read.
 
-Along a train every speed is its neighbour's times a ratio of teeth. Where the ratio drifts, a speed a thousand links
-on has thousands of digits, and to keep them all costs the square of the train. So a number is held as a short ratio to
-one before it, and the whole of it is made from powers of the primes in all ratios on its way: one balanced product.
+Along a train every speed is its neighbour's times a ratio of teeth. Where the common factors do not cancel, a speed a
+thousand links on has thousands of digits, and storing all of them takes quadratic memory. Each number is therefore
+stored as a short ratio to an earlier one. Its value is a balanced product of powers of the primes in all ratios along
+its path.
 """
 
 from __future__ import annotations
@@ -17,24 +18,24 @@ from math import gcd
 from geartrain.numerics.exact import coprime, times
 
 _SHORT = 256
-"""Bits of numerator and denominator up to which a number is multiplied out at once."""
+"""Bits of numerator and denominator up to which a number is multiplied out immediately."""
 
 _HOPS = 64
-"""So many short ratios are multiplied one after the other; of more, the powers of their primes are counted."""
+"""Number of ratios that are multiplied one after another; longer paths count the powers of their primes."""
 
 _KEPT = 1 << 29
-"""Bits of long numbers that are remembered, for the next ones to be read are likely to be near: 64 MB."""
+"""Capacity [bit] of the cache of long numbers, 64 MB; numbers read next are likely to be near."""
 
 _SMALL = 1000  # primes up to here are divided out; what is left of a tooth count below the square is prime
 _MOST_ROUGH = 1000  # numbers without small primes: to part them from each other takes the square of how many they are
 
 
 class FactoredRatios:
-    """Numbers by position: roots, which are given, and others, each a ratio times one that is known already.
+    """Numbers by index: roots with given values, and numbers defined as a ratio times an earlier one.
 
-    parent, a, b     the number it was made from (-1: a root), and its ratio a / b to that
-    anchor           the number to which `top` / `bottom` is the ratio; -1 where that is the number itself
-    top, bottom      in lowest terms, bottom > 0; bottom 0: not known yet
+    parent, a, b     index of the number that it was derived from (-1 for a root), and its ratio a / b to that
+    anchor           index of the number to which `top` / `bottom` is the ratio; -1 if that is the value itself
+    top, bottom      ratio in lowest terms, bottom > 0; bottom is 0 if the number is not yet known
     """
 
     __slots__ = ("_bits", "_recent", "a", "anchor", "b", "bottom", "parent", "top")
@@ -47,11 +48,11 @@ class FactoredRatios:
         self._bits = 0
 
     def set_root(self, at: int, top: int, bottom: int = 1) -> None:
-        """Give a number, in lowest terms."""
+        """Set the value of a root, a fraction in lowest terms."""
         self.top[at], self.bottom[at] = top, bottom
 
     def follow(self, at: int, parent: int, a: int, b: int) -> None:
-        """Make a number a / b times a known one; a and b are short."""
+        """Define a number as a / b times a known one; a and b are short."""
         n, d = times(self.top[parent], self.bottom[parent], a, b)
         self.parent[at], self.a[at], self.b[at] = parent, a, b
         if n.bit_length() <= _SHORT and d.bit_length() <= _SHORT:
@@ -61,7 +62,7 @@ class FactoredRatios:
             self.top[at], self.bottom[at] = times(1, 1, a, b)
 
     def vanishes(self, terms: Iterable[tuple[int, int]]) -> bool:
-        """Whether a sum of numbers times coefficients is 0."""
+        """Return whether a linear combination of numbers, given as (index, coefficient), is 0."""
         terms = list(terms)
         common = len({self.anchor[at] for at, _ in terms}) == 1  # all to one scale, which is not 0
         n, d = 0, 1
@@ -72,13 +73,13 @@ class FactoredRatios:
         return n == 0
 
     def value(self, at: int) -> Fraction:
-        """A number multiplied out."""
+        """Return the value of a number, multiplied out."""
         if self.anchor[at] < 0:
             return coprime(self.top[at], self.bottom[at])
         return coprime(*self._times(self._anchored(self.anchor[at]), at))
 
     def _anchored(self, at: int) -> Fraction:
-        """The value of an anchor, which others near it will want too."""
+        """Return the value of an anchor and cache it for other numbers near it."""
         hops = []
         here = at
         while self.anchor[here] >= 0 and here not in self._recent:
@@ -112,7 +113,7 @@ class FactoredRatios:
             self._bits -= _bits(forgotten)
 
     def _counted(self, at: int) -> Fraction:
-        """A number from the root's and the ratios on the way from there, each factor counted once for all."""
+        """Compute a number from its root and the powers of all ratios along the path."""
         counts: dict[int, int] = {}
         while (parent := self.parent[at]) >= 0:
             a, b = self.a[at], self.b[at]
@@ -128,7 +129,7 @@ def _bits(value: Fraction) -> int:
 
 
 def product_of_powers(powers: dict[int, int]) -> Fraction:
-    """The product of integers to whole powers, reduced without a gcd of long numbers.
+    """Return the product of integer powers of integers, reduced without a gcd of long numbers.
 
     >>> product_of_powers({6: 2, -4: -1, 15: -3})
     Fraction(-1, 375)
@@ -155,7 +156,7 @@ def product_of_powers(powers: dict[int, int]) -> Fraction:
 
 @lru_cache(maxsize=1 << 16)
 def _small_primes(number: int) -> tuple[tuple[tuple[int, int], ...], int]:
-    """The primes below a thousand in a number with their powers, and what is left."""
+    """Factor out the primes below 1000; return them with their exponents, and the remaining cofactor."""
     found = []
     for prime in _PRIMES:
         if prime * prime > number:
@@ -173,7 +174,10 @@ _PRIMES = [n for n in range(2, _SMALL) if all(n % k for k in range(2, int(n**0.5
 
 
 def _parted(powers: dict[int, int]) -> dict[int, int]:
-    """Factor refinement: large numbers' powers as those of numbers that share no factor; too many stay as they are."""
+    """Rewrite powers of large numbers as powers of pairwise coprime factors (factor refinement).
+
+    More than `_MOST_ROUGH` numbers are returned unchanged, because the refinement takes quadratic time.
+    """
     if len(powers) > _MOST_ROUGH:
         return powers
     base: list[int] = []
@@ -197,7 +201,7 @@ def _parted(powers: dict[int, int]) -> dict[int, int]:
 
 
 def _balanced(factors: list[int]) -> int:
-    """Product tree: the product of long numbers, the shortest first."""
+    """Multiply long numbers by a product tree, the shortest first."""
     if not factors:
         return 1
     heapify(factors)

@@ -1,16 +1,16 @@
-"""Kernels: functions of numbers and arrays in plain Python that can be compiled, once and for all processes to come.
+"""Kernels: numerical functions in plain Python that numba can compile and cache on disk.
 
-A kernel is written with `@kernel` and called like any function; it then runs as Python. `compiled` is the same function
-as machine code by numba, an optional library (the extra `fast`), which keeps it on disk: beside the package, or where
-that cannot be written in the user's cache or `NUMBA_CACHE_DIR`. numba is imported when a kernel is first compiled or
-loaded, never before.
+A function decorated with `@kernel` is called like any function and then runs as Python. Its attribute `compiled` is
+the same function as machine code, compiled by numba, an optional dependency (the extra `fast`). numba caches the
+machine code in the package's folder. If that is not writable, it uses the user's cache folder or `NUMBA_CACHE_DIR`.
+numba is imported only when a kernel is first compiled or loaded.
 
-A kernel may call other kernels by their names, and functions of `math`; what it calls is part of what the file on disk
-is known by, so that a change anywhere in it is compiled anew. Rounding is that of Python: no sums are reordered and no
-products fused. A division by zero gives an infinity, as in numpy, where Python's floats would raise. Arguments should
-keep their types, C-contiguous and writable arrays, for each new type is compiled anew.
+A kernel may call other kernels by name, and functions of `math`. The code of the called kernels is part of the cache
+key, so a change anywhere recompiles all callers. Rounding is as in Python: sums are not reordered and products are not
+fused. A division by zero returns an infinity, as in numpy, and does not raise an error as in Python. Arguments should
+keep their types and be C-contiguous writable arrays, because every new type requires a compilation.
 
-Compilation takes seconds: `telling` calls a function when it begins, and Ctrl-C ends it.
+Compilation takes seconds. `telling` calls a function when it begins, and Ctrl-C ends it.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _told: list[Callable[[], None]] = []  # called when a kernel is compiled; each o
 
 @contextmanager
 def telling(say: Callable[[], None]) -> Iterator[None]:
-    """Call `say` before the first kernel that is compiled within, if any is: not for those loaded from disk."""
+    """Call `say` before the first kernel is compiled within the context; loading from disk does not count."""
     _told.append(say)
     try:
         yield
@@ -44,10 +44,10 @@ def telling(say: Callable[[], None]) -> Iterator[None]:
 
 @contextmanager
 def compilation() -> Iterator[None]:
-    """Around all that numba does before a kernel runs.
+    """Wrap all work that numba does before a kernel runs, so that Ctrl-C ends it.
 
-    Ctrl-C ends it. Python drops an interrupt that comes while a compiler calls back into Python, or while an object is
-    disposed of, and complains; here it is kept in silence, and raised as soon as the kernel is made.
+    Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is finalised.
+    Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
     """
     with _hearing(), _interruptible():
         yield
@@ -55,7 +55,7 @@ def compilation() -> Iterator[None]:
 
 @contextmanager
 def _hearing() -> Iterator[None]:
-    """Tell those who want to know when numba really compiles."""
+    """Call the registered functions when numba begins to compile."""
     if not _told:
         yield
         return
@@ -66,17 +66,17 @@ def _hearing() -> Iterator[None]:
 
 
 class _Listener:
-    """What numba notifies when it begins and ends to compile a function."""
+    """Listener for numba's events at the start and end of a compilation."""
 
     def notify(self, event: Any) -> None:
-        """Pass the word on, once."""
+        """Call all registered functions, each once."""
         while _told:
             _told.pop(0)()
 
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """Raise an interrupt within that Python could not raise where it came."""
+    """Raise a KeyboardInterrupt at the end of the context if Python had to ignore it within."""
     if current_thread() is not main_thread():  # interrupts come to the main thread alone
         yield
         return
@@ -106,24 +106,25 @@ _PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # values of globals 
 
 
 class Kernel(Generic[P, R]):
-    """A function in plain Python, and the same compiled; made by `kernel`."""
+    """A function in plain Python together with its compiled form; created by `kernel`."""
 
     def __init__(self, function: Callable[P, R]) -> None:
         update_wrapper(self, function)
         self._function = cast(FunctionType, function)
 
     def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
-        """The function as Python runs it."""
+        """Call the function in plain Python."""
         return cast(R, self._function(*arguments, **named))
 
     @cached_property
     def compiled(self) -> Callable[P, R]:
-        """The function compiled, or loaded from disk when it is first called. Raises `MissingExtraError`."""
+        """The function compiled, or loaded from disk when it is first called. Raises `MissingExtraError` without numba.
+        """
         return self._made()
 
     @cached_property
     def _called(self) -> Callable[P, R]:
-        """The function compiled for other kernels alone, which takes less time."""
+        """The function compiled for calls from other kernels only, which takes less time."""
         return self._made(no_cpython_wrapper=True)
 
     def _made(self, **options: bool) -> Callable[P, R]:
@@ -138,15 +139,15 @@ class Kernel(Generic[P, R]):
         return cast("Callable[P, R]", made)
 
     def chosen(self, fast: bool) -> Callable[P, R]:
-        """The function compiled if it is to be fast, or as Python runs it."""
+        """Return the compiled function if `fast`, else the function in plain Python."""
         return self.compiled if fast else self
 
     def replaced(self, **kernels: Kernel[..., Any]) -> Kernel[P, R]:
-        """The same function with other kernels for some of those that it calls, by name; not through others."""
+        """Return the function with some of the kernels that it calls directly replaced, by name."""
         return Kernel(cast("Callable[P, R]", self._twin(kernels)))
 
     def _twin(self, names: Mapping[str, object]) -> FunctionType:
-        """The function with other things for some of the names of its module."""
+        """Return a copy of the function with some global names bound to other objects."""
         own = self._function
         twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)
         twin.__annotations__ = own.__annotations__
@@ -154,16 +155,16 @@ class Kernel(Generic[P, R]):
 
     @property
     def _named(self) -> dict[str, Any]:
-        """What the names of the function stand for in its module."""
+        """Objects that the global names in the function refer to, by name."""
         known = self._function.__globals__
         return {name: known[name] for name in _names(self._function.__code__) if name in known}
 
     @cached_property
     def digest(self) -> str:
-        """Of all that the function is compiled from: its code, constants of its module, kernels it calls.
+        """Hash of the function's code, the constants of its module that it uses, and the kernels that it calls.
 
-        Also of the named tuples that its module knows: what is kept on disk holds them as types, and cannot be read
-        where one has gone.
+        The named tuples of its module are included too, because the cache on disk contains them as types and cannot be loaded
+        when one of them has been removed.
         """
         function = self._function
         found = sha256(f"{function.__module__} {function.__annotations__} {_text(function.__code__)}".encode())
@@ -179,16 +180,16 @@ class Kernel(Generic[P, R]):
 
 
 def kernel(function: Callable[P, R]) -> Kernel[P, R]:
-    """A function of numbers and arrays as one that can be compiled: a decorator."""
+    """Decorate a function of numbers and arrays so that it can be compiled."""
     return Kernel(function)
 
 
 def is_fast(fast: bool | None, seconds: float) -> bool:
-    """Whether kernels are compiled for work that takes Python and numpy some seconds.
+    """Return whether to compile kernels for work that takes `seconds` in Python and numpy.
 
-    fast   as the user asks; None compiles if numba is there and the work large enough to pay for loading it
+    fast   the user's choice; None compiles if numba is installed and the work is long enough to justify loading it
 
-    Raises `MissingExtraError` where numba is asked for and is not installed.
+    Raises `MissingExtraError` if `fast` is true and numba is not installed.
     """
     if fast is None:
         return seconds >= _PAYS and find_spec("numba") is not None and usable()
@@ -198,7 +199,7 @@ def is_fast(fast: bool | None, seconds: float) -> bool:
 
 
 def usable() -> bool:
-    """Whether numba is installed and can be imported."""
+    """Return whether numba is installed and can be imported."""
     try:
         _numba()
     except MissingExtraError:

@@ -1,6 +1,7 @@
-"""Smooth curves as polynomials of one degree on short pieces: fitting, values, extremes and moments, many at once.
+"""Smooth curves as piecewise polynomials of one degree: fitting, evaluation, extremes and moments, vectorised.
 
-A piece is a polynomial in u, which runs from -1 to 1 along it; coefficients are (COUNT, pieces), by powers of u.
+A piece is a polynomial in u, which runs from -1 to 1 along it. Coefficients have shape (COUNT, pieces), by ascending
+powers of u.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ _GAUSS = np.polynomial.legendre.leggauss(20)  # exact to degree 39; squares of p
 
 
 class PolynomialPiece(NamedTuple):
-    """A piece of a curve: parameters of its ends, coefficients of u in [-1, 1] (COUNT, k), greatest error found (k)."""
+    """A piece of a curve: end parameters, coefficients of powers of u in [-1, 1] (COUNT, k), maximum error found (k).
+    """
 
     start: float
     end: float
@@ -42,9 +44,9 @@ class PolynomialPiece(NamedTuple):
 
 
 def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: int = 0) -> list[PolynomialPiece]:
-    """Adaptive Chebyshev interpolation of a curve of k coordinates, t (n,) -> (k, n): pieces, halved down to rounding.
+    """Fit a curve of k coordinates, t (n,) -> (k, n), by adaptive Chebyshev interpolation down to rounding.
 
-    Raises `RangeError` where the curve is not smooth.
+    Pieces are bisected until their last coefficients are negligible. Raises `RangeError` if the curve is not smooth.
     """
     piece, tail = _piece(curve, start, end)
     if tail <= FINE:
@@ -65,7 +67,7 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
 
 
 def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple[PolynomialPiece, float]:
-    """The piece through the curve's points at Chebyshev nodes, and how far its last coefficients have fallen."""
+    """Interpolate the curve at Chebyshev nodes; return the piece and the relative size of its last coefficients."""
     half, middle = (end - start) / 2, start + (end - start) / 2
     t = middle + half * np.concatenate([_NODES, _BETWEEN])
     t[0], t[COUNT - 1] = start, end  # rounding must not put a node outside, where the curve may not be defined
@@ -80,7 +82,7 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
 
 
 def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floats]:
-    """Value and derivative at u of the given pieces; coefficients (COUNT, pieces)."""
+    """Return value and derivative of the given pieces at u, with coefficients of shape (COUNT, pieces)."""
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
     for row in coefficients[::-1]:  # Horner's rule in place, value and derivative together
@@ -92,7 +94,7 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
 
 
 def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
-    """The value of `value`, bit for bit, without the work of the derivative."""
+    """Return only the value of `value`, identical in every bit."""
     single = coefficients.shape[1] == 1
     found = np.zeros(u.shape)
     for row in coefficients[::-1]:
@@ -102,7 +104,8 @@ def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
 
 
 def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
-    """By Gauss's rule the mean over all pieces, and the root mean square about it; `halves` are their half lengths."""
+    """Return the mean over all pieces and the standard deviation by Gauss quadrature; `halves` are their half lengths.
+    """
     nodes, weights = _GAUSS
     values = np.polynomial.polynomial.polyval(nodes, coefficients)
     share = halves / halves.sum() / 2
@@ -112,7 +115,7 @@ def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
 
 
 def extremes(coefficients: Floats) -> tuple[float, float]:
-    """Least and greatest value over all pieces; those that are NaN are left out."""
+    """Return minimum and maximum over all pieces, ignoring pieces that are NaN."""
     held = coefficients[:, ~np.isnan(coefficients[0])]
     values = np.concatenate([ends(held).ravel(), *(_polynomial(column, _turns(column)) for column in held.T)])
     return float(values.min()), float(values.max())
@@ -123,13 +126,15 @@ def _polynomial(column: Floats, u: Floats) -> Floats:
 
 
 def ends(coefficients: Floats) -> Floats:
-    """Values at both ends of the pieces, (2, pieces)."""
+    """Return the values at both ends of the pieces, shape (2, pieces)."""
     signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
     return np.stack([signs @ coefficients, coefficients.sum(axis=0)])
 
 
 def _turns(column: Floats) -> Floats:
-    """Where the slope of a polynomial changes its sign; being off by a little changes little there."""
+    """Return approximate stationary points u of a polynomial; an error in u has only a second-order effect on its
+    value.
+    """
     slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
     u = np.linspace(-1, 1, 257)
     at = _polynomial(slope, u)

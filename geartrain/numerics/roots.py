@@ -1,7 +1,7 @@
-"""Bracketed roots of smooth functions, one by one and many at once.
+"""Bracketed roots of smooth functions, one by one and vectorised.
 
-`roots_by_false_position` keeps each root inside its own bracket by false position in the variant of Anderson and
-Bjorck, which takes few evaluations where functions are smooth and the values at both ends are known.
+`roots_by_false_position` keeps each root inside its own bracket by the Anderson-Bjorck variant of false position. It
+takes few evaluations if functions are smooth and the values at both ends are known.
 """
 
 from __future__ import annotations
@@ -25,11 +25,14 @@ def roots_by_false_position(
     at_high: Floats,
     fine: float = 1e-15,
 ) -> Floats:
-    """False position: where each function changes its sign between low and high; steps end below `fine`.
+    """Find a root of each function between `low` and `high` by the Anderson-Bjorck variant of false position.
 
-    value(x, which)   the functions numbered `which` at x
-    Anderson's and Bjorck's variant, from the values at both ends; where one is stuck, halving. A bracket without a
-    change of sign gives its end with the lesser value.
+    value(x, which)   function that returns the values at x of the functions with the indices `which`
+    at_low, at_high   values at both ends
+    fine              step length at which the iteration stops
+
+    An iteration that stalls is continued by bisection. A bracket without a change of sign returns its end with the smaller
+    absolute value.
     """
     import numpy as np  # scalar roots do without
 
@@ -68,9 +71,9 @@ _DEEPEST = 40  # halvings of a bracket in which the slope keeps changing its sig
 
 
 def bracketed_root(value: Function, slope: Function, low: float, high: float) -> float:
-    """Newton's method kept inside a bracket: the root of `value` between `low` and `high`, where it changes sign.
+    """Find the root of `value` between `low` and `high`, where it changes sign, by Newton's method with bisection.
 
-    Ends when the bracket is two neighbouring floats, or a step no longer moves either end.
+    The iteration ends when the bracket consists of two neighbouring floats, or a step no longer moves either end.
     """
     at_low = value(low)
     if at_low == 0:
@@ -102,10 +105,11 @@ def bracketed_root(value: Function, slope: Function, low: float, high: float) ->
 def sign_changes(
     value: Function, bounds: Callable[[float, float], tuple[float, float]], low: float, high: float, depth: int = 0
 ) -> Iterator[tuple[float, float]]:
-    """Bisection by bounds on the slope: brackets of one root each; `bounds(a, b)` are the least and greatest slope.
+    """Yield brackets that contain one root each, by bisection with bounds on the slope.
 
-    A bracket whose slope has one sign holds one root or none; others are halved. Where function and slope vanish
-    together (a touch, no change of sign) halving ends without a bracket.
+    `bounds(a, b)` returns the minimum and maximum slope. A bracket whose slope has one sign contains at most one root, and
+    others are bisected. Where function and slope vanish together without a change of sign, bisection ends without a
+    bracket.
     """
     at_low, at_high = value(low), value(high)
     minimum, maximum = bounds(low, high)
@@ -130,10 +134,10 @@ def sign_changes(
 
 
 def root(value: Function, low: float, high: float, at_low: float, at_high: float) -> float:
-    """Chandrupatla's method: the root of a continuous `value` between `low` and `high`, without slopes.
+    """Find the root of a continuous `value` between `low` and `high` by Chandrupatla's method, without derivatives.
 
-    Inverse quadratic steps where three points allow it, else halving. T. R. Chandrupatla, Advances in Engineering
-    Software 28 (1997) 145-149.
+    Steps are by inverse quadratic interpolation where its condition is satisfied, else by bisection. T. R. Chandrupatla,
+    Advances in Engineering Software 28 (1997) 145-149.
     """
     a, b, at_a, at_b = low, high, at_low, at_high
     share = 0.5
@@ -156,7 +160,7 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
 
 
 def _quadratic_share(a: float, b: float, c: float, at_a: float, at_b: float, at_c: float) -> float:
-    """How far from a to b the inverse quadratic has its root; a half where it cannot be trusted."""
+    """Return the root of the inverse quadratic as a fraction of the way from a to b; 1/2 if it is unreliable."""
     if not all(map(isfinite, (at_a, at_b, at_c))) or at_b == at_c or at_a in (at_b, at_c):
         return 0.5
     xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)

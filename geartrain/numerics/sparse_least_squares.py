@@ -1,4 +1,4 @@
-"""Least squares on a matrix with a few entries a row."""
+"""Least squares with a matrix that has a few entries per row."""
 
 from __future__ import annotations
 
@@ -18,18 +18,21 @@ _DENSE = 250_000  # entries up to which least squares are solved by a dense matr
 
 @dataclass(frozen=True)
 class SparseRows:
-    """A matrix with a few entries a row: their columns and factors."""
+    """A matrix with a fixed small number of entries per row, given by their columns and coefficients."""
 
     columns: Indices
     factors: Floats
     width: int
 
     def small(self, height: int) -> bool:
-        """True if a matrix of this height is cheap to solve."""
+        """Return whether a matrix with this number of rows is solved as a dense matrix."""
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
-        """x with the least |A x - right|: dense by singular values if small, else by conjugate gradients (CGLS)."""
+        """Return x that minimises |A x - right|.
+
+        Small systems are solved by singular value decomposition, others by conjugate gradients (CGLS).
+        """
         # columns of like size: tooth counts from 8 to 10^6 side by side would slow the gradients down and skew `rcond`
         size = np.zeros(self.width)
         np.maximum.at(size, self.columns.ravel(), np.abs(self.factors).ravel())
@@ -38,7 +41,7 @@ class SparseRows:
         return (even._dense(right) if self.small(len(right)) else even._gradients(right)) / size
 
     def times(self, x: Floats) -> Floats:
-        """The matrix times a vector."""
+        """Return the product of the matrix and a vector."""
         product: Floats = (self.factors * x[self.columns]).sum(axis=1)
         return product
 

@@ -1,9 +1,9 @@
-"""Results to disk: whole or not at all, only where a regular file may stand, and over none that is there unasked.
+"""Atomic output of results: a file is written completely or not at all, and overwrites another file only on request.
 
-Every file that geartrain makes for a user goes through here. `destination` says where it is put, or why it cannot be;
-`write_bytes` and `place` put it there under one rule: what is written stands beside its place first, is safe on the
-disk, and takes the name in one step, so that a reader sees the old file or the new one. `write_folder` does the same
-for many files: all of them, or none.
+Every file that geartrain creates for a user is written here. `destination` returns the path of the file, or raises an
+error if it cannot be written. `write_bytes` and `place` write a temporary file next to it, flush it to disk, and
+rename it in one step, so that a reader sees either the old or the new file. `write_folder` does the same for many
+files.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ _KINDS = (
 
 
 def destination(path: Path, force: bool = False) -> Path:
-    """The file that a result for `path` is put into: at the end of all symbolic links, which stay as they are.
+    """Return the file to which a result for `path` is written, after resolving symbolic links.
 
-    Only a regular file is written over, only with `force`, and never one whose permissions say read-only: root is
-    bound by them too. Raises `GearTrainError` for all else, before anything is worked out or touched.
+    Only regular files are overwritten, only with `force`, and never files with read-only permissions, even by root.
+    Raises `GearTrainError` otherwise. Nothing is changed on the disk.
     """
     try:
         real, mode = _look(path)
@@ -52,7 +52,7 @@ def write_text(path: Path, text: str, force: bool = False) -> None:
 
 
 def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
-    """Write `data` to where `destination` says, atomically. Raises `GearTrainError`."""
+    """Write `data` to the `destination` of a path, atomically. Raises `GearTrainError`."""
     real = destination(path, force)
     try:
         handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name[:64]}.")
@@ -69,9 +69,9 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
 
 
 def place(temporary: Path, path: Path, force: bool = False) -> None:
-    """Let a finished file on the disk of `path`'s folder take that name, by the rule of `destination`.
+    """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`.
 
-    The permissions of a file that is written over are kept. Raises `GearTrainError`, and `OSError` as the disk does.
+    The permissions of an overwritten file are kept. Raises `GearTrainError`, and `OSError` for errors of the disk.
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
@@ -84,14 +84,14 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
-    """A disk's own word on what could not be written."""
+    """Convert an error of the disk to a `GearTrainError` for a file that could not be written."""
     why = getattr(error, "strerror", None) or str(error)
     fix = "make room, or check the folder and its permissions"
     return GearTrainError(Problem("the file cannot be written", why, fix, str(path)))
 
 
 def umask() -> int:
-    """Permissions that new files do without."""
+    """Return the permission bits that are removed from new files."""
     mask = os.umask(0)  # it can be read by setting it only
     os.umask(mask)
     return mask
@@ -101,7 +101,7 @@ def umask() -> int:
 
 
 def _look(path: Path) -> tuple[Path, int | None]:
-    """What stands at the end of the links from a path, and its mode; None where nothing does."""
+    """Return the target of the symbolic links of a path, and its mode, None if it does not exist."""
     try:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
@@ -140,7 +140,7 @@ def _folder(path: Path, real: Path) -> Problem | None:
 
 
 def _old(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """What protects a file that is there."""
+    """Return the problem that protects an existing file, or None."""
     if not force:
         return _exists(path)
     if not mode & 0o222 or not os.access(real, os.W_OK):
@@ -161,7 +161,7 @@ def _unnamed(path: Path, why: str) -> Problem:
 
 
 def _inherit(old: Path, new: Path) -> None:
-    """Permissions, and the owner where that is allowed."""
+    """Copy the permissions, and the owner if that is allowed, from the old file to the new one."""
     found = old.stat()
     if hasattr(os, "chown"):
         with suppress(OSError):
@@ -170,9 +170,9 @@ def _inherit(old: Path, new: Path) -> None:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Take a name that nothing has, in one step; False on a disk that cannot.
+    """Take an unused name in one step by a hard link; return False if the disk does not support it.
 
-    Unlike renaming, this fails where another has taken the name since it was looked at.
+    Unlike renaming, this fails if another process has created the file in the meantime.
     """
     try:
         os.link(temporary, real)
@@ -185,7 +185,7 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
 
 
 def _settle(folder: Path) -> None:
-    """Let the disk keep the new name too, where folders can be told so."""
+    """Flush a folder to disk, so that the new name survives a power failure, on systems that support this."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -195,9 +195,9 @@ def _settle(folder: Path) -> None:
 
 
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
-    """Raise `GearTrainError` where files of these names (`wheels/b1.svg`) cannot be put into a folder.
+    """Raise `GearTrainError` if files with these names (`wheels/b1.svg`) cannot be written into a folder.
 
-    Existing ones are refused unless `force`.
+    Existing files are refused without `force`.
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
@@ -220,10 +220,10 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
-    """Write files by name into a folder, and say how many: they are made beside it, and put there once all are.
+    """Write files by name into a folder, all of them or none, and return their number.
 
-    Whatever stops it before leaves nothing behind; what is there already is written over only with `force`. Raises
-    `GearTrainError`.
+    The files are created in a temporary folder next to it and moved when all are complete. Existing files are overwritten
+    only with `force`. Raises `GearTrainError`.
     """
     made: list[str] = []
     try:

@@ -1,8 +1,7 @@
-"""Tables to and from disk: long ones as CSV or Parquet, small ones as text.
+"""Tables on disk: long ones as CSV or Parquet, and small text files of points and edges.
 
-Long tables are written piece by piece, under a name that says partial until they are whole; a CSV that was interrupted
-is taken up again. Rows become the text of a CSV here and nowhere else. What a user has in small tables, points or the
-edges of a graph, one a line, is read here.
+Long tables are written in pieces to a file named partial until they are complete. An interrupted CSV file can be
+resumed. All rows of CSV files are formatted here.
 """
 
 from __future__ import annotations
@@ -24,15 +23,15 @@ PARTIAL_SUFFIX = "# partial: "
 
 
 def partial_name(path: Path) -> Path:
-    """`run.csv` -> `run.partial.csv`."""
+    """Return the name of the partial file: `run.csv` -> `run.partial.csv`."""
     return path.with_name(f"{path.stem}.partial{path.suffix}")
 
 
 def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
-    """The partial file of a table for `path`, beside the file that its symbolic links lead to.
+    """Return the partial file of a table for `path`, after resolving the symbolic links of the path.
 
-    One that is there belongs to an interrupted run: `resume` goes on with it, `force` writes over it. Raises
-    `GearTrainError` where it, or the table, cannot be written.
+    An existing partial file belongs to an interrupted run, which `resume` continues and `force` overwrites. Raises
+    `GearTrainError` if it or the table cannot be written.
     """
     found = partial_name(destination(path, force))
     if found.is_symlink():
@@ -46,12 +45,12 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
 
 
 class LongTable:
-    """A CSV that grows row by row as `name.partial.csv`, and becomes `name.csv` when it is whole.
+    """A CSV file that grows row by row as `name.partial.csv`, and is renamed to `name.csv` when it is complete.
 
-    rows     rows there already, where an interrupted run is resumed
-    resume   go on with the partial file
-    force    write over a table that is there
-    replay   begin the partial file of an interrupted run again: its rows come from elsewhere
+    rows     number of rows, including those of an interrupted run that is resumed
+    resume   continue the partial file
+    force    overwrite an existing table
+    replay   overwrite the partial file of an interrupted run, whose rows are stored elsewhere
     """
 
     def __init__(
@@ -72,7 +71,7 @@ class LongTable:
             raise unfinished_file(self.partial, error) from None
 
     def _take_up(self) -> int:
-        """Cut off the mark and a torn last row; count the rows that are whole."""
+        """Truncate the partial file after the last complete row; return the number of complete rows."""
         rows, end = -1, 0
         with self.partial.open("rb") as file:
             for line in file:
@@ -92,13 +91,13 @@ class LongTable:
         return max(rows, 0)
 
     def last(self) -> str:
-        """The last whole row that was taken up."""
+        """Return the last complete row of the interrupted run."""
         with self.partial.open("rb") as file:
             lines = file.read().splitlines()
         return lines[-1].decode("utf-8") if self.rows else ""
 
     def write(self, rows: list[str]) -> None:
-        """Append rows. Raises `GearTrainError`."""
+        """Append rows to the file. Raises `GearTrainError`."""
         try:
             self._file.write(("\n".join(rows) + "\n").encode("utf-8"))
         except OSError as error:
@@ -109,7 +108,7 @@ class LongTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Whole: take the name asked for. Interrupted: stay partial, and say so in the last line."""
+        """Rename the complete file, or mark an interrupted one as partial in its last line."""
         try:
             if kind is not None:
                 self._file.write(f"{PARTIAL_SUFFIX}stopped after {self.rows} rows\n".encode())
@@ -121,14 +120,14 @@ class LongTable:
 
 
 class ColumnTable:
-    """A Parquet file that grows by row groups as `name.partial.parquet`, and becomes `name.parquet` when it is whole.
+    """A Parquet file that grows by row groups as `name.partial.parquet`, and is renamed when it is complete.
 
-    about   texts kept beside the columns; readers of Parquet show them as metadata
-    force   write over a table that is there
-    replay  begin the partial file of an interrupted run again
+    about    metadata of the file, by key
+    force    overwrite an existing table
+    replay   overwrite the partial file of an interrupted run
 
-    Interrupted, the partial file is closed and can be read as far as it goes. Raises `MissingExtraError` without
-    pyarrow, `GearTrainError` where nothing can be written.
+    After an interrupt the partial file is closed and readable. Raises `MissingExtraError` without pyarrow, and
+    `GearTrainError` if the file cannot be written.
     """
 
     def __init__(self, path: Path, about: Mapping[str, str], force: bool = False, replay: bool = False) -> None:
@@ -142,7 +141,7 @@ class ColumnTable:
         self.about, self.rows = dict(about), 0
 
     def write(self, columns: Mapping[str, Any]) -> None:
-        """Append arrays of one length as one row group. Raises `GearTrainError`."""
+        """Append arrays of equal length as one row group. Raises `GearTrainError`."""
         table = self._arrow.table(dict(columns))
         try:
             if self._writer is None:
@@ -157,7 +156,7 @@ class ColumnTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Whole: take the name asked for. Interrupted: stay partial."""
+        """Rename the complete file; leave an interrupted one partial."""
         if self._writer is None:
             return
         try:
@@ -174,26 +173,29 @@ _FORMULA = ("=", "@", "+", "-", "\t", "\r", "\n")
 
 
 def csv_line(cells: Iterable[object]) -> str:
-    """One row without its end: quoted where that is needed, None as nothing, floats with all their digits.
+    r"""Format one row as CSV without a line end, with quotes where needed, None as empty text and floats with all digits.
+
+    A text that a spreadsheet would interpret as a formula gets an apostrophe in front, except numbers and fractions.
+    Control characters are escaped, so that a row is always one line of a file.
 
     A text that a spreadsheet would take for a formula gets an apostrophe in front; numbers and fractions that are
     written as text do not. Control characters are written out, so that a row is always one line of a file.
 
     >>> csv_line(["a,b", "=1+1", "-254/19", -0.5, None])
-    '"a,b",\\'=1+1,-254/19,-0.5,'
+    '"a,b",\'=1+1,-254/19,-0.5,'
     """
     return csv_lines([cells])[0]
 
 
 def csv_lines(rows: Iterable[Iterable[object]]) -> list[str]:
-    """Several rows, each as `csv_line` has it."""
+    """Format several rows as CSV, each as by `csv_line`."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows([_cell(cell) for cell in row] for row in rows)
     return out.getvalue().split("\n")[:-1]
 
 
 def csv_text(header: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    """A whole table, each row ended by a line feed."""
+    """Format a table as CSV, each row ended by a line feed."""
     return "\n".join((csv_line(header), *csv_lines(rows), ""))
 
 
@@ -207,7 +209,10 @@ def _cell(cell: object) -> object:
 
 
 def read_points(path: Path) -> list[tuple[float, float, float]]:
-    """Three numbers a line, parted by blanks or commas; `#` begins a remark. Raises `GearTrainError` with the lines."""
+    """Read points from a file, three numbers a line separated by blanks or commas.
+
+    `#` begins a comment. Raises `GearTrainError` with the lines at fault.
+    """
     points: list[tuple[float, float, float]] = []
     problems = []
     for at, words in _rows(path):
@@ -224,7 +229,10 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 
 
 def read_edges(path: Path) -> list[tuple[str, str]]:
-    """Two names a line, parted by blanks or commas. Raises `GearTrainError` with the lines at fault."""
+    """Read edges from a file, two names a line separated by blanks or commas.
+
+    `#` begins a comment. Raises `GearTrainError` with the lines at fault.
+    """
     edges: list[tuple[str, str]] = []
     problems = []
     for at, words in _rows(path):

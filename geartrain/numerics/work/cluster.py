@@ -1,7 +1,7 @@
-"""The workers of a dask cluster, through the `concurrent.futures` interface of its client.
+"""Executor for a dask cluster, through the `concurrent.futures` interface of its client.
 
-When a worker dies, dask gives its tasks to another one. What is added here: messages in the form of this project, and
-an end where no worker is left.
+When a worker dies, dask gives its tasks to another one. This module adds error messages in the form of this package,
+and an error when no worker is left.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _DEATHS = 2  # deaths that a task counts which dask has given up: it is run alon
 
 
 class DaskPool(WorkerPool):
-    """The workers of the scheduler at `address`. Raises `GearTrainError` where none can do the work."""
+    """An executor on the workers of the scheduler at `address`. Raises `GearTrainError` if it cannot be used."""
 
     def __init__(self, address: str, answer: float = _ANSWER) -> None:
         self._address, self._seen = address, monotonic()
@@ -58,15 +58,15 @@ class DaskPool(WorkerPool):
 
     @property
     def width(self) -> int:
-        """How many tasks run at once, all workers together."""
+        """Number of tasks that run at the same time on all workers."""
         return max(1, self._threads)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """As `Executor.submit`."""
+        """Submit a call, as `Executor.submit`."""
         return follow(self._executor.submit(fn, *args, **kwargs), _translate)
 
     def check(self) -> None:
-        """Raise `GearTrainError` if the scheduler does not answer, or has been without workers for a minute."""
+        """Raise `GearTrainError` if the scheduler does not respond, or has had no workers for a minute."""
         try:
             self._threads = sum(self._client.nthreads().values())
         except OSError:
@@ -77,7 +77,7 @@ class DaskPool(WorkerPool):
             raise self._empty("has lost all its workers", _PATIENCE)
 
     def dismiss(self) -> None:
-        """Cancel what is open, and disconnect; the cluster goes on."""
+        """Cancel pending tasks and disconnect; the cluster continues to run."""
         with suppress(Exception):  # a client that lost its scheduler may fail to say goodbye
             self._client.close(timeout=2)
 
@@ -87,15 +87,19 @@ class DaskPool(WorkerPool):
 
 
 async def _knock(address: str, answer: float) -> None:
-    """Raise `OSError` if no scheduler answers; a client that finds none goes on trying when it is thrown away."""
+    """Raise `OSError` if no scheduler responds.
+
+    A client without a scheduler would continue to retry after it is discarded.
+    """
     secured = distributed.Security().get_connection_args("client")
     await (await distributed.core.connect(address, timeout=answer, **secured)).close()
 
 
 def _translate(error: BaseException) -> BaseException:
-    """What work raises comes back as a result: any exception is of the cluster, and the task is done again.
+    """Convert an exception of the cluster to `WorkerDiedError`, after which the task is repeated.
 
-    Futures are cancelled where the connection to the scheduler is lost; that ends the run.
+    Exceptions of the work itself are returned as results. Futures are cancelled if the connection to the scheduler is
+    lost, which ends the run.
     """
     if isinstance(error, CancelledError):
         return error

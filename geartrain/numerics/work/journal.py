@@ -1,14 +1,14 @@
-"""Finished results of a long run on disk, so that a run killed at any moment is taken up again and ends the same.
+"""Finished results of a long run on disk, so that a run killed at any moment can be resumed with the same result.
 
-A journal is a text of JSON lines that only grows. The first line is the question, as plain data that a reader can
-read; each further line is one finished task, in the order in which they were finished:
+A journal is a file of JSON lines to which lines are only appended. The first line is the question as plain data. Each
+further line is one finished task, in the order of completion:
 
     {"geartrain journal":1,"question":{...}}
     {"crc":"1c291ca3","task":3,"mark":"d202ef8d","result":[1,2]}
 
-`crc` is the CRC-32 of the rest of its line, `mark` tells the task (`messages.mark_of`). What is not whole at the end, a
-line torn by a kill or lost with the power, is cut off when the journal is taken up. `files` is the door for what users
-read and write; a checkpoint is neither, and is written here.
+`crc` is the CRC-32 of the rest of its line, and `mark` identifies the task (`task_runner.mark_of`). An incomplete end,
+such as a line cut off by a kill or a power failure, is removed when the journal is resumed. Journals are checkpoints
+and not results for users, and are therefore not written through `files`.
 """
 
 from __future__ import annotations
@@ -34,24 +34,24 @@ _BREATH = 1.0  # s: what a power failure may cost; a kill costs no finished resu
 
 
 class Journal:
-    """Results by number of task, kept in a file until the run is whole.
+    """Results by task number, stored in a file until the run is complete.
 
-    A context manager that leaves the file to be taken up later; `len()` is the number of results kept. It costs 8 bytes
-    of memory a task.
+    A context manager that leaves the file for a later run. `len()` is the number of stored results. It needs 8 bytes of
+    memory per task.
 
     Parameters
     ----------
     path : path or str
-        The file; it is made, or taken up if it holds the same question.
+        The file; it is created, or resumed if it contains the same question.
     question : mapping
-        Plain data that tells this run from every other: all on which tasks and results depend.
+        Plain data that identify the run: everything on which tasks and results depend.
     resume : bool
-        False: begin again, even if the file holds results (of any question).
+        False to begin again, even if the file contains results (of any question).
 
     Raises
     ------
     QuestionError
-        If the file is of another question, is no journal, or is in use by another run.
+        If the file belongs to another question, is not a journal, or is in use by another run.
     GearTrainError
         If it cannot be read or written.
 
@@ -60,7 +60,7 @@ class Journal:
     >>> from tempfile import TemporaryDirectory
     >>> from geartrain.numerics import run
     >>> with TemporaryDirectory() as folder:
-    ...     for _ in range(2):  # the second time nothing is worked out
+    ...     for _ in range(2):  # the second time nothing is computed
     ...         with Journal(f"{folder}/journal", {"of": "squares"}) as journal:
     ...             print(len(journal), list(run(abs, [-1, 2], journal=journal)))
     0 [1, 2]
@@ -95,7 +95,7 @@ class Journal:
             self._write(header)
 
     def _whole(self, question: Any, resume: bool) -> int:
-        """Where the part ends that can be taken up: 0 for none of it."""
+        """Return the length of the part of the file that can be resumed, 0 for none, and index its tasks."""
         first = self._reader.readline(_LONGEST)
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
@@ -134,14 +134,14 @@ class Journal:
         return self._count
 
     def recall(self, task: int, mark: str = "") -> str | None:
-        """The result of a task as JSON, None if it is not kept.
+        """Return the stored result of a task as JSON, or None.
 
         Parameters
         ----------
         task : int
             Number of the task, from 0.
         mark : str
-            Tells the task; `QuestionError` if another one was kept under the number.
+            Identifier of the task; `QuestionError` if another task was stored under the number.
         """
         if task >= len(self._at) or self._at[task] < 0:
             return None
@@ -158,14 +158,14 @@ class Journal:
         return found[5].decode()
 
     def keep(self, task: int, mark: str, text: str) -> None:
-        """Write down a result; `GearTrainError` if that fails.
+        """Store a result in the journal; raises `GearTrainError` if that fails.
 
         Parameters
         ----------
         task : int
             Number of the task, from 0.
         mark : str
-            Tells the task, in hexadecimal digits.
+            Identifier of the task, in hexadecimal digits.
         text : str
             The result, one line of JSON.
         """
@@ -173,7 +173,10 @@ class Journal:
         self._enter(task, self._write(b'{"crc":"%08x",' % crc32(rest) + rest + b"\n"))
 
     def _write(self, line: bytes) -> int:
-        """Append a line and say where it begins, as the file has it: interrupts come between a write and its note."""
+        """Append a line and return its position in the file.
+
+        The position is read from the file, because an interrupt can occur between a write and its record.
+        """
         try:
             at = self._file.seek(0, os.SEEK_END)
             left = memoryview(line)
@@ -193,18 +196,18 @@ class Journal:
 
     @property
     def closed(self) -> bool:
-        """True when nothing can be written any more."""
+        """True if the journal cannot be written any more."""
         return self._file.closed
 
     def close(self) -> None:
-        """Leave the file as it stands, safe on the disk, to be taken up later."""
+        """Close the file, flushed to disk, so that it can be resumed later."""
         if not self.closed:
             with suppress(OSError):  # a full disk was reported by the write that met it
                 self._sync()
             self._shut()
 
     def finish(self) -> None:
-        """The run is whole and its result is safe: remove the file. Raises `GearTrainError`."""
+        """Remove the file after the run is complete and its result is saved. Raises `GearTrainError`."""
         self.close()
         try:
             self.path.unlink(missing_ok=True)
@@ -220,7 +223,7 @@ class Journal:
 
 @contextmanager
 def _only_writer(path: Path) -> Iterator[None]:
-    """Lock a journal for this process, by a file beside it; the lock ends with the process, however it ends."""
+    """Lock a journal for this process by a lock file; the lock ends with the process in any case."""
     from filelock import FileLock, Timeout
 
     lock = FileLock(f"{path}.lock", timeout=0, thread_local=False)
@@ -238,7 +241,7 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """What is said of a journal that was found beside where that of this question would be."""
+    """Return the problem that an existing journal belongs to another question."""
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_LONGEST))["question"]
@@ -253,7 +256,7 @@ def _another(difference: str, path: Path) -> Problem:
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
-    """Where two plain data differ first, in words; empty where they are equal.
+    """Describe the first difference between two plain data structures; empty if they are equal.
 
     >>> first_difference({"wheels": [30, 36]}, {"wheels": [30, 48]})
     'wheels[1] is 36 there and 48 here'
@@ -277,7 +280,7 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
 
 
 def _sound(line: bytes) -> re.Match[bytes] | None:
-    """A line that is whole and as it was written."""
+    """Match a line that is complete and has a correct checksum; None otherwise."""
     found = _LINE.fullmatch(line)
     return found if found is not None and int(found[1], 16) == crc32(found[2]) else None
 

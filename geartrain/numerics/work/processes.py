@@ -1,8 +1,8 @@
 """Worker processes on this machine.
 
-They are spawned, not forked: a fork copies the locks that other threads of this process hold (numpy's, a progress
-bar's), and a worker that waits for one of those waits for ever. Spawning is also the one way that is the same on all
-systems. It costs each worker its imports, once.
+They are spawned, not forked. A fork copies locks that other threads hold (of numpy, of a progress bar), and a worker
+that waits for such a lock waits forever. Spawning also works the same on all systems. It costs each worker its
+imports once.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ _MOST = 61 if sys.platform == "win32" else 10_000  # as many processes as Window
 
 
 class ProcessPool(WorkerPool):
-    """Up to `workers` processes, started as they are needed and replaced when one dies; `waits` as in `WorkerPool`.
+    """Up to `workers` processes, started when they are needed and replaced when one dies; `waits` as in `WorkerPool`.
 
-    They end with this process, whatever ends it: each holds one end of a pipe, the leash, and leaves when the other end
-    is gone.
+    The processes end with this process, however it ends. Each of them has one end of a pipe, the leash, and exits when the
+    other end is closed.
     """
 
     def __init__(self, workers: int, waits: bool = False) -> None:
@@ -42,11 +42,11 @@ class ProcessPool(WorkerPool):
 
     @property
     def width(self) -> int:
-        """How many tasks run at once."""
+        """Number of tasks that run at the same time."""
         return self._workers
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """True if it can be pickled: outlines of teeth that are local functions cannot."""
+        """Return whether the function can be pickled; tooth outlines that are local functions cannot."""
         try:
             pickle.dumps(work)
         except (AttributeError, TypeError, pickle.PicklingError):
@@ -54,7 +54,7 @@ class ProcessPool(WorkerPool):
         return True
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """As `Executor.submit`; after a worker died, in a fresh pool."""
+        """Submit a call, as `Executor.submit`; use a new pool after the death of a worker."""
         if self._shut:
             raise RuntimeError("cannot schedule new futures after shutdown")
         try:
@@ -80,7 +80,7 @@ class ProcessPool(WorkerPool):
         return theirs
 
     def _abandon(self) -> None:
-        """The pool is broken and goes. Its futures fail here: one that was handed over just then would stay open."""
+        """Discard the broken pool and fail its futures; one submitted at that moment would otherwise never complete."""
         pool, self._pool = self._pool, None
         if pool is not None:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -90,7 +90,7 @@ class ProcessPool(WorkerPool):
         self._open.clear()
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """As `Executor.shutdown`; with `wait` nothing is left of the workers."""
+        """Stop the pool, as `Executor.shutdown`; with `wait` all workers have ended on return."""
         if self._pool is not None:
             self._pool.shutdown(wait, cancel_futures=cancel_futures)
         self._shut = True
@@ -99,17 +99,17 @@ class ProcessPool(WorkerPool):
             self._leash.close()
 
     def dismiss(self) -> None:
-        """End the workers, with what they still run."""
+        """End the workers and their running tasks."""
         if self._open:
             self._hand.close()
         self.shutdown(cancel_futures=True)
 
 
 def _bear_cancellation(future: Future[Any]) -> None:
-    """Let a future that was cancelled fail in silence.
+    """Let a cancelled future ignore a later exception.
 
-    When workers end just after a future was cancelled, the thread of the pool still has it on its list of those that
-    fail; before Python 3.12 it dies of that one with a traceback, and leaves the others open.
+    When workers end just after a future was cancelled, the pool's thread still tries to set an exception on it. Before
+    Python 3.12 that ends the thread with a traceback, and the other futures never complete.
     """
     fail = future.set_exception
 
@@ -126,9 +126,9 @@ def _translate(error: BaseException) -> BaseException:
 
 @contextmanager
 def _deaf() -> Iterator[None]:
-    """Start processes that never hear Ctrl-C, not even before `_begin`: it is this one's to say what is kept.
+    """Start processes with SIGINT blocked, also before `_begin`; only the parent process handles Ctrl-C.
 
-    A process inherits the signals its parent holds back. One that comes meanwhile is delivered afterwards.
+    A process inherits the blocked signals of its parent. A signal in the meantime is delivered to the parent afterwards.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -141,13 +141,13 @@ def _deaf() -> Iterator[None]:
 
 
 def _begin(leash: Connection) -> None:
-    """What a worker does first."""
+    """Prepare a new worker: ignore SIGINT and watch the leash."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_hold, args=(leash,), daemon=True).start()
 
 
 def _hold(leash: Connection) -> None:
-    """Leave when the other end of the leash is gone."""
+    """Exit the process when the other end of the leash is closed."""
     with suppress(OSError, EOFError):
         leash.poll(None)
     os._exit(1)

@@ -1,7 +1,7 @@
-"""Tasks in, results out, in the order of the tasks: the same for every executor, and if workers die.
+"""Ordered results of independent tasks, the same for every executor, even if workers die.
 
-Results become JSON text in the process that works them out, so that they are the same whether they come from this
-process, another one, another machine or a journal: tuples are lists and keys are texts in all of them.
+Results are converted to JSON text in the process that computes them, so that they are the same from this process,
+another process, another machine or a journal: tuples become lists and keys become texts.
 """
 
 from __future__ import annotations
@@ -47,33 +47,34 @@ def run(
 ) -> Iterator[Any]:
     """Yield `work(task)` for each task, in their order.
 
-    A worker that dies costs only what it was doing: that is done again, and a task with which workers keep dying is
-    run alone before it is blamed. Tasks in flight are cancelled however the iterator ends.
+    The death of a worker loses only its unfinished tasks, which are repeated. A task that repeatedly kills workers is run
+    without others before it is reported. Pending tasks are cancelled however the iterator ends.
 
     Parameters
     ----------
     work : callable
-        A function at the top of a module, so that other processes find it; its results are plain JSON data and depend
-        on the task alone.
+        A function at the top of a module, so that other processes can import it. Its results are plain JSON data and
+        depend only on the task.
     tasks : iterable
-        Any number of them; they are taken as they are needed, and only as many results are held as are ahead of one
-        that is missing (at most 64 for each worker).
+        Any number of tasks. They are read when needed, and only results ahead of a missing one are stored (at most 64
+        per worker).
     executor : concurrent.futures.Executor, optional
-        Default this process. Any executor will do; one from `open_executor` outlives its workers.
+        Any executor; default this process. An executor from `open_executor` survives the death of its workers.
     journal : Journal, optional
-        Results it has are not worked out again; others are written to it as they come.
+        Stored results, which are not computed again; new results are added.
     tell : callable, optional
-        Called with (tasks done, tasks in all, 0 if `tasks` has no length), at most ten times a second and at the end.
+        Called with (tasks done, total number of tasks, 0 if `tasks` has no length), at most ten times a second and at
+        the end.
 
     Yields
     ------
     plain data
-        Results as JSON gives them: tuples are lists, keys are texts.
+        Results as read from JSON: tuples are lists, keys are texts.
 
     Raises
     ------
     GearTrainError
-        If a task kills its workers, or no worker is left. Whatever `work` raises goes up at once.
+        If a task kills its workers, or no worker is left. Exceptions of `work` are raised immediately.
 
     Examples
     --------
@@ -88,39 +89,39 @@ def run(
 
 @dataclass(frozen=True, slots=True)
 class Execution:
-    """How the independent tasks of a long question are done; the default does them in this process and keeps nothing.
+    """Execution of independent tasks; by default they run in this process without a journal.
 
     Examples
     --------
-    >>> told = []
-    >>> list(Execution(tell=lambda done, total: told.append((done, total))).run(abs, [-1, 2]))
+    >>> reports = []
+    >>> list(Execution(tell=lambda done, total: reports.append((done, total))).run(abs, [-1, 2]))
     [1, 2]
-    >>> told[-1]
+    >>> reports[-1]
     (2, 2)
     """
 
     executor: Executor | None = None
-    """What runs the tasks; None for this process. `open_executor` makes one."""
+    """Executor of the tasks, such as one from `open_executor`; None for this process."""
     journal: Journal | None = None
-    """Where finished work is kept, to be taken up again."""
+    """Journal of finished results, by which a run can be resumed."""
     tell: ProgressReport | None = None
-    """Called with (tasks done, tasks in all), at most ten times a second and at the end."""
+    """Progress report, called with (tasks done, total number), at most ten times a second and at the end."""
 
     def run(self, work: Callable[[Any], Any], tasks: Iterable[Any]) -> Iterator[Any]:
-        """Results in the order of the tasks, as `geartrain.numerics.run`.
+        """Yield results in the order of the tasks, as `geartrain.numerics.run`.
 
         Parameters
         ----------
         work : callable
             A function at the top of a module.
         tasks : iterable
-            What it is called with.
+            Arguments of the function, one per call.
         """
         return run(work, tasks, self.executor, self.journal, self.tell)
 
 
 def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Pace) -> Iterator[Any]:
-    """All in this process, one after the other."""
+    """Yield the results of all tasks, computed in this process one after another."""
     pace.step(0)
     for index, task in enumerate(tasks):
         mark = mark_of(task) if journal is not None else ""
@@ -135,7 +136,7 @@ def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pac
 
 
 class _Pace:
-    """Counts what is done, and tells it neither too often nor too seldom."""
+    """Counter of finished tasks that limits the rate of progress reports."""
 
     def __init__(self, tell: ProgressReport | None, total: int) -> None:
         self.tell, self.total, self.done = tell, total, 0
@@ -143,13 +144,13 @@ class _Pace:
         self._at = -_BETWEEN_WORDS
 
     def step(self, count: int = 1) -> None:
-        """So many more are done."""
+        """Count further tasks as done and report if due."""
         self.done += count
         if self.tell and (monotonic() - self._at >= _BETWEEN_WORDS or self.done == self.total):
             self._say(self.tell)
 
     def end(self) -> None:
-        """All are done: the last word gives the whole number."""
+        """Report the final number of tasks, unless already reported."""
         if self.tell and self._said != self.done:
             self._say(self.tell)
 
@@ -160,7 +161,7 @@ class _Pace:
 
 @dataclass(slots=True)
 class _Flight:
-    """A task on its way: `deaths` counts the workers that died while it was with them, or waited for them."""
+    """A submitted task; `deaths` counts the workers that died while it was running or queued."""
 
     index: int
     task: Any
@@ -169,7 +170,7 @@ class _Flight:
 
 
 class _Run:
-    """Work by an executor. Futures report to a queue when they end; this thread alone decides what follows."""
+    """Run of tasks by an executor. Futures report to a queue when they end, and only this thread acts on them."""
 
     def __init__(
         self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Pace
@@ -186,7 +187,7 @@ class _Run:
         self.looked = monotonic()
 
     def results(self) -> Iterator[Any]:
-        """The results in the order of the tasks."""
+        """Yield the results in the order of the tasks."""
         try:
             self.pace.step(0)
             if isinstance(self.executor, WorkerPool) and self.executor.waits:
@@ -204,7 +205,7 @@ class _Run:
             self._cancel()
 
     def _small(self) -> Iterator[Any]:
-        """The first results, worked out in this process until it is clear that others are worth their start."""
+        """Yield the first results, computed in this process until the start of workers is worthwhile."""
         done, spent = 0, 0.0
         while not self.exhausted:
             flight = self._take()
@@ -218,7 +219,7 @@ class _Run:
                 return
 
     def _due(self) -> Iterator[Any]:
-        """Results that are there, up to the first one that is missing."""
+        """Yield available results up to the first missing one."""
         while self.next in self.ready:
             text = self.ready.pop(self.next)
             self.next += 1
@@ -229,7 +230,7 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Hand over as many tasks as there is room for; those with which workers died first, and few at a time."""
+        """Submit as many tasks as the limits allow; tasks during which workers died come first, a few at a time."""
         width = self._width
         while self.again:
             careful = self.again[0].deaths >= _ALONE
@@ -243,7 +244,7 @@ class _Run:
             self._launch(flight)
 
     def _take(self) -> _Flight | None:
-        """The next task that the journal does not have; None for the time being or for good."""
+        """Return the next task that is not in the journal; None if there is none yet or none at all."""
         for index, task in self.tasks:
             self.issued = index + 1
             mark = mark_of(task) if self.journal is not None else ""
@@ -275,7 +276,7 @@ class _Run:
         future.add_done_callback(self.ended.put)
 
     def _wait(self) -> Future[Any]:
-        """The next future that ends, whichever it is."""
+        """Wait for the next future that ends and return it."""
         while True:
             if isinstance(self.executor, WorkerPool) and monotonic() - self.looked > _BETWEEN_LOOKS:
                 self.executor.check()
@@ -284,7 +285,7 @@ class _Run:
                 return self.ended.get(timeout=_BETWEEN_LOOKS)
 
     def _land(self, future: Future[Any]) -> None:
-        """Take what a task came back with."""
+        """Process the result or exception of a finished future."""
         flight = self.flying.pop(future)
         self.hurt -= bool(flight.deaths)
         try:
@@ -313,14 +314,14 @@ class _Run:
             self.journal.keep(flight.index, flight.mark, text)
 
     def _died(self, flight: _Flight, times: int) -> None:
-        """A worker died with this task, or with one beside it: once more, and alone if it happens again."""
+        """Queue a task again after the death of a worker; after repeated deaths it runs without other tasks."""
         flight.deaths += times
         if flight.deaths >= _ENOUGH:
             raise _deadly(flight)
         self.again = deque(sorted([*self.again, flight], key=lambda each: (each.deaths, each.index)))
 
     def _cancel(self) -> None:
-        """However it ends: nothing more is begun, and what was finished in the meantime is kept."""
+        """Cancel all pending tasks and store results that finished in the meantime."""
         for future in self.flying:
             future.cancel()
         for future, flight in self.flying.items():
@@ -348,23 +349,23 @@ def _deadly(flight: _Flight) -> GearTrainError:
 
 @dataclass(frozen=True, slots=True)
 class RemoteFailure:
-    """What `work` raised, in a form that always comes through.
+    """An exception raised in a worker, in a form that can always be transferred.
 
-    A process pool takes an exception it cannot unpickle for a dead worker, and an exception whose `__init__` takes
-    other arguments than its text comes back garbled.
+    A process pool treats an exception that it cannot unpickle as a dead worker. An exception whose `__init__` takes
+    arguments other than its text is corrupted by pickling.
     """
 
     trace: str
-    """The traceback there."""
+    """Traceback in the worker."""
     kind: type[GearTrainError] | None = None
-    """Its class, where it is a `GearTrainError`."""
+    """Class of the exception if it is a `GearTrainError`, else None."""
     problems: tuple[Problem, ...] = ()
-    """Its problems, likewise."""
+    """Problems of a `GearTrainError`."""
     pickled: bytes = b""
-    """Any other exception; empty where it cannot be pickled faithfully."""
+    """Any other exception, pickled; empty if it cannot be pickled without loss."""
 
     def error(self) -> Exception:
-        """The exception again, with the traceback of its worker as a note."""
+        """Return the exception, with the traceback of its worker as a note."""
         error = self._again()
         error.add_note(f"raised in a worker:\n{self.trace}")
         return error
@@ -382,12 +383,12 @@ class RemoteFailure:
 
 
 def as_text(result: Any) -> str:
-    """A result as one line of JSON. Raises `TypeError` where it is no plain data."""
+    """Format a result as one line of JSON. Raises `TypeError` if it is not plain data."""
     return json.dumps(result, separators=(",", ":"))
 
 
 def carry(work: Callable[[Any], Any], task: Any) -> str | RemoteFailure:
-    """Do one task in a worker: its result as JSON, or what it raised."""
+    """Perform one task in a worker; return its result as JSON, or the exception that it raised."""
     try:
         return as_text(work(task))
     except Exception as error:
@@ -395,7 +396,7 @@ def carry(work: Callable[[Any], Any], task: Any) -> str | RemoteFailure:
 
 
 def raised(error: Exception) -> RemoteFailure:
-    """Pack an exception."""
+    """Pack an exception for its transfer to another process."""
     trace = "".join(traceback.format_exception(error))
     if isinstance(error, GearTrainError):
         return RemoteFailure(trace, type(error), error.problems)
@@ -410,7 +411,8 @@ def raised(error: Exception) -> RemoteFailure:
 
 
 def mark_of(task: Any) -> str:
-    """A short mark by which a journal knows a task again; empty for a task that is no plain data (nor a Fraction)."""
+    """Return a checksum by which a journal identifies a task; empty if the task is neither plain data nor a Fraction.
+    """
     try:
         text = json.dumps(task, separators=(",", ":"), default=_fraction)
     except (TypeError, ValueError):

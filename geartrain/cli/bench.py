@@ -1,4 +1,4 @@
-"""`geartrain bench`: error against run time on the user's own train."""
+"""`geartrain bench`: accuracy against run time for a train."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Measure error against run time on a train: speeds, transmission functions, motion, torques."""
+    """Measure accuracy against run time for a train: speeds, transmission functions, motion, torques."""
     from geartrain.analysis.accuracy import find_accuracy
     from geartrain.analysis.gear_train import load
     from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy

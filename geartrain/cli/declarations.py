@@ -1,7 +1,7 @@
 """Commands on files: `geartrain init`, `format`, `list`, `periods` and `schema`.
 
-A template to begin with; declarations in short or long form; the shipped trains, the table of periods, and the schema
-of declarations and answers.
+They write a template, convert declarations to short or long form, list the shipped trains and the table of periods,
+and print the schema of declarations and results.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def write_template(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write a small declaration with comments that runs as it is: KIND.yaml here, or where -o says."""
+    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o."""
     kinds = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
     check_choice("template", kind, kinds)
     path = Path(f"{kind}.yaml") if out is None else out
@@ -43,9 +43,10 @@ def write_style(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write turning pairs by axis and gear pairs as `a ~ b`, or all of them long; comments stay with their entries.
+    """Rewrite turning pairs by axis and gear pairs as `a ~ b`, or all of them in long form; comments are kept.
 
-    What is declared stays the same, which is checked before a file is written. Other lines are left as they are.
+    The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
+    changed.
     """
     if out is not None and (len(files) > 1 or check):
         raise typer.BadParameter("-o is for one file, which is then left as it is", param_hint="-o")
@@ -119,10 +120,10 @@ def print_schema(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the JSON Schema of the declaration; editors with a YAML plugin complete and check with it.
+    """Print the JSON Schema of declarations, with which editors with a YAML plugin complete and validate them.
 
-    With --as answers, the JSON Schema of what commands print with --json, by command. With a command, the keys of its
-    JSON as a table.
+    With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print the
+    keys of its JSON as a table.
     """
     from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
     from geartrain.report.text import to_markdown, to_text

@@ -1,4 +1,4 @@
-"""`geartrain gearbox`: all states of a train with clutches in one table, and all gears that there are."""
+"""`geartrain gearbox`: all states of a train with clutches in one table, and a search for all possible gears."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Ratios, steps, speeds, slip, torques of clutches and brakes, and circulating power, state by state."""
+    """Tabulate ratios, steps, speeds, slip, torques of clutches and brakes, and recirculating power of every state."""
     from geartrain.analysis.gear_train import load
     from geartrain.report.gearbox_report import describe_gear_search, describe_gearbox
 

@@ -1,4 +1,4 @@
-"""`geartrain graph`: the adjacency matrix, the edges, or the graph for other tools."""
+"""`geartrain graph`: the adjacency matrix, the edges, or the graph in formats of other tools."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`geartrain motion`: what real teeth and pins do to the outputs while the input turns."""
+"""`geartrain motion`: transmission errors and speeds of the outputs with real teeth and pins."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Transmission error and speed of outputs with real teeth and pins; to a .csv, every position."""
+    """Compute transmission error and speed of outputs with real teeth and pins; with -o x.csv, at every position."""
     from geartrain.analysis.gear_train import load
     from geartrain.dynamics import MotionRun
 
@@ -106,7 +106,7 @@ def _turns(text: str, motion: Motion) -> float:
 
 
 def _partial(to: Sink) -> Sink:
-    """Where the figures of an interrupted run go. A table has a partial file of its own, which can be taken up."""
+    """Return the file for the figures of an interrupted run; CSV tables have their own partial file."""
     if to.path is None or to.suffix == ".csv":
         return STANDARD
     from geartrain.numerics.files import partial_name
@@ -125,7 +125,7 @@ def _report(
     spectrum: bool,
     every_output: bool,
 ) -> None:
-    """The figures, into the second place where they are cut short."""
+    """Compute and write the figures, to the second destination if the run is interrupted."""
     from geartrain.report.motion_report import collect_motion, describe_motion
 
     work = requested.samples * (1 + phases + estimates + spectrum)

@@ -1,4 +1,4 @@
-"""`geartrain report` and `compare`: a report on a train, and the outputs of several trains side by side."""
+"""`geartrain report` and `compare`: a report on a train, and the outputs of several trains in one table."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ def report(
     view: Annotated[bool, typer.Option("--view", help="Include the turning train in the page.")] = False,
     force: Force = False,
 ) -> None:
-    """Report on trains: text within the terminal, 80 columns in a pipe; by the suffix of -o .md, .html or .json.
+    """Report on trains as text on the terminal (80 columns in a pipe), or as .md, .html or .json by the suffix of -o.
 
-    A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
+    An .html page also contains pictures of the plan and the dials if the extra 'plot' is installed.
     """
     from geartrain.report.document import without_details
     from geartrain.report.train_data import collect_report
@@ -80,7 +80,7 @@ def _shared(train: GearTrain, view: bool) -> Document:
 
 
 def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
-    """The plan, and the dials where there are any; and what kept one from being drawn."""
+    """Return the plan, the dials if declared, and notes on pictures that could not be drawn."""
     from geartrain.report.document import Picture
 
     drawn: list[Picture] = []
@@ -112,7 +112,7 @@ def compare(
     ] = False,
     force: Force = False,
 ) -> None:
-    """Put the outputs of several trains side by side, with their errors against the targets."""
+    """Compare the outputs of several trains in one table, with their errors against the targets."""
     from geartrain.report.reconstruction_comparison import describe_comparison
     from geartrain.report.train_data import collect_report
 

@@ -89,7 +89,7 @@ def formula(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """What each output is, in lowest terms, as a formula in tooth counts and speeds of inputs; where it locks."""
+    """Derive each output in lowest terms as a formula in tooth counts and input speeds, and where it locks."""
     from geartrain.analysis.gear_train import load
     from geartrain.report.formula_report import collect_formulas, describe_formulas
 

@@ -1,4 +1,4 @@
-"""`geartrain sphere`: gears on polyhedra and graphs, whether they turn, close and fit."""
+"""`geartrain sphere`: mobility, closure and sizes of gears on polyhedra and graphs."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Gears on a sphere: mobility, gridlock, closure of the teeth, sizes; with -o x.yaml as a train."""
+    """Analyse gears on a sphere: mobility, gridlock, closure of the teeth, sizes; with -o x.yaml, as a train."""
     from geartrain.report.spherical_report import describe_sphere
     from geartrain.spherical.gear_sphere import GearSphere
 
@@ -89,7 +89,7 @@ def run(
 
 
 def _check_listed(to: Sink, picture: Sink) -> None:
-    """A list is neither a train nor one sphere that could be drawn."""
+    """Reject output options that need one sphere, when a list is requested."""
     if to.suffix in _YAML:
         raise typer.BadParameter("a list of sets is no train to be written", param_hint="-o")
     if picture.path is not None:
@@ -137,7 +137,7 @@ def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:
-    """`5=20,3=12` or one number for all."""
+    """Parse tooth counts by kind, `5=20,3=12`, or one count for all."""
     if text is None:
         return None
     try:
@@ -150,7 +150,7 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """The sphere's radius, given itself or through the pitch radius of one kind of wheel."""
+    """Return the radius of the sphere, given directly or by the pitch radius of one kind of wheel."""
     from geartrain.spherical.gear_sizes import size_gears
     from geartrain.spherical.pitch_cones import sphere_radius
 

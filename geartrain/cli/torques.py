@@ -1,4 +1,4 @@
-"""`geartrain torques`: torques, flow of power, losses, self-locking."""
+"""`geartrain torques`: torques, power flow, losses, self-locking."""
 
 from __future__ import annotations
 
@@ -69,7 +69,8 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
+    """Compute torques on links and pairs under the declared loads, power flow, losses and efficiency, or crank torque.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.report.torque_report import collect_torque_report, describe_torques
 
@@ -106,7 +107,7 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Torque over some turns in the one state that is loaded."""
+    """Compute the torque over some revolutions in the one state with loads."""
     state = _loaded(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
@@ -129,7 +130,11 @@ def _tried(
     out: Path | None,
     options: RunOptions,
 ) -> Any:
-    """The same run in trials of friction; `run` are its samples and the link, `drawn` trials and seed."""
+    """Repeat the run in trials with random friction.
+
+    run     number of samples, and link
+    drawn   number of trials, and random seed
+    """
     wing("workshop.monte_carlo.trial_run").check_trials(drawn[0])
     plan = wing("workshop").find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
     with long_run("torques", plan.question(*drawn), out, options) as given:
@@ -141,7 +146,7 @@ def _tried(
 
 
 def _loaded(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
-    """The one state that was asked for, or that has loads."""
+    """Return the state that was requested, or the only one with loads."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
         names = ", ".join(train.states)
@@ -151,7 +156,7 @@ def _loaded(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
 
 
 def _table(found: TorqueCycle) -> str:
-    """Every position: torque, what starts the train, and what is lost where, over the speed of the input."""
+    """Format torque, starting torque and losses at every position as CSV."""
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
@@ -162,9 +167,9 @@ def _table(found: TorqueCycle) -> str:
 
 
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
-    """The torque over the turns that were asked for.
+    """Draw the torque over the requested revolutions, or the power flow.
 
-    Else the flow under the declared loads; without any, that of a unit of power from the input to the output.
+    The power flow is that under the declared loads, or without loads that of a unit of power from input to output.
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit

@@ -1,6 +1,4 @@
-"""`geartrain view`: one HTML file in which the train turns. `geartrain watch`: report and animated train in a browser,
-written again each time the file is saved.
-"""
+"""`geartrain view`, an animated train in one HTML file, and `geartrain watch`, a live report and animation."""
 
 from __future__ import annotations
 
@@ -77,7 +75,8 @@ def view(
     embed: Embed = False,
     kiosk: Kiosk = False,
 ) -> None:
-    """A page in which the train turns: one file, no server, no network; two trains stand side by side."""
+    """Write an animated train as one HTML file that needs no server and no network; two trains are shown side by side.
+    """
     from geartrain.scene import build_scene
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
@@ -110,7 +109,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 
 
 def _shown(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """How a page shows a train. Raises `QuestionError` for two ways at once, and two trains where one has room."""
+    """Return the layout of a page. Raises `QuestionError` for two layouts, or for two trains in a layout for one."""
     if embed and kiosk:
         raise QuestionError(Problem("--embed and --kiosk at once", "one page is written", "leave one out", "view"))
     if (embed or kiosk) and other is not None:
@@ -120,7 +119,7 @@ def _shown(embed: bool, kiosk: bool, other: str | None) -> Shown:
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raises `QuestionError` for options of a motion in time that is not asked for, or asked of two trains."""
+    """Raise `QuestionError` for options of dynamics without --dynamics, or with two trains."""
     if not dynamics and request != TimeRequest():
         why = "without --dynamics the train turns as its crank does, and nothing is simulated"
         raise QuestionError(Problem("options of motion in time", why, "add --dynamics, or leave them out"))
@@ -130,13 +129,13 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _played(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """The run that is shown, sampled at every step of its coarser run where that is not too much."""
+    """Run the simulation that is shown, sampled at every step of its coarser run if the data are not too large."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """The states that are shown: the one that is named, else all, or the `first` only."""
+    """Return the displayed states: the named one, else all, or only the first."""
     if state is not None:
         return (state,)
     names = train.states or (None,)
@@ -144,7 +143,7 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
 
 
 def _page_sink(path: Path, force: bool) -> Sink:
-    """Where a page goes. Raises `QuestionError` where a browser would not know the file for one."""
+    """Return the destination of a page. Raises `QuestionError` for a suffix that browsers do not open as a page."""
     if path == STANDARD_NAME or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is no suffix of a page" if path.suffix else "its name has no suffix"
@@ -160,10 +159,10 @@ def watch(
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Where it is served; 0 takes a free one.")] = 0,
     open_it: Annotated[bool, typer.Option("--open", help="Show it in the browser.")] = False,
 ) -> None:
-    """Show report and turning train side by side, and again each time the file is saved; Ctrl-C ends it.
+    """Show report and animation side by side in a browser, updated whenever the file is saved; Ctrl-C ends it.
 
-    The page is served on this machine alone, and keeps camera, crank and state. What is wrong with the file stands
-    above what was shown last.
+    The page is served on this machine only, and keeps camera, crank and state. Errors in the file are displayed above the
+    last valid version.
     """
     from geartrain.viewer.live_server import LiveServer
 
@@ -194,7 +193,7 @@ def _pages(path: Path) -> LivePages:
 
 
 def _files(path: Path) -> tuple[Path, ...]:
-    """The file and those that it extends; the file alone while that cannot be read."""
+    """Return the file and those that it extends; only the file if it cannot be read."""
     from geartrain.train.declaration_files import files_of
 
     try:

@@ -1,5 +1,6 @@
-"""`geartrain mesh FORM` for any tooth form: verdict, motion and losses of a pair, and its wheels to cut. `geartrain
-mesh pin`: the transmission function of a pin in a slot or in a follower.
+"""`geartrain mesh FORM`: verdict, motion and losses of a pair, and outlines of its wheels, for any tooth form.
+
+`geartrain mesh pin`: the transmission function of a pin in a slot or in a follower.
 """
 
 from __future__ import annotations
@@ -57,14 +58,16 @@ if TYPE_CHECKING:
 
 
 _CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
-"""Options of conjugate forms: for a ring, for cones, and for the root that their path of contact leaves open."""
+"""Options only of conjugate forms: for rings, for bevel wheels, and for the root, which their path of contact leaves
+open.
+"""
 
 _LEANING = ("helix",)
-"""Options of the form whose teeth may lean."""
+"""Options only of the form whose teeth can be helical."""
 
 
 def command(name: str) -> Callable[..., None]:
-    """The command of a form: the options all have, and its own."""
+    """Create the command of a form from the common options and its own."""
     model = tooth_form(name)
     kind = "Costs, faults and outlines" if model.conjugate else "Motion, losses and outlines"
     words = f"{kind} of a pair with {name.replace('_', '-')} teeth."
@@ -136,7 +139,11 @@ def _run(
 
 
 def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, backlash: str | None) -> ToothForm:
-    """The form; a clearance may be its own and not that of a profile's root, and play what it makes of it."""
+    """Parse the form.
+
+    A clearance can be an option of the form or the clearance at the root of a profile. A form without a field for backlash
+    is thinned.
+    """
     if "clearance" in model.model_fields:
         own = own | {"clearance": clearance}
     if "backlash" in model.model_fields or backlash is None:
@@ -145,7 +152,7 @@ def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, ba
 
 
 def _figure(mesh: GearMesh) -> Figure:
-    """Flanks and costs along the path of contact where there is one, else the motion over a pitch."""
+    """Plot flanks and losses along the path of contact, or the motion over a pitch for forms without a path."""
     from geartrain.drawing import shapes_figure, transmission_figure
 
     if mesh.path is not None:
@@ -163,7 +170,7 @@ def pin(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
+    """Analyse the transmission function of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
     from geartrain.report.pair_page import describe_pin
     from geartrain.teeth.pair_results import pin_figures
     from geartrain.teeth.pin_coupling import pin_transmission

@@ -1,4 +1,4 @@
-"""`geartrain mesh compare`: what several tooth forms cost, beside the 20 degree involute of the same pair and arcs."""
+"""`geartrain mesh compare`: tooth forms compared with the 20 degree involute of the same pair and arcs."""
 
 from __future__ import annotations
 
@@ -47,7 +47,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
+    """Compare loss, stress, heat, flash temperature and depth of tooth forms with the 20 degree involute.
+
+    All forms have the same pair and the same arcs of approach and recess.
+    """
     from geartrain.report.conjugate_pair_page import describe_form_comparison
 
     to, picture = sink(out, force, (".md", ".html", ".json")), picture_sink(plot, force, theme)
@@ -64,7 +67,7 @@ def run(
 
 
 def _arcs(text: str) -> tuple[float, float]:
-    """Approach and recess in pitches; one number for both."""
+    """Parse arcs of approach and recess [pitch]; one number sets both."""
     parts = text.split(",")
     try:
         first, second = float(parts[0]), float(parts[-1])

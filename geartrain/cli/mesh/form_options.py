@@ -38,14 +38,14 @@ Internal = Annotated[bool, typer.Option("--internal", help="The second wheel is 
 
 
 def option_name(field: str) -> str:
-    """`--centre-distance` of `centre_distance`."""
+    """Return the option of a field: `--centre-distance` for `centre_distance`."""
     return f"--{field.replace('_', '-')}"
 
 
 def own_options(model: type[ToothForm]) -> dict[str, tuple[type, str]]:
-    """The options of a form by the names of its fields: of which type, and what the field says of itself.
+    """Return type and help text of the options of a form, by the names of its fields.
 
-    Of forms that keep their design at any distance there is none for the distance; none for how teeth yield in time.
+    Forms that keep their design at any centre distance have no option for it. Fields for the time domain have no option.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: _option(field) for name, field in model.model_fields.items() if name not in hidden}
@@ -58,11 +58,11 @@ def form_command(
     defaults: Mapping[str, str] | None = None,
     without: Collection[str] = (),
 ) -> Callable[..., None]:
-    """The command of a form: the options of `run` with the form's own after the first of them.
+    """Create the command of a form: the options of `run`, with the form's own options after the first.
 
-    run        takes them all by name, and those of the form that it does not name as `own`
-    words      what `--help` says
-    defaults   of the form's own options, where the form itself has none
+    run        function that takes the options by name, and those of the form that it does not name as `own`
+    words      help text
+    defaults   default values of the form's own options, if the form has none
     without    options of `run` that the form does not have
     """
     first, *rest = Signature.from_callable(run, eval_str=True).parameters.values()
@@ -102,7 +102,7 @@ def _option(field: FieldInfo) -> tuple[type, str]:
 
 
 def _words(annotation: Any) -> list[str]:
-    """The words among which one can be chosen."""
+    """Return the words among which the value of a field is chosen."""
     if get_origin(annotation) is Literal:
         return [each for each in get_args(annotation) if isinstance(each, str)]
     return [word for each in get_args(annotation) for word in _words(each)]
@@ -113,9 +113,9 @@ def _is_pair(annotation: Any) -> bool:
 
 
 def read_form(model: type[ToothForm], given: FormOptions, place: str = "") -> ToothForm:
-    """The tooth form with the options given.
+    """Create the tooth form from options.
 
-    Raises `GearTrainError` for options it cannot have, at `place` where none alone is at fault.
+    Raises `GearTrainError` for invalid options, at `place` if no single option is at fault.
     """
     fields = model.model_fields
     (form,) = get_args(fields["form"].annotation)
@@ -126,7 +126,7 @@ def read_form(model: type[ToothForm], given: FormOptions, place: str = "") -> To
 
 
 def as_options(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
-    """The error with its places, which are names of parameters, as options; `place` and `fix` where it names none."""
+    """Convert the parameter names in an error to options; `place` and `fix` are used where it has none."""
     return GearTrainError(
         replace(each, place=option_name(each.place) if each.place else place, fix=each.fix or fix)
         for each in error.problems
@@ -134,7 +134,7 @@ def as_options(error: GearTrainError, place: str, fix: str = "") -> GearTrainErr
 
 
 def _value(field: FieldInfo, given: str | bool) -> Any:
-    """What an option says, as a declaration would: a list where there is a comma, a number where one can be chosen."""
+    """Convert the value of an option as in a declaration: a list if it has a comma, an integer if one can be chosen."""
     if isinstance(given, bool):
         return given
     if given.isdigit() and int(given) in get_args(field.annotation):
@@ -143,7 +143,7 @@ def _value(field: FieldInfo, given: str | bool) -> Any:
 
 
 def read_shaft_angle(internal: bool, bevel: str | None) -> float | None:
-    """The angle (rad) under which axes meet; None where they are parallel. Raises `GearTrainError`."""
+    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
     if internal and bevel is not None:
         why = "a ring's axis is parallel to its pinion's"
         raise GearTrainError(Problem("a ring is no bevel wheel", why, "give --internal or --bevel", "--bevel"))
@@ -151,7 +151,7 @@ def read_shaft_angle(internal: bool, bevel: str | None) -> float | None:
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """The helix angle of a pair on parallel axes (rad); 0 of straight teeth. Raises `GearTrainError`."""
+    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels. Raises `GearTrainError`."""
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "teeth that lean are known of wheels on parallel axes"
@@ -163,7 +163,10 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
 
 
 def read_module(module: str | None, backlash: str | None = None) -> float | None:
-    """The module (m), None if not given. Raises `GearTrainError`, too where a backlash with a unit would need one."""
+    """Parse the module [m]; None if not given.
+
+    Raises `GearTrainError`, also if a backlash with a unit is given without a module.
+    """
     size = None if module is None else quantity("--module", module, "length")
     if size is not None and size <= 0:
         raise GearTrainError(Problem(f"a module of {module} is no size", "", "give a module above 0", "--module"))
@@ -182,7 +185,7 @@ def _check_plain(backlash: str) -> None:
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, bevel: str | None) -> WheelPair:
-    """Two wheels without a size, that conjugate teeth can be made for. Raises `GearTrainError`."""
+    """Create two wheels without a size for conjugate teeth. Raises `GearTrainError`."""
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, bevel))
@@ -194,9 +197,9 @@ def read_wheels(teeth: tuple[int, int], internal: bool, bevel: str | None) -> Wh
 
 
 def pair_in_mesh(form: ToothForm, wheels: MeshingWheels, shaft_angle: float | None, driver: int) -> GearMesh:
-    """Two wheels in mesh, of which the first or the second drives.
+    """Create the mesh of two wheels, driven by the first or the second.
 
-    Raises `GearTrainError` where the form gives no such pair.
+    Raises `GearTrainError` if the form cannot mesh in this pair.
     """
     from geartrain.teeth.meshing_wheels import MeshDriver
 
@@ -213,7 +216,7 @@ def two_wheels(
     shaft_angle: float | None = None,
     helix: float = 0.0,
 ) -> MeshingWheels:
-    """The wheels of a pair without a train; `module`, the normal one, in m, `helix` of the first wheel in rad."""
+    """Create the wheels of a pair without a train; normal module in m, helix angle of the first wheel in rad."""
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
 
@@ -234,11 +237,11 @@ WheelNumber = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --
 Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")]
 Tolerance = Annotated[str, typer.Option("--tolerance", help="With --profile: how far chords may leave a flank.")]
 FINE = "0.001mm"
-"""The tolerance where none is given."""
+"""Default chord tolerance of outlines."""
 
 
 def profile_sink(profile: Path | None, force: bool) -> Sink:
-    """Where an outline goes; what cannot be written is refused before the work. Raises `GearTrainError`."""
+    """Return the destination of an outline, after checking that it can be written. Raises `GearTrainError`."""
     from geartrain.drawing.flat_files import OUTLINES
 
     to = sink(profile, force, option="--profile")
@@ -249,7 +252,10 @@ def profile_sink(profile: Path | None, force: bool) -> Sink:
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], to: Sink) -> list[WheelOutline]:
-    """The outline of a wheel, written; none where no file is named. `blank` has its sizes as options give them."""
+    """Write the outline of a wheel and return it; empty if no file is named.
+
+    `blank` contains the sizes of the wheel as given by options.
+    """
     if to.path is None:
         return []
     from geartrain.drawing import outline_text
@@ -260,7 +266,7 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], t
 
 
 def _blank_sizes(module: float | None, sizes: Mapping[str, str | None]) -> BlankSizes:
-    """Sizes in mm, the module in m."""
+    """Parse the sizes of a wheel [mm]; `module` is in m."""
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
@@ -286,21 +292,23 @@ Rate = Annotated[str | None, typer.Option("--rate", help="Speed of the driver, s
 
 @dataclass(frozen=True)
 class PairFrictionOption:
-    """What `--friction` says."""
+    """Value of `--friction`: a coefficient, or a friction law."""
 
     coefficient: float
-    """0 where a law is given."""
+    """Coefficient of friction; 0 if a law is given."""
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """The coefficient. Raises `GearTrainError` where a law is given to an option that asks for a number."""
+        """Return the coefficient. Raises `GearTrainError` if a friction law is given with an option that needs a
+        number.
+        """
         if self.law is not None:
             what = f"{option} asks for friction as a number"
             raise GearTrainError(Problem(what, "a law of speed was given", "give a coefficient", "--friction"))
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """The mesh with that friction, at the speed of its driver. Raises `GearTrainError` where none is known."""
+        """Return the mesh with this friction at the speed of its driver. Raises `GearTrainError` if that is unknown."""
         if self.law is None:
             return mesh
         radius = mesh.pitch_radius
@@ -318,7 +326,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """A coefficient, or the law that a text names. Raises `GearTrainError`."""
+    """Parse a coefficient of friction or the friction law that a text names. Raises `GearTrainError`."""
     name = text.split(",")[0].strip()
     if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
         return PairFrictionOption(read_coefficient(text))

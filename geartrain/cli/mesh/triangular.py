@@ -1,6 +1,6 @@
-"""`geartrain mesh triangular`: contact, law, collisions and losses of a pair with triangular teeth.
+"""`geartrain mesh triangular`: contact, transmission function, impacts and losses of a pair with triangular teeth.
 
-With `--vary`, a table over one parameter or two.
+With `--vary`, the result is a table over one or two parameters.
 """
 
 from __future__ import annotations
@@ -66,21 +66,21 @@ VARIED = (
     "z1",
     "z2",
 )
-"""What can be varied: what the form declares by one number, and what a pair has besides."""
+"""Parameters that can be varied: numbers of the form's declaration, friction and tooth counts."""
 _KEPT = ("half_angle", "radii")
-"""Of the form, what stays as it is where a clearance is varied."""
+"""Options of the form that keep their values when a clearance is varied."""
 _PAIR = ("friction", "z1", "z2")
 
 
 @dataclass(frozen=True)
 class TriangularOptions:
-    """A pair as options describe it; any of them can be varied."""
+    """A pair as described by options, any of which can be varied."""
 
     teeth: tuple[int, int]
     own: FormOptions
-    """Of the form, by the names of its fields."""
+    """Options of the form, by the names of its fields."""
     module: float | None
-    """M; None where it is not given."""
+    """Module [m]; None if not given."""
     friction: str
     driver: int
     backwards: bool
@@ -88,7 +88,7 @@ class TriangularOptions:
     internal: bool = False
 
     def mesh(self, **varied: str) -> TriangularMesh:
-        """The pair in mesh, with some options replaced by what is varied."""
+        """Create the pair in mesh, with some options replaced by varied values."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
@@ -106,13 +106,13 @@ class TriangularOptions:
         return replace(mesh, transmission=mesh.transmission.reversed_motion()) if self.backwards else mesh
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
-        """The tooth form with some options replaced; one clearance that is varied replaces whatever is given."""
+        """Create the tooth form with some options replaced; a varied clearance replaces all given clearances."""
         fixed = _KEPT if set(varied) - {*_KEPT} else tuple(self.own)
         return read_form(Triangular, {name: self.own[name] for name in fixed} | dict(varied), "--radii")
 
 
 def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """The table of a sweep, as text and as a picture."""
+    """Run a parameter sweep and write it as a table and as a picture."""
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
 
@@ -145,7 +145,7 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """The values of each varied parameter, and the unit they were given in."""
+    """Parse the values of each varied parameter, and the unit in which they were given."""
     if len(vary) > 2:
         raise typer.BadParameter("vary one parameter or two", param_hint="--vary")
     ranges: dict[str, list[float]] = {}
@@ -167,7 +167,7 @@ def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
 
 
 def _number(text: str) -> tuple[float, str]:
-    """A number and the unit behind it."""
+    """Parse a number and the unit that follows it."""
     import math
     import re
 
@@ -182,7 +182,7 @@ def _number(text: str) -> tuple[float, str]:
 
 
 def _plain(row: tuple[object, ...]) -> list[object]:
-    """NaN becomes nothing."""
+    """Replace NaN by None in a row."""
     return [None if value != value else value for value in row]
 
 

@@ -69,12 +69,12 @@ class VerbGroup(EndingGroup, LazyGroup):
 app = typer.Typer(
     name="geartrain",
     cls=VerbGroup,
-    help="What does this gear train do? Exact speeds, named diagnoses and sources for any declared train.",
+    help="Exact gear-train kinematics from a YAML file: speeds, diagnosis, losses, drawings.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Exit codes: 0 determined, every expectation holds; 1 a verdict or a failed expectation; 2 unusable input; "
-    "3 a fault of geartrain itself; 130 interrupted; 141 nobody reads the output any more.",
+    epilog="Exit codes: 0 determined and as expected; 1 not determined, or an expectation failed; 2 invalid input; "
+    "3 internal error; 130 interrupted; 141 output pipe closed by its reader.",
 )
 
 
@@ -97,11 +97,11 @@ def _root(
 
 def _start_lightly() -> None:
     """Reduce the start time of short commands by less garbage collection and no search for plugins."""
-    # modules and models are a hundred thousand objects that stay until the end: to look through them at every 700 new
-    # ones costs a tenth of a short command, and to look through all of them before the process goes, a quarter
+    # modules and models are about 100,000 long-lived objects: a collection after every 700 new ones takes a tenth of
+    # the time of a short command, and the final collection at exit takes a quarter
     gc.set_threshold(100_000, 20, 20)
     atexit.register(gc.freeze)
-    # pydantic would read the entry points of every package installed
+    # pydantic would otherwise read the entry points of every installed package
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 

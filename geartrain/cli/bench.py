@@ -13,7 +13,10 @@ def run(
     file: File,
     state: StateName = None,
     positions: Annotated[
-        int, typer.Option("--positions", min=2, max=1_000_000, help="Angles of each pair, and positions of the input.")
+        int,
+        typer.Option(
+            "--positions", min=2, max=1_000_000, help="Number of angles of each pair, and of input positions."
+        ),
     ] = 10_000,
     json: Json = False,
     out: Out = None,

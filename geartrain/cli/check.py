@@ -12,7 +12,7 @@ from geartrain.errors import GearTrainError
 
 def run(
     files: Files,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing of trains that are sound.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing for trains that pass.")] = False,
 ) -> None:
     """Validate trains and verify every `expect`, `published` and `tolerance`; the exit code is the worst result."""
     worst = GOOD

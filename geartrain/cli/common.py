@@ -27,19 +27,21 @@ File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a 
 Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
 Out = Annotated[
     Path | None,
-    typer.Option("--output-file", "-o", help="Write to this file, or as into a file to standard output: -."),
+    typer.Option("--output-file", "-o", metavar="FILE", help="Write to FILE (- = standard output)."),
 ]
-Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
-Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite existing files.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Fast = Annotated[
     bool | None,
-    typer.Option("--fast/--no-fast", help="Compile inner loops with numba, or do not; by default in long runs."),
+    typer.Option("--fast/--no-fast", help="Compile inner loops with numba; default: only in long runs."),
 ]
-StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
-FirstState = Annotated[str | None, typer.Option("--state", help="The state; default the first.")]
+StateName = Annotated[str | None, typer.Option("--state", help="State to analyse; default all states.")]
+FirstState = Annotated[str | None, typer.Option("--state", help="State to analyse; default the first.")]
 Names = list[str] | None
-Without = Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")]
-Seed = Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is drawn.")]
+Without = Annotated[
+    Names, typer.Option("--without", help="Omit a gear pair, to open a closed loop of real teeth; may be repeated.")
+]
+Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:
@@ -130,8 +132,8 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
     """
     if out is None or out == STANDARD_NAME:
         if out is not None and option != "-o":
-            why = "standard output is for the answer"
-            raise GearTrainError(Problem(f"{option} - is not written", why, "name a file", option))
+            why = "standard output receives the result"
+            raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
         return Sink(plain=out is not None)
     from geartrain.numerics.files import destination
 
@@ -158,8 +160,8 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 
         real = destination(each.path, each.force)
         if real in taken:
-            why = "the second would take the place of the first"
-            raise GearTrainError(Problem("two results go into one file", why, "name two files", str(each.path)))
+            why = "the second would overwrite the first"
+            raise GearTrainError(Problem("two results have the same file", why, "give two files", str(each.path)))
         taken.add(real)
 
 
@@ -209,7 +211,9 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
     """Return the suffix of an output file, "" without one; reject suffixes that are not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
-        raise typer.BadParameter(f"'{suffix}' is no form of output here; use {', '.join(allowed)}", param_hint=option)
+        raise typer.BadParameter(
+            f"'{suffix}' is not an output format of this command; use {', '.join(allowed)}", param_hint=option
+        )
     return suffix
 
 

@@ -19,7 +19,8 @@ TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 def write_template(
     kind: Annotated[
-        str, typer.Argument(help="planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND")
+        str,
+        typer.Argument(help="Template: planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND"),
     ],
     out: Out = None,
     force: Force = False,
@@ -35,10 +36,10 @@ def write_template(
 
 
 def write_style(
-    files: Annotated[list[str], typer.Argument(help="YAML declarations, which are rewritten.", metavar="FILE")],
-    long: Annotated[bool, typer.Option("--long", help="Write long forms.")] = False,
+    files: Annotated[list[str], typer.Argument(help="YAML declarations to rewrite.", metavar="FILE")],
+    long: Annotated[bool, typer.Option("--long", help="Write all entries in long form.")] = False,
     check: Annotated[
-        bool, typer.Option("--check", help="Write nothing; exit with 1 if something would change.")
+        bool, typer.Option("--check", help="Write nothing; exit with code 1 if a file would change.")
     ] = False,
     out: Out = None,
     force: Force = False,
@@ -49,7 +50,7 @@ def write_style(
     changed.
     """
     if out is not None and (len(files) > 1 or check):
-        raise typer.BadParameter("-o is for one file, which is then left as it is", param_hint="-o")
+        raise typer.BadParameter("-o needs exactly one FILE, and excludes --check", param_hint="-o")
     to = None if out is None else sink(out, force)
     worst = GOOD
     for file in files:
@@ -80,9 +81,7 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
 
 
 def list_trains(
-    evidence: Annotated[
-        bool, typer.Option("--evidence", help="The evidence of trains to be found, for `reconstruct`.")
-    ] = False,
+    evidence: Annotated[bool, typer.Option("--evidence", help="List the shipped evidence for `reconstruct`.")] = False,
 ) -> None:
     """List the shipped trains with their titles."""
     from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
@@ -93,7 +92,7 @@ def list_trains(
 
 
 def list_periods(
-    word: Annotated[str, typer.Argument(help="Show only names that contain this.", metavar="[WORD]")] = "",
+    word: Annotated[str, typer.Argument(help="List only names that contain this word.", metavar="[WORD]")] = "",
 ) -> None:
     """List the shipped table of astronomical periods, speeds and counts."""
     from geartrain.errors import Problem, QuestionError
@@ -103,7 +102,9 @@ def list_periods(
     rows = [row for row in period_table().values() if word in row.name]
     if not rows:
         raise QuestionError(
-            Problem(f"no name contains '{word}'", "the shipped table has no such row", suggested_period(word))
+            Problem(
+                f"no name contains '{word}'", "only the names in the shipped table are searched", suggested_period(word)
+            )
         )
     width = max(len(row.name) for row in rows)
     emit("\n".join(f"{row.name:<{width}}  {float(row.value):.12g} {units[row.kind]}  ({row.source})" for row in rows))
@@ -112,29 +113,29 @@ def list_periods(
 def print_schema(
     question: Annotated[
         list[str] | None,
-        typer.Argument(help="A command, such as motion or mesh pin: the keys of its --json.", metavar="COMMAND"),
+        typer.Argument(help="Command whose JSON keys are printed, such as motion or mesh pin.", metavar="COMMAND"),
     ] = None,
     form: Annotated[
-        str, typer.Option("--as", help="json for editors, markdown for readers, answers: of --json.")
+        str, typer.Option("--as", help="Format: json, markdown, or answers (the schema of --json).")
     ] = "json",
     out: Out = None,
     force: Force = False,
 ) -> None:
     """Print the JSON Schema of declarations, with which editors with a YAML plugin complete and validate them.
 
-    With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print the
-    keys of its JSON as a table.
+    With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print
+    the keys of its JSON as a table.
     """
     from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
     from geartrain.report.text import to_markdown, to_text
 
     if form not in ("json", "markdown", "answers"):
-        what = f"'{form}' is not a form of schema; use json or markdown, or answers"
+        what = f"'{form}' is not a schema format; use json, markdown or answers"
         raise typer.BadParameter(what, param_hint="--as")
     to = sink(out, force)
     if question:
         keys = [describe_answer(" ".join(question))]
-        emit(to_markdown(keys) if form == "markdown" else to_text(keys, 120), to)  # keys are long
+        emit(to_markdown(keys) if form == "markdown" else to_text(keys, 120), to)  # columns, because keys are long
     elif form == "markdown":
         emit(declaration_reference(), to)
     else:

@@ -12,18 +12,22 @@ from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, give, si
 def run(
     file: File,
     output: Annotated[
-        str | None, typer.Option("--output", help="The output, by default the first that is not the input.")
+        str | None, typer.Option("--output", help="Output link; default the first output that is not the input.")
     ] = None,
     search: Annotated[
-        bool, typer.Option("--search", help="Try every way to close as many elements as are needed.")
+        bool, typer.Option("--search", help="Try every combination of clutches and brakes that determines the speeds.")
     ] = False,
-    gears: Annotated[int, typer.Option("--gears", min=0, help="With --search: series of so many forward gears.")] = 0,
-    steps: Annotated[tuple[float, float], typer.Option("--steps", help="Least and greatest step of such a series.")] = (
+    gears: Annotated[
+        int, typer.Option("--gears", min=0, help="Search for series with this number of forward gears.")
+    ] = 0,
+    steps: Annotated[
+        tuple[float, float], typer.Option("--steps", help="Minimum and maximum ratio step of a series.")
+    ] = (
         1.05,
         2.0,
     ),
     single: Annotated[
-        bool, typer.Option("--single", help="Only shifts in which one element opens and one closes.")
+        bool, typer.Option("--single", help="Allow only shifts in which one element opens and one closes.")
     ] = False,
     json: Json = False,
     out: Out = None,

@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.work import Execution, Journal
     from geartrain.scene.scene_run import TimeRun
 
-Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Number of processes; default all cores.")]
+Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Number of processes; default one per core.")]
 Dask = Annotated[str | None, typer.Option("--dask", help="Address of a dask scheduler whose workers do the work.")]
-Resume = Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Resume an interrupted run.")]
 
-COMPILING = "compiling kernels for this machine, once: some ten seconds, up to half a minute"
+COMPILING = "compiling kernels for this machine: 10 to 30 s, only once"
 
 
 class ProgressBar:
@@ -103,9 +103,9 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
         if journal is not None:
             journal.finish()
     elif journal is not None and len(journal):
-        tell(f"stopped; what is done is in {journal.path}: give the same command with --resume")
+        tell(f"stopped; finished work is in {journal.path}: repeat the command with --resume to continue")
     else:
-        tell("stopped before anything was done that could be kept")
+        tell("stopped before any work was finished")
 
 
 @contextmanager
@@ -137,12 +137,12 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
         return
     if resume and not path.exists():
         _check_others(path, question)
-        tell(f"nothing to resume: there is no {path}; the run begins anew")
+        tell(f"nothing to resume: {path} does not exist; starting a new run")
     with Journal(path, question, resume=resume) as journal:
         try:
             yield journal
         finally:
-            if not journal.closed and not len(journal):  # nothing worth keeping
+            if not journal.closed and not len(journal):  # an empty journal is not kept
                 journal.finish()
 
 
@@ -161,24 +161,30 @@ def _check_others(path: Path, question: Mapping[str, Any]) -> None:
 
 TURNS, SKIP = "10", "1"
 Rate = Annotated[
-    str | None, typer.Option("--rate", help="Turns a second of the input, or such as '30 rpm'; default the drive.")
+    str | None,
+    typer.Option("--rate", help="Input speed in turns per second, or such as '30 rpm'; default the declared drive."),
 ]
-Turns = Annotated[str | None, typer.Option("--turns", help=f"Turns of the input that are counted; default {TURNS}.")]
-Skip = Annotated[str | None, typer.Option("--skip", help=f"Turns before, which are not counted; default {SKIP}.")]
+Turns = Annotated[str | None, typer.Option("--turns", help=f"Revolutions of the input to evaluate; default {TURNS}.")]
+Skip = Annotated[str | None, typer.Option("--skip", help=f"Revolutions to simulate before evaluation; default {SKIP}.")]
 Steps = Annotated[
     int | None,
-    typer.Option("--steps", min=1, max=MOST_COUNT, help="Steps in a turn of the input; default by its teeth."),
+    typer.Option(
+        "--steps", min=1, max=MOST_COUNT, help="Time steps per revolution of the input; default by its tooth counts."
+    ),
 ]
 Restitution = Annotated[
-    str | None, typer.Option("--restitution", help="Of all impacts, 0 to 1; default as declared, or 0.")
+    str | None,
+    typer.Option(
+        "--restitution", help="Coefficient of restitution of every impact, 0 to 1; default as declared, or 0."
+    ),
 ]
 ToothModel = Annotated[
     Literal["rigid", "compliant"] | None,
-    typer.Option("--model", help="Teeth that are rigid, the default, or yield by their stiffness."),
+    typer.Option("--model", help="Tooth model: rigid (default), or compliant by tooth stiffness."),
 ]
 
 _MOST_TURNS = 1e9
-_WHOLE = 1_000_000  # of a bar
+_WHOLE = 1_000_000  # length of a progress bar
 
 
 @dataclass(frozen=True)

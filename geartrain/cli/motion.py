@@ -39,27 +39,34 @@ if TYPE_CHECKING:
 
 def run(
     file: File,
-    turns: Annotated[str, typer.Option("--turns", help="Turns of the input, or 'period'; negative: back.")] = "20",
-    samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 200_000,
-    output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
-    links: Annotated[bool, typer.Option("--links", help="Every link, not only the outputs.")] = False,
-    wide: Annotated[bool, typer.Option("--wide", help="What each pair gives to every output.")] = False,
+    turns: Annotated[
+        str, typer.Option("--turns", help="Revolutions of the input, or 'period'; negative to turn backwards.")
+    ] = "20",
+    samples: Annotated[
+        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions.")
+    ] = 200_000,
+    output: Annotated[Names, typer.Option("--output", help="Output or link to report; may be repeated.")] = None,
+    links: Annotated[bool, typer.Option("--links", help="Report every link, not only the outputs.")] = False,
+    wide: Annotated[bool, typer.Option("--wide", help="Report the contribution of each pair to every output.")] = False,
     state: StateName = None,
     without: Without = None,
     phases: Annotated[
-        int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Runs with random phases of the teeth.")
+        int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of runs with random tooth phases.")
     ] = 0,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random phases.")] = 1,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed.")] = 1,
     tolerance: Annotated[
-        float | None, typer.Option("--tabulated", help="Read laws from tables of this accuracy (pitches).")
+        float | None,
+        typer.Option("--tabulated", help="Interpolate transmission functions in tables of this accuracy (pitches)."),
     ] = None,
-    estimates: Annotated[bool, typer.Option("--estimates", help="Cheap estimates, and how far off they are.")] = False,
-    spectrum: Annotated[bool, typer.Option("--spectrum", help="Lines by exact order, and whose they are.")] = False,
+    estimates: Annotated[bool, typer.Option("--estimates", help="Add fast estimates and their errors.")] = False,
+    spectrum: Annotated[
+        bool, typer.Option("--spectrum", help="Add spectral lines by exact order, with their sources.")
+    ] = False,
     fast: Fast = None,
     json: Json = False,
     csv: Annotated[bool, typer.Option("--csv", help="Print every position as CSV.")] = False,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw errors and speeds to this file.")] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted -o x.csv.")] = False,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Plot errors and speeds to this file.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
@@ -73,9 +80,9 @@ def run(
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
     if csv and to.path is not None:
-        raise typer.BadParameter("positions are printed, or written: give --csv, or -o x.csv", param_hint="--csv")
+        raise typer.BadParameter("positions are either printed or written: give --csv or -o x.csv", param_hint="--csv")
     if resume and to.suffix != ".csv":
-        raise typer.BadParameter("a table is what can be gone on with: give -o x.csv too", param_hint="--resume")
+        raise typer.BadParameter("only a CSV file can be resumed: give -o x.csv too", param_hint="--resume")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance, fast)
@@ -94,14 +101,17 @@ def run(
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            draw(motion_figure(requested, bar.advance, f"{train.name}: what real teeth do to outputs"), picture)
+            draw(
+                motion_figure(requested, bar.advance, f"{train.name}: transmission errors and speeds of outputs"),
+                picture,
+            )
 
 
 def _turns(text: str, motion: Motion) -> float:
     if text != "period":
         return float(read_turns("--turns", text))
     if motion.period is None:
-        raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
+        raise typer.BadParameter("no speed ripples, so a common period does not exist", param_hint="--turns")
     return float(motion.period)
 
 
@@ -147,7 +157,7 @@ def _report(
     found = collect_motion(requested, name, state, None if stopped else separation())
     give(to, json, lambda: found, lambda: [describe_motion(found, every_output)])
     if stopped:
-        tell(f"stopped after {requested.done} of {requested.samples} positions; the figures are of those")
+        tell(f"stopped after {requested.done} of {requested.samples} positions; the results are for these positions")
         raise typer.Exit(INTERRUPTED)
 
 
@@ -157,7 +167,7 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
     try:
         with LongTable(out, csv_line(requested._position_columns), resume, force) as table:
             if resume and not table.rows:
-                tell(f"nothing to resume: there is no {table.partial}; the run begins anew")
+                tell(f"nothing to resume: {table.partial} does not exist; starting a new run")
             if table.rows:
                 requested._check_resumed(table.last(), table.rows)
             first = table.rows
@@ -167,7 +177,7 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
                     bar.advance(len(rows))
     except KeyboardInterrupt:
         tell(f"stopped after {table.rows} of {requested.samples} positions: {table.partial}")
-        tell("give the same command with --resume to go on")
+        tell("repeat the command with --resume to continue")
         raise typer.Exit(INTERRUPTED) from None
     tell(f"wrote {out}")
 

@@ -16,7 +16,9 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.scene.palette import ThemeName
 
-Theme = Annotated[ThemeName, typer.Option("--theme", help="Colours of pictures: light, dark, or print without colour.")]
+Theme = Annotated[
+    ThemeName, typer.Option("--theme", help="Colours of pictures: light, dark, or print (black and white).")
+]
 
 
 Minimum = Literal["0", "above 0"] | None
@@ -41,7 +43,7 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
         raise value_error(error, place) from None
     if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give one between {1 / _MOST:g} and {_MOST:g} in SI units"
-        raise GearTrainError(Problem(f"{text} is beyond all measure", "its square is lost in rounding", fix, place))
+        raise GearTrainError(Problem(f"{text} is out of range", "its square would overflow or underflow", fix, place))
     if found.value < 0 and minimum is not None:
         raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
     if found.value == 0 and minimum == "above 0":
@@ -54,7 +56,9 @@ def friction(text: str) -> float:
     found = quantity("--friction", text, "fraction", plain=True)
     if found < 0:
         raise GearTrainError(
-            Problem(f"a friction of {text} would push", "", "a coefficient of friction is 0 or more", "--friction")
+            Problem(
+                f"the coefficient of friction {text} is negative", "", "give a coefficient of 0 or more", "--friction"
+            )
         )
     return found
 
@@ -83,7 +87,9 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
         bounds = (
             f" from {low:g} to {high:g}" if inf not in (-low, high) else f" of {low:g} or more" if low > -inf else ""
         )
-        raise GearTrainError(Problem(f"'{text}' is no {what}", "", f"give one{bounds}, such as {such_as}", place))
+        raise GearTrainError(
+            Problem(f"'{text}' is not a valid {what}", "", f"give one{bounds}, such as {such_as}", place)
+        )
     return found
 
 
@@ -91,7 +97,9 @@ def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, hi
     """Parse a plain number within a range, large enough that its square does not underflow. Raises `GearTrainError`."""
     found = float(exact(place, text, what, such_as, low, high))
     if found and abs(found) < 1 / _MOST:
-        raise GearTrainError(Problem(f"'{text}' is no {what}", "it is lost in rounding", f"give {such_as}", place))
+        raise GearTrainError(
+            Problem(f"'{text}' is not a valid {what}", "its square would underflow", f"give {such_as}", place)
+        )
     return found
 
 
@@ -106,7 +114,9 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: in
     """Parse an integer within a range. Raises `GearTrainError`."""
     found = exact(place, text, what, such_as, low, high)
     if found.denominator != 1:
-        raise GearTrainError(Problem(f"'{text}' is no {what}", "it is not whole", f"give one such as {such_as}", place))
+        raise GearTrainError(
+            Problem(f"'{text}' is not a valid {what}", "it is not an integer", f"give one such as {such_as}", place)
+        )
     return int(found)
 
 

@@ -37,9 +37,9 @@ def report(
         typer.Option("--section", help="Print only sections whose title contains this word; repeatable."),
     ] = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="Print all sections, also formulas, circuits, sources.")
+        bool, typer.Option("--all", help="Print all sections, including formulas, circuits and sources.")
     ] = False,
-    view: Annotated[bool, typer.Option("--view", help="Include the turning train in the page.")] = False,
+    view: Annotated[bool, typer.Option("--view", help="Include the animated train in the page.")] = False,
     force: Force = False,
 ) -> None:
     """Report on trains as text on the terminal (80 columns in a pipe), or as .md, .html or .json by the suffix of -o.
@@ -52,7 +52,7 @@ def report(
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":
-        raise typer.BadParameter("a train turns in a page only: give -o x.html too", param_hint="--view")
+        raise typer.BadParameter("the animation needs an HTML page: give -o x.html too", param_hint="--view")
     trains = load_all(files)
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))
     if json or to.suffix == ".json":
@@ -108,7 +108,7 @@ def compare(
     out: Out = None,
     json: Json = False,
     everything: Annotated[
-        bool, typer.Option("--all", help="All outputs, not only those with a dial or target.")
+        bool, typer.Option("--all", help="Compare all outputs, not only those with a dial or target.")
     ] = False,
     force: Force = False,
 ) -> None:

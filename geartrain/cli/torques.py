@@ -45,17 +45,18 @@ def run(
     json: Json = False,
     turns: Annotated[
         str | None,
-        typer.Option("--turns", help="Torque over so many turns of the input, or over the 'period' of the train."),
+        typer.Option("--turns", help="Compute torque over this many revolutions of the input, or over the 'period'."),
     ] = None,
     samples: Annotated[
-        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input, beside corners and jumps.")
+        int,
+        typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions, besides kinks and jumps."),
     ] = 20_000,
     input_: Annotated[
-        str | None, typer.Option("--input", help="Link whose torque is asked over the turns; default the crank.")
+        str | None, typer.Option("--input", help="With --turns: link whose torque is computed; default the crank.")
     ] = None,
     csv: Annotated[bool, typer.Option("--csv", help="Print the torque at every position as CSV.")] = False,
     trials: Annotated[
-        int | None, typer.Option("--trials", help="So many runs with friction drawn from its declared deviation.")
+        int | None, typer.Option("--trials", help="Number of runs with random friction by its declared deviation.")
     ] = None,
     seed: Seed = 1,
     workers: Workers = None,
@@ -63,14 +64,13 @@ def run(
     resume: Resume = False,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
+        typer.Option("--plot", help="Draw the power flow of one state, or with --turns its torque, to this file."),
     ] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute torques on links and pairs under the declared loads, power flow, losses and efficiency, or crank torque.
-    """
+    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque."""
     from geartrain.analysis.gear_train import load
     from geartrain.report.torque_report import collect_torque_report, describe_torques
 
@@ -80,9 +80,9 @@ def run(
     tabled = csv or to.suffix == ".csv"
     if turns is None and (tabled or input_ is not None or trials is not None):
         which = "--csv" if tabled else "--input" if input_ is not None else "--trials"
-        raise typer.BadParameter("it is about the torque over some turns: give --turns too", param_hint=which)
+        raise typer.BadParameter("this option needs --turns: give --turns too", param_hint=which)
     if resume and trials is None:
-        raise typer.BadParameter("it goes on with trials of friction: give --trials too", param_hint="--resume")
+        raise typer.BadParameter("only friction trials can be resumed: give --trials too", param_hint="--resume")
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
@@ -114,7 +114,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
-            raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
+            raise typer.BadParameter("no torque ripples, so a common period does not exist", param_hint="--turns")
         span = float(period)
     else:
         span = float(read_turns("--turns", turns))
@@ -141,7 +141,7 @@ def _tried(
         found = wing("workshop").try_frictions(plan, *drawn, given)
         close_journal(given.journal, cut=not found.complete)
     if not found.complete:
-        tell(f"stopped after {found.done} of {found.wanted} trials; the figures are of those")
+        tell(f"stopped after {found.done} of {found.wanted} trials; the results are for these trials")
     return found
 
 
@@ -150,8 +150,8 @@ def _loaded(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
         names = ", ".join(train.states)
-        done = {"--plot": "drawn", "--turns": "followed"}[option]
-        raise typer.BadParameter(f"one state is {done}: name it with --state, of {names}", param_hint=option)
+        done = {"--plot": "drawn", "--turns": "simulated"}[option]
+        raise typer.BadParameter(f"only one state can be {done}: give --state with one of {names}", param_hint=option)
     return loaded[0]
 
 
@@ -160,7 +160,7 @@ def _table(found: TorqueCycle) -> str:
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
-        raise GearTrainError(Problem("there is no torque over a turn to write", found.verdict.text, "declare loads"))
+        raise GearTrainError(Problem("the torque cannot be written", found.verdict.text, "declare loads"))
     columns = [found.turns, found.torque, found.standing, *found.losses.values]
     header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]
     return csv_text(header, zip(*(column.tolist() for column in columns), strict=True)).rstrip("\n")

@@ -34,14 +34,14 @@ Command = Any
 class Verbs(Mapping[str, Command]):
     """Commands of a group by name, each created when it is requested.
 
-    A command is a function (`module:function`), or a module with a function `run` and optional `context_settings`. A group
-    is a module with a `typer.Typer` named `app`.
+    A command is a function (`module:function`), or a module with a function `run` and optional `context_settings`. A
+    group is a module with a `typer.Typer` named `app`.
 
     Parameters
     ----------
     modules
-        Name of each command -> its function or module, in the order in which `--help` lists them. Commands of an optional
-        part that is not installed are omitted.
+        Name of each command -> its function or module, in the order in which `--help` lists them. Commands of an
+        optional part that is not installed are omitted.
     make
         Name -> function, for commands that are not modules.
     entry_points
@@ -160,7 +160,7 @@ def _ends() -> Iterator[None]:
         tell("stopped")
         raise typer.Exit(INTERRUPTED) from None
     except Exception as error:
-        if hasattr(error, "format_message"):  # wrong usage, in the words of typer and the user's
+        if hasattr(error, "format_message"):  # usage error: the text may quote control characters of the user
             error.message = printable(str(error.message))  # type: ignore[attr-defined]
         raise
 
@@ -180,7 +180,12 @@ def guarded(run: Callable[[], Any]) -> int:
         return READER_GONE
     except Exception as error:
         if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
-            what = Problem("the result cannot be written", str(error), "make room there", "standard output")
+            what = Problem(
+                "the result cannot be written",
+                str(error),
+                "free disk space, or write to another disk",
+                "standard output",
+            )
             complain(GearTrainError(what))
             _mute()
             return NOT_USABLE
@@ -192,8 +197,8 @@ def guarded(run: Callable[[], Any]) -> int:
 def _interrupted() -> int:
     """Return the exit code of Ctrl-C, after clearing CPython's record of the interrupt.
 
-    CPython records an interrupt during the evaluation of a string, as in dataclasses and numba, even if it is caught, and
-    `python -m` is then killed by the signal at exit. The next evaluation of a string clears the record.
+    CPython records an interrupt during the evaluation of a string, as in dataclasses and numba, even if it is caught,
+    and `python -m` is then killed by the signal at exit. The next evaluation of a string clears the record.
     """
     eval("0")
     return INTERRUPTED
@@ -203,14 +208,14 @@ def _code(run: Callable[[], Any]) -> int:
     try:
         run()
     except SystemExit as ended:
-        if isinstance(ended.__context__, BrokenPipeError):  # rich, which shows the help, ends with 1 then
+        if isinstance(ended.__context__, BrokenPipeError):  # rich, which prints the help, then exits with code 1
             raise _ReaderGoneError from None
         return ended.code if isinstance(ended.code, int) else 0 if ended.code is None else FAULT
     return 0
 
 
 def _mute() -> None:
-    """Redirect the remaining output to the null device, so that the interpreter does not report an error at exit."""
+    """Send the remaining output to the null device, so that the interpreter does not report an error at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
@@ -219,8 +224,8 @@ def _tell_fault(error: Exception) -> None:
     text = "".join(traceback.format_exception(error))
     said = printable(str(error).partition("\n")[0])
     kept = _kept(text)
-    how = f"please report it with {kept}" if kept else f"set {TRACEBACK}=1 to see where, and please report that"
-    tell(f"internal error: {type(error).__name__}: {said}; this is a fault of geartrain: {how}")
+    how = f"attach {kept} to a bug report" if kept else f"set {TRACEBACK}=1, and attach the traceback to a bug report"
+    tell(f"internal error: {type(error).__name__}: {said}; this is an error in geartrain: {how}")
     if os.environ.get(TRACEBACK):
         tell(text)
 
@@ -231,9 +236,9 @@ def _kept(text: str) -> str:
     from importlib.metadata import version
 
     head = f"geartrain {version('geartrain')}, Python {platform.python_version()}, {platform.platform()}\n"
-    requested = f"asked: {sys.argv!r}\n\n"
+    requested = f"command: {sys.argv!r}\n\n"
     try:
-        handle, name = tempfile.mkstemp(prefix="geartrain-fault-", suffix=".txt", text=True)
+        handle, name = tempfile.mkstemp(prefix="geartrain-error-", suffix=".txt", text=True)
         with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
             file.write(head + requested + text)
     except OSError:

@@ -62,7 +62,7 @@ def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
                     break
                 if not done[other]:
                     low[column] = min(low[column], order[other])
-            else:  # all that the column depends on is done
+            else:  # every column that this one depends on is done
                 stack.pop()
                 if stack:
                     above = stack[-1][0]
@@ -124,7 +124,7 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
     row_of: dict[int, int] = {}
     free = _peel(rows, row_of)
     while True:
-        # one set for all rows of a round: a column from which no way led on leads nowhere until the matching changes
+        # shared by all rows of a round: a column without an augmenting path has none until the matching changes
         seen: set[int] = set()
         left = [row for row in free if not _augment_from(rows, row, row_of, seen)]
         if len(left) == len(free):
@@ -158,8 +158,10 @@ def _peel(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[i
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Augment the matching from a row by breadth-first search; return whether an augmenting path exists."""
-    came: dict[int, tuple[int, int | None]] = {}  # column -> the row that reached it, and that row's own column
+    """Extend the matching by a row through breadth-first search; return whether an augmenting path exists."""
+    came: dict[
+        int, tuple[int, int | None]
+    ] = {}  # column -> the row that reached it, and the column matched to that row
     queue: list[tuple[int, int | None]] = [(root, None)]
     for row, own in queue:
         for column in rows[row]:

@@ -65,7 +65,7 @@ def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> in
 
     roundings   number of roundings already in each variable
     """
-    # a power p of a variable with n roundings costs p multiplications and p times n; a coefficient one of each
+    # a power p of a variable with n roundings has p + p n roundings; a coefficient adds two
     each = (sum(abs(power) * (roundings[variable] + 1) for variable, power in monomial) for monomial in monomials)
     return max(each, default=0) + len(monomials) + 2
 
@@ -78,7 +78,7 @@ def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Seq
     """
     for coefficient, exponents in terms:
         reach = sum(size * abs(power) for size, power in zip(largest, exponents, strict=True))
-        # twice, for a product may be formed above and below before it is divided
+        # twice, because a product may be formed in numerator and denominator before the division
         if 2 * reach + abs(log10(Fraction(coefficient))) > _SAFE:
             return False
     return True
@@ -99,7 +99,7 @@ class BoundedPolynomial:
 
         roundings   number of roundings already in each variable
         """
-        # the quotient is rounded once; the coefficients themselves may be beyond the range of float64
+        # the exact quotient is rounded once; coefficients may be out of the range of float64
         scaled = tuple((float(Fraction(coefficient, scale)), monomial) for coefficient, monomial in terms)
         return cls(scaled, sum_roundings([monomial for _, monomial in terms], roundings))
 
@@ -113,7 +113,7 @@ class BoundedPolynomial:
         """Return the values, and bounds on their errors, or None for the bounds if `relative` is known."""
         each = (product(monomial) if one == 1 else one * product(monomial) for one, monomial in self.terms)
         if self.relative is not None:
-            # all of one sign: the size is the value, and the bound need not be worked out point by point
+            # terms of one sign: the size is the value, so a relative bound is sufficient
             return reduce(np.add, each), None
         value, size = sum_and_size(each)
         return value, sum_error(self.roundings, size)
@@ -136,7 +136,7 @@ class BoundedQuotient:
 
         roundings   number of roundings already in each variable
         """
-        # over the largest coefficient, which may itself be beyond the range of float64
+        # divided by the largest coefficient, which may be out of the range of float64
         scale = max((abs(coefficient) for coefficient, _ in (*upper, *lower)), default=1)
         above, below = ([(c, monomial_of(exponents)) for c, exponents in side] for side in (upper, lower))
         return cls(BoundedPolynomial.of(above, scale, roundings), BoundedPolynomial.of(below, scale, roundings))

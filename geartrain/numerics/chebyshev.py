@@ -41,7 +41,7 @@ class ChebyshevSeries:
         width = self.end - self.start
         if not width:  # a series on a point is a constant
             return np.zeros(np.shape(d))
-        # 2 (d - start) first: at both ends it is exact, so that nodes come out as -1 and 1
+        # 2 (d - start) first: it is exact at both ends, so that these are mapped to -1 and 1
         found: Floats = (2 * (np.asarray(d) - self.start) - width) / width
         return found
 
@@ -62,14 +62,14 @@ class ChebyshevSeries:
     def tail(self) -> float:
         """Maximum of the last four coefficients relative to the largest coefficient, a measure of convergence."""
         size = np.abs(self.coefficients)
-        return float(size[-4:].max() / max(size.max(), 1e-300))  # the last alone may be 0 for symmetry
+        return float(size[-4:].max() / max(size.max(), 1e-300))  # the last coefficient only may be 0 by symmetry
 
 
 @lru_cache(maxsize=32)
 def points(count: int) -> tuple[Floats, Floats]:
     """Return Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to coefficients."""
     x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
-    # at these points the matrix is as well conditioned as a cosine transform, and inverting it loses nothing
+    # at these points the matrix is as well conditioned as a cosine transform, so that inverting it is accurate
     return x, np.asarray(np.linalg.inv(cheb.chebvander(x, count - 1)), dtype=np.float64)
 
 
@@ -83,6 +83,6 @@ def differentiation(count: int) -> Floats:
     np.fill_diagonal(gap, 1.0)
     matrix = weights[None, :] / weights[:, None] / gap
     np.fill_diagonal(matrix, 0.0)
-    # the derivative of a constant is 0: to say so, rather than use the formula, keeps small rounding small
+    # the derivative of a constant is exactly 0: this condition gives smaller rounding errors than the formula
     np.fill_diagonal(matrix, -matrix.sum(axis=1))
     return matrix

@@ -68,7 +68,7 @@ def wilson(count: float, of: float) -> tuple[float, float]:
     p, square = count / of, z * z / of
     middle, half = p + square / 2, z * sqrt(max(p * (1 - p), 0.0) / of + square / (4 * of))
     low, high = (middle - half) / (1 + square), (middle + half) / (1 + square)
-    # the ends of none and of all are 0 and 1 exactly, not to rounding
+    # for 0 or all successes the ends are exactly 0 and 1, without rounding
     return (max(0.0, low) if count else 0.0), (min(1.0, high) if count < of else 1.0)
 
 
@@ -125,7 +125,9 @@ def deviation_of(values: Floats) -> IntervalEstimate:
     trimmed = int(n / (2 * sqrt(n - 4)))
     about = values - np.sort(values)[trimmed : n - trimmed].mean()
     kurtosis, c = n * float(np.sum(about**4)) / squares**2, n / (n - z)
-    half = z * c * sqrt((kurtosis - (n - 3) / n) / (n - 1)) / 2  # of the logarithm of the deviation
+    half = (
+        z * c * sqrt((kurtosis - (n - 3) / n) / (n - 1)) / 2
+    )  # half-width for the logarithm of the standard deviation
     value = sqrt(squares / (n - 1))
     return IntervalEstimate(value, value * sqrt(c) * exp(-half), value * sqrt(c) * exp(half))
 
@@ -149,7 +151,7 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
     """
     from scipy.special import bdtr
 
-    reach = ceil(7 * sqrt(n * p * (1 - p))) + 12  # beyond: less than 1e-9
+    reach = ceil(7 * sqrt(n * p * (1 - p))) + 12  # the probability beyond is below 1e-9
     counts = np.arange(max(floor(n * p) - reach, 0), min(ceil(n * p) + reach, n) + 1)
     up_to = bdtr(counts, n, p)
     less = np.concatenate([[bdtr(counts[0] - 1, n, p) if counts[0] else 0.0], up_to[:-1]])

@@ -27,7 +27,7 @@ class FrozenDict(dict[K, V]):
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
         """Raise `TypeError` for any modification of the mapping."""
-        raise TypeError("this mapping is frozen: make a copy with dict(...), and change that")
+        raise TypeError("this mapping is immutable: copy it with dict(...) and change the copy")
 
     __setitem__ = __delitem__ = __ior__ = _refuse
     clear = pop = popitem = setdefault = update = _refuse
@@ -57,7 +57,7 @@ class LazyMapping(Mapping[K, V]):
         make = self._make
         if make is not None:
             self._found = FrozenDict(make())
-            self._make = None  # after what it gave is kept, for other threads; what it held may go
+            self._make = None  # set after the result is stored, for other threads; releases the memory of the function
         return self._found
 
     def __getitem__(self, key: K) -> V:

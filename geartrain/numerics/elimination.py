@@ -46,7 +46,7 @@ class Echelon:
         """
         solved: dict[int, LinearForm] = {}
         work = 0
-        for column, rest in reversed(self.pivots):  # the last pivot's rest holds free columns only
+        for column, rest in reversed(self.pivots):  # the rest of the last pivot contains free columns only
             form: LinearForm = {}
             for other, coefficient in rest.items():
                 known = solved.get(other)
@@ -54,7 +54,7 @@ class Echelon:
                     add_into(form, {other: -coefficient}, 1)
                 else:
                     add_into(form, known, -coefficient)
-                    # long numbers cost as many machine words as they have
+                    # the cost of a long number is its length in machine words
                     work += len(known) * (1 + coefficient.numerator.bit_length() // 64)
             if budget is not None and work > budget:
                 raise TooDenseError
@@ -145,8 +145,8 @@ def eliminate_units(
     """Eliminate unknowns over any commutative ring by sparse Gaussian elimination with units as pivots.
 
     The shortest row is eliminated first, and its pivot is the column with the fewest entries (Markowitz pivoting in
-    part). Rows with one or two unknowns are plain substitutions, so chains, trees and cascades take linear time. Fill-in
-    appears only where circuits are truly coupled.
+    part). Rows with one or two unknowns are plain substitutions, so chains, trees and cascades take linear time.
+    Fill-in appears only where circuits are truly coupled.
 
     rows     linear forms that vanish; columns < 0 are symbols, never pivots
     budget   maximum number of operations, weighted by the length of coefficients; `TooDenseError` beyond it
@@ -171,11 +171,12 @@ def eliminate_units(
         row = active.get(index, {})
         unknowns = [column for column in row if column >= 0]
         if index not in active or len(unknowns) != length:
-            continue  # an old entry of a row that changed since, and was queued again
+            continue  # outdated entry: the row has changed and was queued again
         if not unknowns:
             left.append((index, active.pop(index)))
             continue
-        # Markowitz' rule in part: the column that fewest rows hold fills least; ties by number, so that runs repeat
+        # Markowitz pivoting in part: the column with the fewest entries causes minimum fill-in; ties are resolved by
+        # number, so that runs are reproducible
         unknowns.sort(key=lambda column: (len(users[column]), column))
         for pivot in unknowns:
             inverse: Any = ring.inverse(row[pivot])
@@ -216,7 +217,7 @@ def eliminate_units(
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:
     """Return a multiple of a rational row with integer coefficients modulo a prime."""
-    # one factor for the whole row leaves the rank as it is, and no denominator is to be inverted modulo the prime
+    # one factor for the whole row does not change the rank, and avoids inverting denominators modulo the prime
     scale = math.lcm(*(value.denominator for value in row.values()))
     return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]
 
@@ -235,7 +236,7 @@ def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> boo
     constant   column of the constant term
     """
     unknowns = sorted({column for form in forms for column in form if column != constant})
-    # an unknown is the difference of two variables that are not negative
+    # an unknown is the difference of two nonnegative variables
     place = {column: 2 * at for at, column in enumerate(unknowns)}
     table: list[list[Fraction]] = []
     basis: list[int] = []
@@ -248,8 +249,8 @@ def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> boo
                 row[place[column]], row[place[column] + 1] = value, -value
         row[first_slack + at] = Fraction(-1)
         row[-1] = -form.get(constant, Fraction(0))
-        met = row[-1] <= 0  # where all unknowns are 0
-        # right sides must be 0 or more; a row turned round has +1 at its slack, its first basic variable then
+        met = row[-1] <= 0  # satisfied if all unknowns are 0
+        # right-hand sides must be nonnegative; a negated row has +1 at its slack, which is then its basic variable
         table.append([-value for value in row] if met else row)
         basis.append(first_slack + at if met else artificial + at)
     return _reaches_zero(table, basis, artificial)
@@ -261,16 +262,16 @@ def _reaches_zero(table: list[list[Fraction]], basis: list[int], artificial: int
         lacking = [row for row, own in zip(table, basis, strict=True) if own >= artificial]
         if not any(row[-1] for row in lacking):
             return True
-        # the reduced cost of the sum of the artificial variables; the first positive one is that of Bland's rule
+        # reduced costs of the sum of artificial variables; Bland's rule takes the first positive one
         enter = next((at for at in range(artificial) if sum(row[at] for row in lacking) > 0), None)
         if enter is None:
             return False
-        # the ratio test; of equal ratios `min` takes the least variable, as Bland's rule asks
+        # the ratio test; of equal ratios `min` takes the lowest index, as Bland's rule requires
         ratios = [(row[-1] / row[enter], own, at) for at, (row, own) in enumerate(zip(table, basis, strict=True))
                   if row[enter] > 0]  # fmt: skip
         _, _, leave = min(ratios)
-        lead = table[leave][enter]
-        pivot = table[leave] = [value / lead for value in table[leave]]
+        divisor = table[leave][enter]
+        pivot = table[leave] = [value / divisor for value in table[leave]]
         basis[leave] = enter
         for at, row in enumerate(table):
             if at != leave and row[enter]:

@@ -59,7 +59,7 @@ def log10(value: Fraction) -> float:
     """Return the decimal logarithm of |value| for numbers of any size; -inf for zero."""
     if not value:
         return -math.inf
-    # of integers of any length; their quotient as a float may not exist
+    # logarithms of long integers are floats, even if their quotient overflows
     return math.log10(abs(value.numerator)) - math.log10(value.denominator)
 
 
@@ -69,7 +69,7 @@ def as_float(value: Fraction | float) -> float | None:
         number = float(value)
     except OverflowError:
         return None
-    if value and abs(number) < 2.2250738585072014e-308:  # subnormal: its last digits are lost
+    if value and abs(number) < 2.2250738585072014e-308:  # subnormal: it has fewer than 53 significant bits
         return None
     return number
 
@@ -100,7 +100,7 @@ def decimal(value: Fraction, digits: int = 10) -> str:
         return f"{number:.{digits}g}"
     exponent = math.floor(log10(value))
     mantissa = str(_scaled(abs(value), digits - 1 - exponent, digits))
-    # rounding may carry, and the logarithm be off beside a power of ten: the digits tell
+    # rounding may carry, and the logarithm may be inexact near a power of ten: the number of digits decides
     exponent += len(mantissa) - digits
     sign = "-" if value < 0 else ""
     rest = f".{mantissa[1:digits]}" if digits > 1 else ""
@@ -108,16 +108,15 @@ def decimal(value: Fraction, digits: int = 10) -> str:
 
 
 def _scaled(value: Fraction, power: int, digits: int) -> int:
-    """Return round(value * 10**power), a number of about `digits` digits, from leading bits where these are sufficient.
-    """
+    """Return round(value * 10**power), of about `digits` digits, from leading bits if these are sufficient."""
     with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
         near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
         off = near - near.to_integral_value()
-        # 30 digits more than are asked for: `off` is good to far less than 1e-10
+        # 30 guard digits: the error of `off` is far below 1e-10
         if abs(abs(off) - Decimal("0.5")) > Decimal("1e-10"):
             return int(near.to_integral_value())
     exact: Fraction = value * Fraction(10) ** power
-    return round(exact)  # a tie, or as good as one: all digits are needed
+    return round(exact)  # a tie, or almost one: all digits are needed
 
 
 def _leading(number: int) -> Decimal:
@@ -133,8 +132,8 @@ _PLAIN, _SHORT = 2000, 600
 def fraction_text(value: Fraction | int) -> str:
     """Format an integer or Fraction of any size with all digits, as `str` does.
 
-    Python refuses to convert integers beyond 4300 digits, because its conversion takes quadratic time. Here decimals are
-    assembled from halves in almost linear time, and the limit of the process is not changed.
+    Python refuses to convert integers beyond 4300 digits, because its conversion takes quadratic time. Here decimals
+    are assembled from halves in almost linear time, and the limit of the process is not changed.
 
     Python refuses to write integers past 4300 digits, for it takes the square of their length. Decimals are put
     together from halves instead, in little more than linear time; the limit of the process is neither met nor moved.
@@ -222,7 +221,7 @@ def count_digits(number: int) -> int:
         return 1
     power = math.log10(number)
     nearest = round(power)
-    if abs(power - nearest) > 1e-9:  # the logarithm is good to 1e-15 of numbers of a million digits
+    if abs(power - nearest) > 1e-9:  # the relative error of the logarithm is 1e-15, also for a million digits
         return math.floor(power) + 1
     ten: int = 10**nearest
     return nearest + (number >= ten)
@@ -239,7 +238,7 @@ def _integer(digits: str) -> int:
 def _digits(number: int) -> str:
     if number.bit_length() <= _PLAIN:
         return str(number)
-    # `Inexact` is trapped: a digit lost would raise, and not be printed
+    # `Inexact` is trapped: rounding would raise an error, not print wrong digits
     with localcontext(Context(prec=MAX_PREC, Emax=MAX_EMAX, Emin=-MAX_EMAX, traps=[Inexact])):
         return ("-" if number < 0 else "") + str(_joined(abs(number), abs(number).bit_length(), {}))
 

@@ -26,8 +26,8 @@ _HOPS = 64
 _KEPT = 1 << 29
 """Capacity [bit] of the cache of long numbers, 64 MB; numbers read next are likely to be near."""
 
-_SMALL = 1000  # primes up to here are divided out; what is left of a tooth count below the square is prime
-_MOST_ROUGH = 1000  # numbers without small primes: to part them from each other takes the square of how many they are
+_SMALL = 1000  # primes up to this are divided out; the cofactor of a number below its square is prime
+_MOST_ROUGH = 1000  # numbers without small primes: factor refinement takes quadratic time in their number
 
 
 class FactoredRatios:
@@ -64,7 +64,7 @@ class FactoredRatios:
     def vanishes(self, terms: Iterable[tuple[int, int]]) -> bool:
         """Return whether a linear combination of numbers, given as (index, coefficient), is 0."""
         terms = list(terms)
-        common = len({self.anchor[at] for at, _ in terms}) == 1  # all to one scale, which is not 0
+        common = len({self.anchor[at] for at, _ in terms}) == 1  # all are relative to the same number, which is not 0
         n, d = 0, 1
         for at, coefficient in terms:
             value = coprime(self.top[at], self.bottom[at]) if common else self.value(at)
@@ -149,7 +149,7 @@ def product_of_powers(powers: dict[int, int]) -> Fraction:
         primes[factor] = primes.get(factor, 0) + power
     top = _balanced([factor**power for factor, power in primes.items() if power > 0])
     bottom = _balanced([factor**-power for factor, power in primes.items() if power < 0])
-    if len(rough) > _MOST_ROUGH:  # they were not parted, and may have factors in common
+    if len(rough) > _MOST_ROUGH:  # they were not refined, and may have common factors
         return Fraction(sign * top, bottom)
     return coprime(sign * top, bottom)
 
@@ -206,6 +206,6 @@ def _balanced(factors: list[int]) -> int:
         return 1
     heapify(factors)
     while len(factors) > 1:
-        minimum = heappop(factors)  # factors of like length: fast multiplication pays for those alone
+        minimum = heappop(factors)  # factors of similar length: fast multiplication is efficient only for these
         heapreplace(factors, minimum * factors[0])
     return factors[0]

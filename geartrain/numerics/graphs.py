@@ -55,7 +55,7 @@ class DisjointSets(Generic[V]):
         """Return the representative of an element's set, the same for all elements until the set is merged."""
         above = self._above
         while (head := above.setdefault(thing, thing)) != thing:
-            above[thing] = above[head]  # path halving: half the way for the next to ask
+            above[thing] = above[head]  # path halving
             thing = above[thing]
         return thing
 
@@ -90,7 +90,7 @@ class RatioSets(Generic[V]):
             way.append((thing, step[1]))
             thing = step[0]
         times = Fraction(1)
-        for passed, factor in reversed(way):  # all on the way hang on the head from now on
+        for passed, factor in reversed(way):  # path compression
             times *= factor
             self._above[passed] = thing, times
         return thing, times

@@ -13,8 +13,8 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
     """Return a basis of the saturated lattice of integer rows, its dual columns, and the index of the rows in it.
 
     The saturated lattice consists of all integer rows in the rational span. Unimodular column operations bring the rows
-    to triangular form, Y V = [H 0], which is Hermite's normal form without reduction of its entries. The basis is H^-1 Y,
-    and the first columns of V are dual to it. The index is det H, and is 1 if the rows are already a basis. Linearly
+    to triangular form, Y V = [H 0], which is Hermite's normal form without reduction of its entries. The basis is H^-1
+    Y, and the first columns of V are dual to it. The index is det H, and is 1 if the rows are already a basis. Linearly
     dependent rows are dropped.
     """
     columns: dict[int, Row] = {}
@@ -34,7 +34,7 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
         rest = dict(row)
         for known, before in zip(basis, pivots, strict=True):
             add_into(rest, known, -before.get(at, 0))
-        basis.append({key: value // column[at] for key, value in rest.items()})  # divides without a rest
+        basis.append({key: value // column[at] for key, value in rest.items()})  # divides without remainder
         pivots.append(column)
         dual.append(move)
         index *= abs(column[at])  # the diagonal of H
@@ -45,7 +45,7 @@ def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | No
     """Reduce the entries of one row by Euclid's algorithm until at most one column is nonzero; return that column."""
     live = [key for key, column in columns.items() if at in column]
     while len(live) > 1:
-        # by the smallest entry: remainders, and the numbers in `moves`, stay short
+        # divide by the smallest entry: remainders, and the numbers in `moves`, stay short
         minimum = min(live, key=lambda key: abs(columns[key][at]))
         size = columns[minimum][at]
         for key in live:

@@ -28,26 +28,26 @@ from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from geartrain.errors import MissingExtraError
 
-_told: list[Callable[[], None]] = []  # called when a kernel is compiled; each once
+_listeners: list[Callable[[], None]] = []  # functions called once when a kernel is compiled
 
 
 @contextmanager
 def telling(say: Callable[[], None]) -> Iterator[None]:
     """Call `say` before the first kernel is compiled within the context; loading from disk does not count."""
-    _told.append(say)
+    _listeners.append(say)
     try:
         yield
     finally:
-        if say in _told:
-            _told.remove(say)
+        if say in _listeners:
+            _listeners.remove(say)
 
 
 @contextmanager
 def compilation() -> Iterator[None]:
     """Wrap all work that numba does before a kernel runs, so that Ctrl-C ends it.
 
-    Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is finalised.
-    Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
+    Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is
+    finalised. Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
     """
     with _hearing(), _interruptible():
         yield
@@ -56,7 +56,7 @@ def compilation() -> Iterator[None]:
 @contextmanager
 def _hearing() -> Iterator[None]:
     """Call the registered functions when numba begins to compile."""
-    if not _told:
+    if not _listeners:
         yield
         return
     event = import_module("numba.core.event")
@@ -70,24 +70,24 @@ class _Listener:
 
     def notify(self, event: Any) -> None:
         """Call all registered functions, each once."""
-        while _told:
-            _told.pop(0)()
+        while _listeners:
+            _listeners.pop(0)()
 
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
     """Raise a KeyboardInterrupt at the end of the context if Python had to ignore it within."""
-    if current_thread() is not main_thread():  # interrupts come to the main thread alone
+    if current_thread() is not main_thread():  # interrupts are delivered to the main thread only
         yield
         return
     before, dropped = sys.unraisablehook, False
 
-    def note(told: sys.UnraisableHookArgs) -> None:
+    def note(ignored: sys.UnraisableHookArgs) -> None:
         nonlocal dropped
-        if issubclass(told.exc_type, KeyboardInterrupt):
+        if issubclass(ignored.exc_type, KeyboardInterrupt):
             dropped = True
         else:
-            before(told)
+            before(ignored)
 
     sys.unraisablehook = note
     try:
@@ -101,8 +101,8 @@ def _interruptible() -> Iterator[None]:
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_PAYS = 5.0  # s of work: less is done before numba is imported and kernels are loaded, which takes some half a second
-_PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # values of globals that are compiled into a kernel
+_PAYS = 5.0  # s of work above which kernels pay off: importing numba and loading kernels takes about 0.5 s
+_PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # types of global constants that are compiled into a kernel
 
 
 class Kernel(Generic[P, R]):
@@ -118,8 +118,7 @@ class Kernel(Generic[P, R]):
 
     @cached_property
     def compiled(self) -> Callable[P, R]:
-        """The function compiled, or loaded from disk when it is first called. Raises `MissingExtraError` without numba.
-        """
+        """Compiled function, loaded from disk if possible. Raises `MissingExtraError` without numba."""
         return self._made()
 
     @cached_property
@@ -129,13 +128,13 @@ class Kernel(Generic[P, R]):
 
     def _made(self, **options: bool) -> Callable[P, R]:
         numba = _numba()
-        # a twin whose names of kernels stand for compiled ones; its own name holds all that it is compiled from
+        # a copy that calls compiled kernels; the hash in its name makes numba's cache key depend on all of its sources
         twin = self._twin({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
         twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}{'_'.join(['', *options])}"
         made = numba.njit(twin, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)
-        with suppress(RuntimeError):  # where neither the package's folder nor a cache of the user's can be written
+        with suppress(RuntimeError):  # neither the package's folder nor the user's cache is writable
             made.enable_caching()
-        made.compile = compilation()(made.compile)  # what numba calls to compile or load it for some types
+        made.compile = compilation()(made.compile)  # called by numba to compile or load the kernel for some types
         return cast("Callable[P, R]", made)
 
     def chosen(self, fast: bool) -> Callable[P, R]:
@@ -163,8 +162,8 @@ class Kernel(Generic[P, R]):
     def digest(self) -> str:
         """Hash of the function's code, the constants of its module that it uses, and the kernels that it calls.
 
-        The named tuples of its module are included too, because the cache on disk contains them as types and cannot be loaded
-        when one of them has been removed.
+        The named tuples of its module are included too, because the cache on disk contains them as types and cannot be
+        loaded when one of them has been removed.
         """
         function = self._function
         found = sha256(f"{function.__module__} {function.__annotations__} {_text(function.__code__)}".encode())
@@ -180,7 +179,7 @@ class Kernel(Generic[P, R]):
 
 
 def kernel(function: Callable[P, R]) -> Kernel[P, R]:
-    """Decorate a function of numbers and arrays so that it can be compiled."""
+    """Mark a function of numbers and arrays as one that can be compiled; a decorator."""
     return Kernel(function)
 
 
@@ -210,7 +209,7 @@ def usable() -> bool:
 def _numba() -> ModuleType:
     try:
         return import_module("numba")
-    except ImportError as error:  # or one that does not know this Python or numpy yet
+    except ImportError as error:  # also raised by a version that does not support this Python or numpy
         raise MissingExtraError("numba", "fast", "compiling kernels") from error
 
 

@@ -55,8 +55,8 @@ class LabelledArray(Tabular, Result):
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Table with a row for each label of the second axis and a column for each of the first.
 
-        An array with one axis has a column of labels and one of values. An array with three or more axes has a row for each
-        value.
+        An array with one axis has a column of labels and one of values. An array with three or more axes has a row for
+        each value.
         """
         if len(self.axes) == 1:
             return {self.axes[0]: self.labels[0], "value": self.values.tolist()}

@@ -25,7 +25,7 @@ class Lazy:
         """Return the value, computing it on the first call."""
         if self._make is not None:
             self._value = self._make()
-            self._make = None  # what it held may go
+            self._make = None  # releases the memory of the function
         return self._value
 
 
@@ -47,7 +47,7 @@ class LazyDict(dict[str, Any]):
         return value() if isinstance(value, Lazy) else value
 
     def __iter__(self) -> Iterator[str]:
-        # its own, for dict(...) and update(...) copy what is stored, unread, from a dictionary that keeps dict's
+        # needed: dict(...) and update(...) copy stored values directly from a dictionary with the inherited __iter__
         return super().__iter__()
 
     def get(self, key: str, default: Any = None) -> Any:

@@ -19,8 +19,8 @@ LOWEST, HIGHEST = -1021, 1024
 class LongFloat(Rational):
     """A number mantissa * 2**exponent with 53 bits whose exponent is out of the range of float64.
 
-    Arithmetic rounds like that of floats, and returns a float wherever one can represent the result. Operands may also be
-    floats, integers and Fractions. `Fraction(value)` is its exact value, which like that of any float is rounded.
+    Arithmetic rounds like that of floats, and returns a float wherever one can represent the result. Operands may also
+    be floats, integers and Fractions. `Fraction(value)` is its exact value, which like that of any float is rounded.
 
     Arithmetic rounds as that of floats does, and gives a float again wherever one holds the result. Mixed with floats,
     integers and Fractions; `Fraction(value)` is its value, which like that of any float is not the exact answer.
@@ -67,11 +67,13 @@ class LongFloat(Rational):
         parts = _parts(other)
         if parts is None:
             return NotImplemented
-        # the greater exponent first: the other number is shifted down, which cannot overflow
+        # larger exponent first: the other number is shifted down, which cannot overflow
         (high, top), (low, bottom) = sorted(((self.mantissa, self.exponent), parts), key=lambda each: -each[1])
-        if not high or not low:  # a zero has no exponent to go by
+        if not high or not low:  # the exponent of a zero is meaningless
             return self.make(low or high, top if high else bottom)
-        return self.make(high + math.ldexp(low, max(bottom - top, -1000)), top)  # beyond 1000 bits all is lost
+        return self.make(
+            high + math.ldexp(low, max(bottom - top, -1000)), top
+        )  # beyond 1000 bits the smaller number has no effect
 
     __radd__ = __add__
 
@@ -159,10 +161,10 @@ class LongFloat(Rational):
         return rounded(Fraction(self) ** power) if isinstance(power, int) else NotImplemented
 
     def __rpow__(self, base: Any) -> Any:
-        raise OverflowError(f"nothing is raised to the power of {self}")
+        raise OverflowError(f"the exponent {self} is out of range")
 
     def __float__(self) -> float:
-        raise OverflowError(f"float64 does not hold {self}")
+        raise OverflowError(f"{self} is out of the range of float64")
 
     def __str__(self) -> str:
         return format(self, ".10g")
@@ -171,7 +173,7 @@ class LongFloat(Rational):
         """Format the number like a float, with an optional sign and number of digits."""
         found = re.fullmatch(r"(\+?)(?:\.(\d+))?([eg]?)", spec)
         if found is None:
-            raise ValueError(f"'{spec}' is no format for long floats; use one as '.10g'")
+            raise ValueError(f"'{spec}' is not a format for long floats; use one such as '.10g'")
         digits = int(found[2] or 10) + (found[3] == "e")
         return ("+" if found[1] and self.mantissa > 0 else "") + decimal(Fraction(self), digits)
 
@@ -201,7 +203,7 @@ def split(value: Fraction | int) -> tuple[float, int]:
     """Split an exact number into the nearest mantissa, 1/2 to 1, and exponent of two; (0, 0) for 0."""
     top, bottom = value.numerator, value.denominator
     power = top.bit_length() - bottom.bit_length()
-    # shifted to like length the quotient is between 1/2 and 2, and Python rounds that of two integers once
+    # shifted to equal length, the quotient is between 1/2 and 2, and Python rounds a quotient of integers only once
     part, shift = math.frexp((top << max(-power, 0)) / (bottom << max(power, 0)))
     return part, (power + shift if part else 0)
 

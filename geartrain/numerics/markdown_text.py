@@ -15,7 +15,7 @@ _FOLLOWED = {"http", "https", "mailto"}
 
 
 def markdown_text(text: str) -> str:
-    r"""Escape HTML in a text, and all links except relative ones and those to http, https and mailto.
+    r"""Return a text with escaped HTML, and with escaped links except relative, http, https and mailto ones.
 
     >>> markdown_text("<b> [worn](JavaScript:alert(1)), see [the paper](https://example.org)")
     '&lt;b> [worn]\\(JavaScript:alert(1)), see [the paper](https://example.org)'

@@ -16,7 +16,7 @@ from geartrain.errors import nearest_names
 TURN = "turn"
 RADIANS_PER_TURN = 6.283185307179586
 
-# unit -> (dimension, how many base units one of it is); every scale is exact
+# unit -> (dimension, size in base units); every size is exact
 UNITS: dict[str, tuple[str, Fraction]] = {
     "m": ("length", Fraction(1)),
     "cm": ("length", Fraction(1, 100)),
@@ -70,15 +70,15 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "%": ("fraction", Fraction(1, 100)),
     "ppm": ("fraction", Fraction(1, 10**6)),
 }
-# a radian is no rational part of a turn: these two scales hold to 50 digits, and say so by being apart
+# a radian is an irrational fraction of a turn: these two scales have 50 digits, so they are in a table of their own
 _TURNS_PER_RADIAN = 1 / (2 * Fraction("3.14159265358979323846264338327950288419716939937511"))
 IRRATIONAL: dict[str, tuple[str, Fraction]] = {
     "rad": ("angle", _TURNS_PER_RADIAN),
     "rad/s": ("speed", _TURNS_PER_RADIAN),
 }
 _EXACT = Fraction(0), Fraction("1e300")
-_FLOATS = Fraction(1, 10**30), Fraction(10**30)  # up to the tenth power such a measure is a float
-_SIZES = Fraction(1, 10**12), Fraction(10**6)  # of bodies, in m or as plain numbers: what can be laid out and drawn
+_FLOATS = Fraction(1, 10**30), Fraction(10**30)  # the tenth power of such a number is still a float
+_SIZES = Fraction(1, 10**12), Fraction(10**6)  # lengths of bodies, in m or plain: sizes that can be laid out and drawn
 _BOUNDS = {"length": _SIZES, "length or fraction": (_FLOATS[0], _SIZES[1])} | {
     dimension: _FLOATS
     for one, other in (("torsional stiffness", "stiffness"), ("torsional damping", "damping"))
@@ -157,14 +157,15 @@ def base_unit(dimension: str) -> str:
 def bounds_of(dimension: str) -> tuple[Fraction, Fraction]:
     """Return the minimum and maximum magnitude of a nonzero quantity in base units; "time or length" allows both.
 
-    Lengths of bodies have the narrowest bounds. Dimensions that are computed in floats have narrower bounds than others.
+    Lengths of bodies have the narrowest bounds. Dimensions that are computed in floats have narrower bounds than
+    others.
     """
     return _BOUNDS.get(dimension, _EXACT)
 
 
-_MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them would take minutes
+_MOST_DIGITS = 400  # longer numbers are typing errors or attacks, and squaring them would take minutes
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
-_MOST = Fraction("1e300")  # what a float holds, as its inverse does, with room for units
+_MOST = Fraction("1e300")  # such a number and its inverse are floats, with a margin for units
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
 
@@ -269,7 +270,7 @@ def _not_a_number(raw: object) -> PydanticCustomError:
 
 def _within(value: Fraction, text: str) -> Fraction:
     if value and not 1 / _MOST <= abs(value) <= _MOST:
-        raise _beyond_measure(text, "a number here is 0, or from 1e-300 to 1e300", "write a number in that range")
+        raise _out_of_range(text, "a number must be 0, or from 1e-300 to 1e300", "write a number in that range")
     return value
 
 
@@ -281,22 +282,22 @@ def _half_unit(text: str) -> Fraction | None:
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 
 
-def _pushing_nothing(figure: Figure) -> Figure:
+def _not_negative(figure: Figure) -> Figure:
     if figure.value < 0:
         raise PydanticCustomError(
             "friction",
-            "a friction of {text} would push",
-            {"text": figure.text, "fix": "a coefficient of friction is 0 or more"},
+            "the coefficient of friction {text} is negative",
+            {"text": figure.text, "fix": "give a coefficient of 0 or more"},
         )
     return figure
 
 
 def parse_friction(raw: object) -> Figure:
     """Parse a coefficient of friction, 0 or more."""
-    return _pushing_nothing(Figure.parse(raw))
+    return _not_negative(Figure.parse(raw))
 
 
-Friction = Annotated[Figure, AfterValidator(_pushing_nothing)]
+Friction = Annotated[Figure, AfterValidator(_not_negative)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -387,7 +388,7 @@ class Quantity:
         if quantity.dimension not in dimension.split(" or "):
             raise PydanticCustomError(
                 "unit",
-                "'{text}' is {found}, and {dimension} belongs here",
+                "'{text}' is {found}, but {dimension} is required",
                 {
                     "text": text,
                     "found": _one(quantity.dimension or "number"),
@@ -405,12 +406,12 @@ def _measured(quantity: Quantity, dimension: str) -> Quantity:
         return quantity
     noun = _one(quantity.dimension or dimension)
     unit = "" if quantity.unit is None else f" {base_unit(scale(quantity.unit)[0])}"
-    why = f"{noun} here is from {float(low):g}{unit} to {float(high):g}{unit}"
-    raise _beyond_measure(quantity.text, why, f"write {noun} in that range")
+    why = f"{noun} must be from {float(low):g}{unit} to {float(high):g}{unit}"
+    raise _out_of_range(quantity.text, why, f"write {noun} in that range")
 
 
-def _beyond_measure(text: str, why: str, fix: str) -> PydanticCustomError:
-    return PydanticCustomError("number", "{text} is beyond all measure", {"text": text, "why": why, "fix": fix})
+def _out_of_range(text: str, why: str, fix: str) -> PydanticCustomError:
+    return PydanticCustomError("number", "{text} is out of range", {"text": text, "why": why, "fix": fix})
 
 
 def in_unit(speed: Quantity, unit: str) -> Fraction:
@@ -495,7 +496,7 @@ def below_right_angle(fix: str) -> AfterValidator:
 
     def check(given: Quantity) -> Quantity:
         if given.si >= pi / 2:
-            raise PydanticCustomError("bound", "{text} is no less than 90 deg", {"text": given.text, "fix": fix})
+            raise PydanticCustomError("bound", "{text} is not less than 90 deg", {"text": given.text, "fix": fix})
         return given
 
     return AfterValidator(check)
@@ -512,8 +513,8 @@ def not_below_zero(fix: str) -> AfterValidator:
     return AfterValidator(check)
 
 
-PairStiffness = Annotated[MeshStiffness, above_zero("teeth yield: give for example 20 N/um")]
+PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, such as 20 N/um")]
 """Torque on the driven wheel per radian, or force along the line of action per length."""
 
-PairDamping = Annotated[MeshDamping, not_below_zero("it takes energy: give 0 or more")]
+PairDamping = Annotated[MeshDamping, not_below_zero("give a damping of 0 or more")]
 """Torque on the driven wheel per angular velocity, or force along the line of action per velocity."""

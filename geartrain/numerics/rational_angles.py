@@ -7,8 +7,8 @@ from fractions import Fraction
 
 from geartrain.numerics.vectors import IntegerVector, dot
 
-_CHANCE = 1e-3  # an angle drawn at random is taken for a fraction at most this often
-_DENSITY = 3 / math.pi**2  # reduced fractions below 1 with a denominator up to q number some q squared times this
+_CHANCE = 1e-3  # maximum probability that a random angle is taken for a fraction
+_DENSITY = 3 / math.pi**2  # about this times q squared reduced fractions below 1 have a denominator up to q
 
 
 def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction | None:
@@ -20,7 +20,7 @@ def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction 
     """
     along = dot(u, v)
     square = dot(u, u) * dot(v, v)
-    if 4 * along * along % square:  # the square of the cosine is no multiple of 1/4
+    if 4 * along * along % square:  # the square of the cosine is not a multiple of 1/4
         return None
     return Fraction(round(24 * turn) % 24, 24)
 
@@ -47,7 +47,7 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
             return None
         if abs(turn - last[0] / last[1]) <= slack:
             return Fraction(last[0] % last[1], last[1])
-        # a rest of 0 ends above: the convergent is then the angle itself, to rounding
+        # the remainder is not 0 here: the convergent would be the angle to rounding, and the loop has ended above
         rest = 1 / (rest - whole)
 
 

@@ -151,7 +151,7 @@ def brief(value: object) -> str | None:
     >>> brief(Fraction(2, 7)), brief(0.12345678), brief(["a", "b", "c", "d", "e"]), brief("two words")
     ('2/7', '0.123457', '5 items', "'two words'")
     """
-    if value is None or callable(value) or hasattr(value, "_made"):  # a mapping that is made when it is read
+    if value is None or callable(value) or hasattr(value, "_made"):  # a mapping that is created when it is read
         return None
     if isinstance(value, bool | int):
         return str(value)
@@ -177,7 +177,7 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
     try:
         if not len(values):
             return None
-    except OverflowError:  # more items than an index can count
+    except OverflowError:  # more items than `len` can return
         return None
     if isinstance(values, tuple) and len(values) <= 4 and not hasattr(values, "_fields"):
         parts = [brief(each) for each in values]
@@ -228,7 +228,8 @@ class Tabular(Shown):
     def to_frame(self) -> Any:
         """Return the table as a pandas DataFrame.
 
-        `attrs["meanings"]` contains the meaning of each column, and `attrs["units"]` the unit of each column that has one.
+        `attrs["meanings"]` contains the meaning of each column, and `attrs["units"]` the unit of each column that has
+        one.
 
         Raises
         ------
@@ -238,7 +239,7 @@ class Tabular(Shown):
         try:
             import pandas
         except ImportError:
-            raise MissingExtraError("pandas", "tables", "a table of its kind") from None
+            raise MissingExtraError("pandas", "tables", "a DataFrame") from None
         frame = pandas.DataFrame(dict(self.columns))
         meanings = self.meanings
         frame.attrs["meanings"] = dict(meanings)
@@ -301,8 +302,8 @@ def _cell(value: object) -> str:
 def picture_maker(room: str, name: str) -> Callable[..., Any]:
     """Import the function that draws or describes a result, by name.
 
-    Modules that draw depend on modules that calculate. Results call them only here, by name and when they are displayed,
-    so that drawing code is not imported earlier.
+    Modules that draw depend on modules that calculate. Results call them only here, by name and when they are
+    displayed, so that drawing code is not imported earlier.
 
     room   module or package below `geartrain`
     name   name of the public function or class in it
@@ -377,7 +378,7 @@ class Result(Shown):
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON; the keys are stable (docs/json.md)."""
-        return _told(self)
+        return _plain_data(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -405,7 +406,7 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
     if value is None:
         return None
     if hasattr(value, "_asdict"):  # a named tuple
-        return _told(value, keys) if keys else plain(value._asdict(), to)
+        return _plain_data(value, keys) if keys else plain(value._asdict(), to)
     if isinstance(value, Mapping):
         return {str(key): plain(each, to, keys) for key, each in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, str):
@@ -415,16 +416,16 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
     if to is not None:
         return to(value)
     if keys:
-        return _told(value, keys)
+        return _plain_data(value, keys)
     if isinstance(value, str | bool | int | float):
         return value
     if isinstance(value, Fraction):
         return fraction_text(value)
     if isinstance(value, LongFloat):
-        return None  # float64 has no such number
+        return None  # out of the range of float64
     if hasattr(value, "model_dump"):  # a part of a declaration
         return value.model_dump(mode="json")
-    return value.to_dict() if hasattr(value, "to_dict") else _told(value)
+    return value.to_dict() if hasattr(value, "to_dict") else _plain_data(value)
 
 
 def finite(value: float) -> float | None:
@@ -432,7 +433,7 @@ def finite(value: float) -> float | None:
     return value if isfinite(value) else None
 
 
-def _told(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]:
+def _plain_data(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]:
     kind: Any = type(result)
     found: dict[str, Any] = {}
     for key in whole(keys) if keys else keys_of(kind):
@@ -451,7 +452,7 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
     if not named and is_dataclass(kind):
         named = tuple(each.name for each in fields(kind) if not each.name.startswith("_"))
     if not named:
-        raise TypeError(f"{kind.__name__} has no plain data: it is no dataclass, and has no KEYS")
+        raise TypeError(f"{kind.__name__} has no plain data: it is not a dataclass and has no KEYS")
     return whole(named)
 
 

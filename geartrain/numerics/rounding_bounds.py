@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", float, "Floats")
 
-SPLITTER = 134217729.0  # 2^27 + 1: cuts a float64 into two halves of 26 bits, whose products are exact
+SPLITTER = 134217729.0  # 2^27 + 1: splits a float64 into two halves of 26 bits, whose products are exact
 
 
 def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """Return s and e with a + b = s + e exactly (Knuth 1969)."""
     s = a + b
-    part = s - a  # what of b arrived in s; without a branch on which of the two is larger
+    part = s - a  # part of b that is in s; no comparison of a and b is needed
     return s, (a - (s - part)) + (b - part)
 
 

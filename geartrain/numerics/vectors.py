@@ -66,7 +66,7 @@ def size(v: Vector) -> float:
 
 def unit(v: Vector) -> Vector:
     """Normalise a nonzero vector to length 1."""
-    top = max(abs(part) for part in v)  # first: squares of what is left neither overflow nor vanish
+    top = max(abs(part) for part in v)  # scale first, so that squares neither overflow nor underflow
     x, y, z = (part / top for part in v)
     length = sqrt(x * x + y * y + z * z)
     return x / length, y / length, z / length
@@ -79,7 +79,7 @@ def across(v: Vector, n: Vector) -> Vector:
 
 def frame(n: Vector) -> tuple[Vector, Vector]:
     """Return two unit vectors perpendicular to n that form a right-handed frame with it: x and y where n is z."""
-    # x, unless it lies so near to n that its part across n is mostly rounding
+    # x, unless it is so close to n that its perpendicular component is mostly rounding
     start: Vector = (1.0, 0.0, 0.0) if abs(n[0]) < 0.9 else (0.0, 1.0, 0.0)
     first = unit(across(start, n))
     return first, cross(n, first)
@@ -104,7 +104,7 @@ def beside(axis: Vector) -> Vector:
     """Return a unit vector perpendicular to an axis; y for the axis z, so that a zero mark points upwards."""
     for way in ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)):
         flat = across(way, axis)
-        # across any axis y or z is left with 0.7 at least, so that nothing cancels
+        # y or z has a perpendicular component of at least 0.7, so that cancellation is harmless
         if size(flat) > 0.5:
             return unit_or_z(flat)
     return (1.0, 0.0, 0.0)
@@ -112,4 +112,4 @@ def beside(axis: Vector) -> Vector:
 
 def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
     """Return the angle [rad] of u about the unit vector `axis`, measured from a perpendicular unit vector."""
-    return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # not acos, which loses half the digits near 0
+    return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # acos would lose half of the digits near 0

@@ -28,7 +28,10 @@ class PairGroup(LazyGroup):
 
 
 app = typer.Typer(
-    cls=PairGroup, add_completion=False, help="What the teeth of one pair do within a pitch.", no_args_is_help=True
+    cls=PairGroup,
+    add_completion=False,
+    help="Analyse one pair of wheels over a pitch, without a train.",
+    no_args_is_help=True,
 )
 
 

@@ -69,8 +69,8 @@ _LEANING = ("helix",)
 def command(name: str) -> Callable[..., None]:
     """Create the command of a form from the common options and its own."""
     model = tooth_form(name)
-    kind = "Costs, faults and outlines" if model.conjugate else "Motion, losses and outlines"
-    words = f"{kind} of a pair with {name.replace('_', '-')} teeth."
+    kind = "losses, stresses, faults and outlines" if model.conjugate else "motion, losses and outlines"
+    words = f"Compute {kind} of a pair with {name.replace('_', '-')} teeth."
     without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _LEANING))
     return form_command(model, partial(_run, model), words, without=without)
 
@@ -79,35 +79,37 @@ def _run(
     model: type[ToothForm],
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
     internal: Internal = False,
-    bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
+    bevel: Annotated[str | None, typer.Option("--bevel", help="Shaft angle of bevel wheels, such as 90deg.")] = None,
     helix: Annotated[
-        str | None, typer.Option("--helix", help="Helix angle, such as 20deg; modules are then normal ones.")
+        str | None, typer.Option("--helix", help="Helix angle, such as 20deg; modules are then normal modules.")
     ] = None,
     friction: Friction = "0",
     rate: Rate = None,
-    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
+    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,
     backlash: Annotated[
-        str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
+        str | None, typer.Option("--backlash", help="Backlash on the pitch circle, in modules or with a unit.")
     ] = None,
-    module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
+    module: Annotated[
+        str | None, typer.Option("--module", help="Module (pitch diameter over tooth count), such as 2mm.")
+    ] = None,
     profile: Profile = None,
     wheel: WheelNumber = 1,
     clearance: Annotated[
-        str | None, typer.Option("--clearance", help="With --profile: root to mate's tip; default module/4.")
+        str | None, typer.Option("--clearance", help="With --profile: bottom clearance; default module/4.")
     ] = None,
     fillet: Annotated[
-        str | None, typer.Option("--fillet", help="With --profile: radius at the root; default 0.38 module, or less.")
+        str | None, typer.Option("--fillet", help="With --profile: root fillet radius; default 0.38 module, or less.")
     ] = None,
     bore: Bore = None,
     rim: Annotated[
-        str | None, typer.Option("--rim", help="With --profile: how much material is left around a ring or a lantern.")
+        str | None, typer.Option("--rim", help="With --profile: radial thickness of the rim of a ring or lantern.")
     ] = None,
     tolerance: Tolerance = FINE,
     plot: Annotated[
         Path | None,
         typer.Option(
             "--plot",
-            help="Draw flanks, path of contact and costs, or of teeth without a path their motion, to this file.",
+            help="Draw flanks, path of contact and losses to this file; without such a path, the motion.",
         ),
     ] = None,
     json: Json = False,
@@ -141,8 +143,8 @@ def _run(
 def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, backlash: str | None) -> ToothForm:
     """Parse the form.
 
-    A clearance can be an option of the form or the clearance at the root of a profile. A form without a field for backlash
-    is thinned.
+    A clearance can be an option of the form or the clearance at the root of a profile. A form without a field for
+    backlash is thinned.
     """
     if "clearance" in model.model_fields:
         own = own | {"clearance": clearance}
@@ -162,15 +164,15 @@ def _figure(mesh: GearMesh) -> Figure:
 
 
 def pin(
-    pin_radius: Annotated[str, typer.Option("--pin-radius", help="Distance of the pin from its own axis.")],
-    offset: Annotated[str, typer.Option("--offset", help="Distance of the two axes.")],
-    friction: Annotated[str, typer.Option("--friction", help="Friction of the pin along the slot.")] = "0",
-    driver: Annotated[str, typer.Option("--driver", help="Which drives: pin or slot.")] = "pin",
+    pin_radius: Annotated[str, typer.Option("--pin-radius", help="Distance of the pin from the axis of its wheel.")],
+    offset: Annotated[str, typer.Option("--offset", help="Distance between the two axes.")],
+    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction between pin and slot.")] = "0",
+    driver: Annotated[str, typer.Option("--driver", help="Driving member: pin or slot.")] = "pin",
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Analyse the transmission function of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
+    """Compute mean ratio, amplitude and extreme speeds of a pin in a slot or in a follower."""
     from geartrain.report.pair_page import describe_pin
     from geartrain.teeth.pair_results import pin_figures
     from geartrain.teeth.pin_coupling import pin_transmission

@@ -34,7 +34,11 @@ if TYPE_CHECKING:
 
 
 FormOptions = dict[str, str | bool | None]
-Internal = Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")]
+
+_PER_WHEEL = ("shift", "addendum", "dedendum", "radius", "thickness")
+"""Fields with one value for each wheel; other pairs of values are for approach and recess."""
+
+Internal = Annotated[bool, typer.Option("--internal", help="Make the second wheel a ring.")]
 
 
 def option_name(field: str) -> str:
@@ -45,10 +49,11 @@ def option_name(field: str) -> str:
 def own_options(model: type[ToothForm]) -> dict[str, tuple[type, str]]:
     """Return type and help text of the options of a form, by the names of its fields.
 
-    Forms that keep their design at any centre distance have no option for it. Fields for the time domain have no option.
+    Forms that keep their design at any centre distance have no option for it. Fields for the time domain have no
+    option.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
-    return {name: _option(field) for name, field in model.model_fields.items() if name not in hidden}
+    return {name: _option(name, field) for name, field in model.model_fields.items() if name not in hidden}
 
 
 def form_command(
@@ -88,16 +93,16 @@ def form_command(
     return command
 
 
-def _option(field: FieldInfo) -> tuple[type, str]:
-    text = (field.description or "").replace("a list of two", "two with a comma")
+def _option(name: str, field: FieldInfo) -> tuple[type, str]:
+    text = (field.description or "").replace("a list of two", "two values separated by a comma")
     if isinstance(field.default, bool):
         return bool, f"{text}."
     if any(each not in text for each in _words(field.annotation)):
         text += f": {', '.join(_words(field.annotation))}"
     if field.default is not None and not field.is_required():
         text += f"; default {field.default}"
-    if _is_pair(field.annotation) and "two with a comma" not in text:
-        text += "; two with a comma"
+    if _is_pair(field.annotation) and "comma" not in text:
+        text += "; one value, or two separated by a comma" + (" (first, second wheel)" if name in _PER_WHEEL else "")
     return str, f"{text}."
 
 
@@ -145,8 +150,8 @@ def _value(field: FieldInfo, given: str | bool) -> Any:
 def read_shaft_angle(internal: bool, bevel: str | None) -> float | None:
     """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
     if internal and bevel is not None:
-        why = "a ring's axis is parallel to its pinion's"
-        raise GearTrainError(Problem("a ring is no bevel wheel", why, "give --internal or --bevel", "--bevel"))
+        why = "a ring and its pinion have parallel axes"
+        raise GearTrainError(Problem("a ring is not a bevel wheel", why, "give --internal or --bevel", "--bevel"))
     return None if bevel is None else quantity("--bevel", bevel, "angle")
 
 
@@ -154,11 +159,11 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels. Raises `GearTrainError`."""
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
-        why = "teeth that lean are known of wheels on parallel axes"
+        why = "helical teeth are implemented for parallel axes only"
         raise GearTrainError(Problem("bevel wheels have no helix angle", why, "give --bevel or --helix", "--helix"))
     if not 0 <= angle < pi / 2:
         what = f"a helix angle of {helix} is outside 0 to 90 deg"
-        raise GearTrainError(Problem(what, "it is counted from the axis", "give for example --helix 20deg", "--helix"))
+        raise GearTrainError(Problem(what, "it is measured from the axis", "give for example --helix 20deg", "--helix"))
     return angle
 
 
@@ -169,7 +174,7 @@ def read_module(module: str | None, backlash: str | None = None) -> float | None
     """
     size = None if module is None else quantity("--module", module, "length")
     if size is not None and size <= 0:
-        raise GearTrainError(Problem(f"a module of {module} is no size", "", "give a module above 0", "--module"))
+        raise GearTrainError(Problem(f"the module {module} is not positive", "", "give a module above 0", "--module"))
     if size is None and backlash is not None and quantity("--backlash", backlash, "length", plain=True):
         _check_plain(backlash)
     return size
@@ -179,9 +184,11 @@ def _check_plain(backlash: str) -> None:
     from geartrain.numerics.quantity import Quantity
 
     if Quantity.parse(backlash, "length", True).unit is not None:
-        why = "forms are in modules, and nothing says how long one is"
+        why = "sizes of a tooth form are in modules"
         fix = "give for example --module 2mm, or the backlash as a plain number of modules"
-        raise GearTrainError(Problem(f"a backlash of {backlash} has nothing to be compared with", why, fix, "--module"))
+        raise GearTrainError(
+            Problem(f"the backlash {backlash} has a unit, but the module is unknown", why, fix, "--module")
+        )
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, bevel: str | None) -> WheelPair:
@@ -204,7 +211,7 @@ def pair_in_mesh(form: ToothForm, wheels: MeshingWheels, shaft_angle: float | No
     from geartrain.teeth.meshing_wheels import MeshDriver
 
     mesh = form.mesh(wheels, lambda: shaft_angle)
-    assert mesh is not None  # ideal teeth are no form to ask about
+    assert mesh is not None  # ideal teeth have no command
     return mesh.driven_by(MeshDriver(wheels.gear.pair[driver - 1], ""))
 
 
@@ -233,9 +240,11 @@ def two_wheels(
 Profile = Annotated[
     Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
 ]
-WheelNumber = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")]
-Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")]
-Tolerance = Annotated[str, typer.Option("--tolerance", help="With --profile: how far chords may leave a flank.")]
+WheelNumber = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: number of the wheel, 1 or 2.")]
+Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the bore, such as 5mm.")]
+Tolerance = Annotated[
+    str, typer.Option("--tolerance", help="With --profile: maximum deviation of chords from a flank.")
+]
 FINE = "0.001mm"
 """Default chord tolerance of outlines."""
 
@@ -246,7 +255,7 @@ def profile_sink(profile: Path | None, force: bool) -> Sink:
 
     to = sink(profile, force, option="--profile")
     if to.path is not None and to.suffix not in OUTLINES:
-        what = f"'{to.suffix}' is no form of outline"
+        what = f"'{to.suffix}' is not an outline format"
         raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
     return to
 
@@ -270,8 +279,8 @@ def _blank_sizes(module: float | None, sizes: Mapping[str, str | None]) -> Blank
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
-        why = "an outline is to scale, and nothing gives these wheels a size"
-        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+        why = "an outline is written to scale"
+        raise GearTrainError(Problem("the module is missing", why, "give for example --module 2mm", "--module"))
     given = {name: 1000 * quantity(f"--{name}", text, "length") for name, text in sizes.items() if text is not None}
     return BlankSizes(1000 * module, **given)
 
@@ -283,11 +292,11 @@ Friction = Annotated[
     str,
     typer.Option(
         "--friction",
-        help="Coefficient of friction, or a law of speed: buckingham, dokos, "
+        help="Coefficient of friction, or a friction law: buckingham, dokos, "
         "'stribeck,static=0.2,kinetic=0.08,speed=10 mm/s', or a table.",
     ),
 ]
-Rate = Annotated[str | None, typer.Option("--rate", help="Speed of the driver, such as '1 turn/s'.")]
+Rate = Annotated[str | None, typer.Option("--rate", help="Speed of the driving wheel, such as '1 turn/s'.")]
 
 
 @dataclass(frozen=True)
@@ -303,8 +312,10 @@ class PairFrictionOption:
         number.
         """
         if self.law is not None:
-            what = f"{option} asks for friction as a number"
-            raise GearTrainError(Problem(what, "a law of speed was given", "give a coefficient", "--friction"))
+            what = f"{option} needs a coefficient of friction"
+            raise GearTrainError(
+                Problem(what, "a friction law is given", "give for example --friction 0.1", "--friction")
+            )
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
@@ -313,10 +324,10 @@ class PairFrictionOption:
             return mesh
         radius = mesh.pitch_radius
         if radius is None or rate is None:
-            missing = {"--rate": ("fast", rate), "--module": ("large", radius)}
+            missing = {"--rate": ("the speed of the driver", rate), "--module": ("the module", radius)}
             lacking = {option: word for option, (word, value) in missing.items() if value is None}
-            what = f"friction by the law '{self.law.law}' depends on the speed of the pair"
-            why = f"nothing says how {' or '.join(lacking.values())} it is"
+            what = f"the friction law '{self.law.law}' depends on the sliding speed"
+            why = f"unknown: {' and '.join(lacking.values())}"
             raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts
@@ -345,7 +356,7 @@ def _problem(item: Any) -> Problem:
         from geartrain.train.validation import unknown_tag
 
         given = item["ctx"]["tag"]
-        return Problem(f"there is no law of friction '{given}'", "", suggest(given, unknown_tag(item)[1]), "--friction")
+        return Problem(f"'{given}' is not a friction law", "", suggest(given, unknown_tag(item)[1]), "--friction")
     key = ".".join(str(step) for step in item["loc"][1:])
     what = f"{key}: {item['msg']}" if key else item["msg"]
     return Problem(what, "", str((item.get("ctx") or {}).get("fix", "see docs/shapes.md, section 15")), "--friction")

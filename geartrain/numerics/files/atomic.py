@@ -60,7 +60,7 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(data)
-            temporary.chmod(0o666 & ~umask())  # `mkstemp` lets the owner alone read what is to be a plain file
+            temporary.chmod(0o666 & ~umask())  # `mkstemp` makes the file readable by its owner only
             place(temporary, path, force)
         finally:
             temporary.unlink(missing_ok=True)
@@ -75,7 +75,9 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
-        os.fsync(file.fileno())  # before it takes the name: or a power failure leaves the new name with no content
+        os.fsync(
+            file.fileno()
+        )  # before renaming: a power failure could otherwise leave the new name with an empty file
     if real.exists():
         _inherit(real, temporary)
     if force or not _link(temporary, real, path):
@@ -86,13 +88,13 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
     """Convert an error of the disk to a `GearTrainError` for a file that could not be written."""
     why = getattr(error, "strerror", None) or str(error)
-    fix = "make room, or check the folder and its permissions"
+    fix = "free disk space, or check the folder and its permissions"
     return GearTrainError(Problem("the file cannot be written", why, fix, str(path)))
 
 
 def umask() -> int:
     """Return the permission bits that are removed from new files."""
-    mask = os.umask(0)  # it can be read by setting it only
+    mask = os.umask(0)  # it can only be read by setting it
     os.umask(mask)
     return mask
 
@@ -105,26 +107,26 @@ def _look(path: Path) -> tuple[Path, int | None]:
     try:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
-        mode = None  # or a link to a file that is still to be made
+        mode = None  # also a link to a file that does not exist yet
     except NotADirectoryError:
-        mode = None  # the check of the folder says so
+        mode = None  # `_folder` reports this
     return Path(os.path.realpath(path)), mode
 
 
 def _kind(path: Path, mode: int | None) -> Problem | None:
     if mode is None or stat.S_ISREG(mode):
         return None
-    kind = next((name for is_kind, name in _KINDS if is_kind(mode)), "no ordinary file")
+    kind = next((name for is_kind, name in _KINDS if is_kind(mode)), "not a regular file")
     if stat.S_ISDIR(mode):
-        fix = f"name a file in it: {path / 'NAME'}"
-        return Problem("this is a folder", "a result is one file", fix, str(path))
-    why = "a result takes the place of a regular file only"
-    return Problem(f"this is {kind}", why, "name a file; - is standard output", str(path))
+        fix = f"give a file in it: {path / 'NAME'}"
+        return Problem("this is a folder", "a result is written to one file", fix, str(path))
+    why = "a result can overwrite only a regular file"
+    return Problem(f"this is {kind}", why, "give a file name, or - for standard output", str(path))
 
 
 def _name(path: Path) -> Problem | None:
     if path.name in ("", "..") or not path.name.isprintable():
-        return _unnamed(path, "a file has a name of printable letters")
+        return _unnamed(path, "a file name must consist of printable characters")
     return None
 
 
@@ -132,10 +134,12 @@ def _folder(path: Path, real: Path) -> Problem | None:
     folder = real.parent
     if not folder.is_dir():
         return Problem(
-            "there is no such folder", f"the file would stand in {folder}", "make the folder first", str(path)
+            "the folder does not exist", f"the file would be in {folder}", "create the folder first", str(path)
         )
     if not os.access(folder, os.W_OK | os.X_OK):
-        return Problem("the folder cannot be written to", "its permissions forbid it", "name another", str(folder))
+        return Problem(
+            "the folder cannot be written to", "its permissions forbid it", "give another folder", str(folder)
+        )
     return None
 
 
@@ -144,17 +148,22 @@ def _old(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
     if not force:
         return _exists(path)
     if not mode & 0o222 or not os.access(real, os.W_OK):
-        why = f"its permissions ({stat.filemode(mode)}) forbid writing, and --force does not lift them"
-        return Problem("the file is read-only", why, "make it writable, or name another", str(path))
+        why = f"its permissions ({stat.filemode(mode)}) forbid writing, and --force does not change them"
+        return Problem("the file is read-only", why, "make it writable, or give another name", str(path))
     return None
 
 
 def _exists(path: Path) -> Problem:
-    return Problem("the file exists", "nothing is written over unasked", "give --force, or another name", str(path))
+    return Problem(
+        "the file exists",
+        "existing files are overwritten only with --force",
+        "give --force, or another name",
+        str(path),
+    )
 
 
 def _unnamed(path: Path, why: str) -> Problem:
-    return Problem("this is no name for a file", why, "choose a shorter or plainer name", repr(str(path)))
+    return Problem("this is not a valid file name", why, "choose a shorter or simpler name", repr(str(path)))
 
 
 # ------------------------------------------------------------------------------------------------------ taking a name
@@ -185,7 +194,7 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
 
 
 def _settle(folder: Path) -> None:
-    """Flush a folder to disk, so that the new name survives a power failure, on systems that support this."""
+    """Write a folder to disk (fsync), so that the new name survives a power failure, on systems that support this."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -201,29 +210,29 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
-        raise GearTrainError(Problem("this is no folder", "many files are to be written", "name a folder", place))
+        raise GearTrainError(Problem("this is not a folder", "several files are to be written", "give a folder", place))
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     if not os.access(nearest, os.W_OK | os.X_OK):
         raise GearTrainError(
-            Problem("the folder cannot be written to", "its permissions forbid it", "name another", place)
+            Problem("the folder cannot be written to", "its permissions forbid it", "give another folder", place)
         )
     there = [name for name in names if os.path.lexists(folder / name)]
     for name in there:
-        destination(folder / name, force=True)  # what is no regular file, or read-only, is said to be that
+        destination(folder / name, force=True)  # raises the error for a file that is not regular or is read-only
     if there and not force:
         others = len(there) - 1
-        more = f" and {plural(others, 'other file')} exist" if others else " exists"
-        what = f"'{there[0]}'{more} there already"
+        more = f" and {plural(others, 'other file')} are" if others else " is"
+        what = f"'{there[0]}'{more} already in the folder"
         raise GearTrainError(
-            Problem(what, "nothing is written over unasked", "give --force, or an empty folder", place)
+            Problem(what, "existing files are overwritten only with --force", "give --force, or an empty folder", place)
         )
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
     """Write files by name into a folder, all of them or none, and return their number.
 
-    The files are created in a temporary folder next to it and moved when all are complete. Existing files are overwritten
-    only with `force`. Raises `GearTrainError`.
+    The files are created in a temporary folder next to it and moved when all are complete. Existing files are
+    overwritten only with `force`. Raises `GearTrainError`.
     """
     made: list[str] = []
     try:

@@ -36,10 +36,12 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
     found = partial_name(destination(path, force))
     if found.is_symlink():
         fix = "remove it, or give another name"
-        raise GearTrainError(Problem("this is a symbolic link", "a partial file is none", fix, str(found)))
+        raise GearTrainError(
+            Problem("this is a symbolic link", "a partial file must be a regular file", fix, str(found))
+        )
     if found.exists() and not (force or resume):
-        destination(found, force=True)  # what is no regular file is said to be that
-        why, fix = "an interrupted run left it", "give --resume to go on with it, or --force to begin again"
+        destination(found, force=True)  # raises the error for a file that is not regular
+        why, fix = "an interrupted run left it", "give --resume to continue it, or --force to begin again"
         raise GearTrainError(Problem("the partial file exists", why, fix, str(found)))
     return destination(found, force=True)
 
@@ -71,7 +73,7 @@ class LongTable:
             raise unfinished_file(self.partial, error) from None
 
     def _take_up(self) -> int:
-        """Truncate the partial file after the last complete row; return the number of complete rows."""
+        """Cut the partial file off after its last complete row; return the number of complete rows."""
         rows, end = -1, 0
         with self.partial.open("rb") as file:
             for line in file:
@@ -80,9 +82,9 @@ class LongTable:
                 if rows < 0 and line.decode("utf-8").rstrip("\n") != self.header:
                     raise GearTrainError(
                         Problem(
-                            "the partial file is of another run",
+                            "the partial file belongs to another run",
                             f"its columns are {line.decode('utf-8').rstrip()}",
-                            "ask for the same outputs, or leave --resume out to begin again",
+                            "request the same outputs, or omit --resume to begin again",
                             str(self.partial),
                         )
                     )
@@ -132,7 +134,7 @@ class ColumnTable:
 
     def __init__(self, path: Path, about: Mapping[str, str], force: bool = False, replay: bool = False) -> None:
         try:
-            self._arrow: Any = import_module("pyarrow")  # it carries no types
+            self._arrow: Any = import_module("pyarrow")  # it has no type annotations
             import_module("pyarrow.parquet")
         except ImportError:
             raise MissingExtraError("pyarrow", "tables", "Parquet") from None
@@ -164,7 +166,7 @@ class ColumnTable:
             if kind is None:
                 place(self.partial, self.path, self.force)
         except OSError as trouble:
-            if kind is None:  # else what ended the run is said, not this
+            if kind is None:  # otherwise the error that ended the run is reported
                 raise unfinished_file(self.partial, trouble) from None
 
 
@@ -173,7 +175,9 @@ _FORMULA = ("=", "@", "+", "-", "\t", "\r", "\n")
 
 
 def csv_line(cells: Iterable[object]) -> str:
-    r"""Format one row as CSV without a line end, with quotes where needed, None as empty text and floats with all digits.
+    r"""Format one row as CSV without a line end, quoted where needed.
+
+    None becomes empty text, and floats have all digits.
 
     A text that a spreadsheet would interpret as a formula gets an apostrophe in front, except numbers and fractions.
     Control characters are escaped, so that a row is always one line of a file.
@@ -219,8 +223,8 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
         try:
             x, y, z = map(float, words)
         except ValueError:
-            text = f"'{' '.join(words)}' is no point"
-            problems.append(Problem(text, "a point is three numbers", "write x y z", f"{path}:{at}"))
+            text = f"'{' '.join(words)}' is not a point"
+            problems.append(Problem(text, "a point consists of three numbers", "write x y z", f"{path}:{at}"))
         else:
             points.append((x, y, z))
     if problems:
@@ -239,8 +243,10 @@ def read_edges(path: Path) -> list[tuple[str, str]]:
         if len(words) == 2:
             edges.append((words[0], words[1]))
         else:
-            text = f"'{' '.join(words)}' is no mesh"
-            problems.append(Problem(text, "a mesh is two names", "write the two gears", f"{path}:{at}"))
+            text = f"'{' '.join(words)}' is not a mesh"
+            problems.append(
+                Problem(text, "a mesh consists of two names", "write the names of two gears", f"{path}:{at}")
+            )
     if problems:
         raise GearTrainError(problems)
     return edges
@@ -251,7 +257,9 @@ def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise GearTrainError(Problem("the file cannot be read", str(why), "check its name", str(path))) from None
+        raise GearTrainError(
+            Problem("the file cannot be read", str(why), "check its name and contents", str(path))
+        ) from None
     for at, line in enumerate(text.splitlines(), 1):
         if words := line.partition("#")[0].replace(",", " ").split():
             yield at, words

@@ -19,15 +19,17 @@ from geartrain.errors import GearTrainError, MissingExtraError, Problem
 from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
 
 try:
-    dask: Any = import_module("dask")  # it carries no types
-    dask.config.set({"logging": {"distributed": "critical", "distributed.client": "critical"}})  # errors are raised
+    dask: Any = import_module("dask")  # it has no type annotations
+    dask.config.set(
+        {"logging": {"distributed": "critical", "distributed.client": "critical"}}
+    )  # errors are raised instead
     distributed: Any = import_module("distributed")
 except ImportError:
     raise MissingExtraError("distributed", "dask", "work on a cluster") from None
 
-_ANSWER = 5.0  # s: for the scheduler to answer, and for a first worker to be there
-_PATIENCE = 60.0  # s without any worker, after which none is expected to come back
-_DEATHS = 2  # deaths that a task counts which dask has given up: it is run alone before it is blamed
+_ANSWER = 5.0  # s to wait for the scheduler, and for a first worker
+_PATIENCE = 60.0  # s without any worker after which the run fails
+_DEATHS = 2  # deaths counted for a task that dask gave up: it is run without others before it is reported
 
 
 class DaskPool(WorkerPool):
@@ -36,12 +38,12 @@ class DaskPool(WorkerPool):
     def __init__(self, address: str, answer: float = _ANSWER) -> None:
         self._address, self._seen = address, monotonic()
         try:
-            with ThreadPoolExecutor(1) as aside:  # a notebook has a loop of its own running in this thread
+            with ThreadPoolExecutor(1) as aside:  # in a notebook, this thread already runs an event loop
                 aside.submit(asyncio.run, _knock(address, answer)).result()
             self._client = distributed.Client(address, timeout=answer, set_as_default=False)
         except (OSError, ValueError) as error:
             fix = "check the address, and that `dask scheduler` runs there and prints the same address"
-            raise GearTrainError(Problem(f"no dask scheduler answers at {address!r}", str(error), fix)) from None
+            raise GearTrainError(Problem(f"no dask scheduler responds at {address!r}", str(error), fix)) from None
         try:
             self._client.wait_for_workers(1, timeout=answer)
             theirs = set(self._client.run(version, "geartrain", on_error="return").values())
@@ -52,9 +54,13 @@ class DaskPool(WorkerPool):
             self.dismiss()
             fix = f"install geartrain {ours} with the extra 'dask' for the scheduler and all workers"
             found = ", ".join(sorted(map(str, theirs)))
-            raise GearTrainError(Problem(f"the cluster at {address} runs another geartrain than {ours}", found, fix))
+            raise GearTrainError(
+                Problem(
+                    f"the cluster at {address} runs another version of geartrain than {ours}", f"it runs {found}", fix
+                )
+            )
         self._threads: int = sum(self._client.nthreads().values())
-        self._executor = self._client.get_executor(pure=False)  # results are never taken from a cache
+        self._executor = self._client.get_executor(pure=False)  # results must not be taken from a cache
 
     @property
     def width(self) -> int:
@@ -78,12 +84,14 @@ class DaskPool(WorkerPool):
 
     def dismiss(self) -> None:
         """Cancel pending tasks and disconnect; the cluster continues to run."""
-        with suppress(Exception):  # a client that lost its scheduler may fail to say goodbye
+        with suppress(Exception):  # a client that lost its scheduler may fail to disconnect
             self._client.close(timeout=2)
 
     def _empty(self, what: str, seconds: float) -> GearTrainError:
-        fix = f"start some: `dask worker {self._address} --nthreads 1`, one for each core"
-        return GearTrainError(Problem(f"the scheduler at {self._address} {what}", f"none for {seconds:g} s", fix))
+        fix = f"start workers: `dask worker {self._address} --nthreads 1`, one for each core"
+        return GearTrainError(
+            Problem(f"the scheduler at {self._address} {what}", f"no worker was connected for {seconds:g} s", fix)
+        )
 
 
 async def _knock(address: str, answer: float) -> None:

@@ -74,10 +74,10 @@ def open_executor(
 
 def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
     if workers is not None and dask is not None:
-        why = "the number of workers of a cluster is set where it is started"
-        raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give one of the two"))
+        why = "the number of workers of a cluster is set when it is started"
+        raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give only one of them"))
     if workers is not None and workers < 1:
-        raise QuestionError(Problem(f"{workers} workers", "at least one is needed to do the work", "ask for 1 or more"))
+        raise QuestionError(Problem(f"{workers} workers", "at least one worker is needed", "give 1 or more"))
     if dask is not None:
         from geartrain.numerics.work.cluster import DaskPool
 

@@ -29,8 +29,8 @@ from geartrain.errors import GearTrainError, Problem, QuestionError
 
 _START = b'{"geartrain journal":1,'
 _LINE = re.compile(rb'\{"crc":"([0-9a-f]{8})",("task":(\d{1,12}),"mark":"([0-9a-f]*)","result":(.*)\})\n')
-_LONGEST = 10**7  # bytes of a first line: what is longer is no journal
-_BREATH = 1.0  # s: what a power failure may cost; a kill costs no finished result
+_LONGEST = 10**7  # bytes: a file with a longer first line is not a journal
+_BREATH = 1.0  # s between flushes to disk: a power failure loses at most this; a kill loses no finished result
 
 
 class Journal:
@@ -72,14 +72,16 @@ class Journal:
         plain = json.loads(json.dumps(question))
         header = _START + f'"question":{json.dumps(plain, ensure_ascii=False)}}}\n'.encode()
         if len(header) >= _LONGEST:
-            raise _refused("the question is too long for a journal", "10 MB and more", "say it shorter", self.path)
-        self._at = array("q")  # where the line of a task begins; -1: not kept
+            raise _refused("the question is too long for a journal", "it has 10 MB or more", "shorten it", self.path)
+        self._at = array("q")  # position of the line of a task in the file; -1: not stored
         self._count, self._synced, self._dirty = 0, monotonic(), False
         if self.path.exists() and not self.path.is_file():
-            raise _refused("the file is no journal", "it is no regular file", "remove it, or name another", self.path)
+            raise _refused(
+                "the file is not a journal", "it is not a regular file", "remove it, or give another name", self.path
+            )
         try:
             with ExitStack() as opened:
-                # whatever was read last, writes go to the end
+                # append mode: writes go to the end wherever the reader is
                 self._file = opened.enter_context(self.path.open("a+b", buffering=0))
                 self._reader = opened.enter_context(self.path.open("rb"))
                 opened.enter_context(_only_writer(self.path))
@@ -100,15 +102,15 @@ class Journal:
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
         if not begun or len(first) == _LONGEST:
-            why = "it does not begin like one"
-            raise _refused("the file is no journal", why, "name another file", self.path)
+            why = "its first line is not that of a journal"
+            raise _refused("the file is not a journal", why, "give another file", self.path)
         if torn or not resume:
             return 0
         try:
             theirs = json.loads(first)["question"]
         except (ValueError, KeyError):
             why = "its first line, the question, is damaged"
-            raise _refused("the journal cannot be taken up", why, "remove it to begin again", self.path) from None
+            raise _refused("the journal cannot be resumed", why, "remove it to begin again", self.path) from None
         self._compare(theirs, question)
         end = len(first)
         for line in self._reader:
@@ -151,10 +153,15 @@ class Journal:
         except OSError as error:
             raise _trouble(self.path, error) from None
         if found is None:
-            raise _refused(f"task {task} cannot be read back", "the journal was changed", "begin again", self.path)
+            raise _refused(
+                f"task {task} of the journal cannot be read",
+                "the file was changed during the run",
+                "begin again",
+                self.path,
+            )
         if found[4].decode() != mark:
-            why = "the work was cut into other pieces when this journal was begun"
-            raise _refused(f"task {task} of the journal is another task now", why, "begin again", self.path)
+            why = "the work was divided into other tasks when this journal was begun"
+            raise _refused(f"task {task} of the journal is now another task", why, "begin again", self.path)
         return found[5].decode()
 
     def keep(self, task: int, mark: str, text: str) -> None:
@@ -202,7 +209,7 @@ class Journal:
     def close(self) -> None:
         """Close the file, flushed to disk, so that it can be resumed later."""
         if not self.closed:
-            with suppress(OSError):  # a full disk was reported by the write that met it
+            with suppress(OSError):  # a full disk was already reported by the write
                 self._sync()
             self._shut()
 
@@ -230,11 +237,13 @@ def _only_writer(path: Path) -> Iterator[None]:
     try:
         lock.acquire()
     except Timeout:
-        raise _refused("another run is writing this journal", "two at once would mix", "wait for it", path) from None
+        raise _refused(
+            "another run is writing this journal", "two runs would mix their results", "wait for its end", path
+        ) from None
     try:
         yield
     finally:
-        # Unix: removed while locked, so that nobody locks a file that is about to go; Windows removes it on release
+        # Unix: removed while locked, so that nobody locks a file about to be removed; Windows removes it on release
         with suppress(OSError):
             Path(lock.lock_file).unlink()
         lock.release()
@@ -251,8 +260,8 @@ def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
 
 
 def _another(difference: str, path: Path) -> Problem:
-    fix = "ask the same question to resume; leave --resume out, or remove the file, to begin again"
-    return Problem("the journal is of another question", difference, fix, str(path))
+    fix = "give the same options to resume; omit --resume, or remove the file, to begin again"
+    return Problem("the journal belongs to another question", difference, fix, str(path))
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
@@ -291,4 +300,6 @@ def _refused(what: str, why: str, fix: str, path: Path) -> QuestionError:
 
 def _trouble(path: Path, error: OSError) -> GearTrainError:
     why = error.strerror or str(error)
-    return GearTrainError(Problem("the journal cannot be kept", why, "check the folder and its permissions", str(path)))
+    return GearTrainError(
+        Problem("the journal cannot be read or written", why, "check the folder and its permissions", str(path))
+    )

@@ -21,14 +21,14 @@ from typing import Any
 
 from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
 
-_MOST = 61 if sys.platform == "win32" else 10_000  # as many processes as Windows can wait for
+_MOST = 61 if sys.platform == "win32" else 10_000  # processes: Windows cannot wait for more
 
 
 class ProcessPool(WorkerPool):
     """Up to `workers` processes, started when they are needed and replaced when one dies; `waits` as in `WorkerPool`.
 
-    The processes end with this process, however it ends. Each of them has one end of a pipe, the leash, and exits when the
-    other end is closed.
+    The processes end with this process, however it ends. Each of them has one end of a pipe, the leash, and exits when
+    the other end is closed.
     """
 
     def __init__(self, workers: int, waits: bool = False) -> None:
@@ -37,7 +37,7 @@ class ProcessPool(WorkerPool):
         self._context = get_context("spawn")
         self._leash, self._hand = self._context.Pipe(duplex=False)
         self._pool: ProcessPoolExecutor | None = None
-        self._open: dict[Future[Any], Future[Any]] = {}  # the pool's, ours
+        self._open: dict[Future[Any], Future[Any]] = {}  # the pool's future -> the future given to the caller
         self._shut = False
 
     @property
@@ -71,7 +71,7 @@ class ProcessPool(WorkerPool):
         self._open.pop(theirs, None)
 
     def _handed(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        # a pool is made outside: it starts the tracker of multiprocessing, which lets signals through again
+        # outside `_deaf`: creating a pool starts the resource tracker of multiprocessing, which unblocks signals
         if self._pool is None:
             self._pool = ProcessPoolExecutor(self._workers, self._context, _begin, (self._leash,))
         with _deaf():
@@ -106,7 +106,7 @@ class ProcessPool(WorkerPool):
 
 
 def _bear_cancellation(future: Future[Any]) -> None:
-    """Let a cancelled future ignore a later exception.
+    """Make a cancelled future ignore a later exception.
 
     When workers end just after a future was cancelled, the pool's thread still tries to set an exception on it. Before
     Python 3.12 that ends the thread with a traceback, and the other futures never complete.
@@ -128,7 +128,8 @@ def _translate(error: BaseException) -> BaseException:
 def _deaf() -> Iterator[None]:
     """Start processes with SIGINT blocked, also before `_begin`; only the parent process handles Ctrl-C.
 
-    A process inherits the blocked signals of its parent. A signal in the meantime is delivered to the parent afterwards.
+    A process inherits the blocked signals of its parent. A signal in the meantime is delivered to the parent
+    afterwards.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield

@@ -29,13 +29,13 @@ from geartrain.numerics.work.worker_pool import WorkerPool
 TaskFunction = Callable[[Any], Any]
 ProgressReport = Callable[[int, int], None]
 
-_ALONE = 2  # deaths of workers after which a task runs with no other beside it, so that none is blamed for another
-_ENOUGH = 4  # deaths after which it is given up
-_IN_FLIGHT = 4  # tasks handed over for each one that runs, so that no worker waits for this process
-_AHEAD = 64  # how far, for each worker, results may be ahead of the first one that is missing
-_BETWEEN_WORDS = 0.1  # s between two calls of `tell`
-_BETWEEN_LOOKS = 2.0  # s between two looks at how the executor is
-_SMALL = 1.0  # s of work that this process does itself: a new process takes about as long to start
+_ALONE = 2  # deaths of workers after which a task runs without others, so that the faulty task is identified
+_ENOUGH = 4  # deaths of workers after which the run fails
+_IN_FLIGHT = 4  # tasks submitted per worker, so that no worker waits for this process
+_AHEAD = 64  # results per worker that may be ahead of the first missing one, which limits memory
+_REPORT_INTERVAL = 0.1  # s between two calls of `tell`
+_CHECK_INTERVAL = 2.0  # s between two checks of the executor
+_SMALL = 1.0  # s of work that this process does first: starting a process takes about as long
 
 
 def run(
@@ -47,8 +47,8 @@ def run(
 ) -> Iterator[Any]:
     """Yield `work(task)` for each task, in their order.
 
-    The death of a worker loses only its unfinished tasks, which are repeated. A task that repeatedly kills workers is run
-    without others before it is reported. Pending tasks are cancelled however the iterator ends.
+    The death of a worker loses only its unfinished tasks, which are repeated. A task that repeatedly kills workers is
+    run without others before it is reported. Pending tasks are cancelled however the iterator ends.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def run(
     >>> list(run(abs, [-3, 4]))
     [3, 4]
     """
-    pace = _Pace(tell, len(tasks) if isinstance(tasks, Sized) else 0)
+    pace = _Progress(tell, len(tasks) if isinstance(tasks, Sized) else 0)
     if executor is None or (isinstance(executor, WorkerPool) and not executor.carries(work)):
         return _here(work, tasks, journal, pace)
     return _Run(work, tasks, executor, journal, pace).results()
@@ -120,7 +120,7 @@ class Execution:
         return run(work, tasks, self.executor, self.journal, self.tell)
 
 
-def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Pace) -> Iterator[Any]:
+def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Progress) -> Iterator[Any]:
     """Yield the results of all tasks, computed in this process one after another."""
     pace.step(0)
     for index, task in enumerate(tasks):
@@ -135,18 +135,18 @@ def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pac
     pace.end()
 
 
-class _Pace:
+class _Progress:
     """Counter of finished tasks that limits the rate of progress reports."""
 
     def __init__(self, tell: ProgressReport | None, total: int) -> None:
         self.tell, self.total, self.done = tell, total, 0
         self._said = -1
-        self._at = -_BETWEEN_WORDS
+        self._at = -_REPORT_INTERVAL
 
     def step(self, count: int = 1) -> None:
         """Count further tasks as done and report if due."""
         self.done += count
-        if self.tell and (monotonic() - self._at >= _BETWEEN_WORDS or self.done == self.total):
+        if self.tell and (monotonic() - self._at >= _REPORT_INTERVAL or self.done == self.total):
             self._say(self.tell)
 
     def end(self) -> None:
@@ -160,7 +160,7 @@ class _Pace:
 
 
 @dataclass(slots=True)
-class _Flight:
+class _Submission:
     """A submitted task; `deaths` counts the workers that died while it was running or queued."""
 
     index: int
@@ -173,16 +173,16 @@ class _Run:
     """Run of tasks by an executor. Futures report to a queue when they end, and only this thread acts on them."""
 
     def __init__(
-        self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Pace
+        self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Progress
     ) -> None:
         self.work, self.executor, self.journal, self.pace = work, executor, journal, pace
         self.tasks = iter(enumerate(tasks))
         self.ended: SimpleQueue[Future[Any]] = SimpleQueue()
-        self.flying: dict[Future[Any], _Flight] = {}
-        self.again: deque[_Flight] = deque()
+        self.flying: dict[Future[Any], _Submission] = {}
+        self.again: deque[_Submission] = deque()
         self.ready: dict[int, str] = {}
         self.next = self.issued = 0
-        self.hurt = 0  # flights on their way that saw a worker die
+        self.hurt = 0  # submitted tasks that saw a worker die
         self.exhausted = False
         self.looked = monotonic()
 
@@ -243,14 +243,14 @@ class _Run:
                 return
             self._launch(flight)
 
-    def _take(self) -> _Flight | None:
+    def _take(self) -> _Submission | None:
         """Return the next task that is not in the journal; None if there is none yet or none at all."""
         for index, task in self.tasks:
             self.issued = index + 1
             mark = mark_of(task) if self.journal is not None else ""
             text = self.journal.recall(index, mark) if self.journal is not None else None
             if text is None:
-                return _Flight(index, task, mark)
+                return _Submission(index, task, mark)
             self.ready[index] = text
             self.pace.step()
             if self.issued >= self.next + _AHEAD * self._width:
@@ -258,7 +258,7 @@ class _Run:
         self.exhausted = True
         return None
 
-    def _launch(self, flight: _Flight) -> None:
+    def _launch(self, flight: _Submission) -> None:
         if isinstance(self.executor, WorkerPool):
             self.executor.begin(max(self.pace.total - self.pace.done, 0))
         try:
@@ -267,8 +267,8 @@ class _Run:
             raise GearTrainError(
                 Problem(
                     "the executor is broken",
-                    "one of its workers died, and it makes no new ones",
-                    "use the executor that open_executor gives: it survives the death of workers",
+                    "one of its workers died, and it does not start new ones",
+                    "use the executor of open_executor, which survives the death of workers",
                 )
             ) from None
         self.flying[future] = flight
@@ -278,11 +278,11 @@ class _Run:
     def _wait(self) -> Future[Any]:
         """Wait for the next future that ends and return it."""
         while True:
-            if isinstance(self.executor, WorkerPool) and monotonic() - self.looked > _BETWEEN_LOOKS:
+            if isinstance(self.executor, WorkerPool) and monotonic() - self.looked > _CHECK_INTERVAL:
                 self.executor.check()
                 self.looked = monotonic()
             with suppress(Empty):
-                return self.ended.get(timeout=_BETWEEN_LOOKS)
+                return self.ended.get(timeout=_CHECK_INTERVAL)
 
     def _land(self, future: Future[Any]) -> None:
         """Process the result or exception of a finished future."""
@@ -296,7 +296,7 @@ class _Run:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
             raise GearTrainError(
                 Problem(
-                    "the work was cut off", why, "run it again; what was finished is in the journal, if one was kept"
+                    "the work was interrupted", why, "run it again; finished work is in the journal, if there is one"
                 )
             ) from None
         else:
@@ -304,17 +304,17 @@ class _Run:
                 raise outcome.error()
             self._finished(flight, outcome)
 
-    def _finished(self, flight: _Flight, text: str) -> None:
+    def _finished(self, flight: _Submission, text: str) -> None:
         self._keep(flight, text)
         self.ready[flight.index] = text
         self.pace.step()
 
-    def _keep(self, flight: _Flight, text: str) -> None:
+    def _keep(self, flight: _Submission, text: str) -> None:
         if self.journal is not None:
             self.journal.keep(flight.index, flight.mark, text)
 
-    def _died(self, flight: _Flight, times: int) -> None:
-        """Queue a task again after the death of a worker; after repeated deaths it runs without other tasks."""
+    def _died(self, flight: _Submission, times: int) -> None:
+        """Put a task back into the queue after a worker died; after repeated deaths it runs without other tasks."""
         flight.deaths += times
         if flight.deaths >= _ENOUGH:
             raise _deadly(flight)
@@ -328,21 +328,21 @@ class _Run:
             if future.done() and not future.cancelled() and not future.exception():
                 outcome = future.result()
                 if isinstance(outcome, str) and self.journal is not None and not self.journal.closed:
-                    with suppress(GearTrainError):  # it would hide what ends the run
+                    with suppress(GearTrainError):  # it would hide the error that ends the run
                         self._keep(flight, outcome)
         self.flying.clear()
 
 
-def _deadly(flight: _Flight) -> GearTrainError:
+def _deadly(flight: _Submission) -> GearTrainError:
     said = repr(flight.task)
     said = said if len(said) <= 200 else f"{said[:200]}..."
     return GearTrainError(
         Problem(
-            f"task {flight.index} kills the worker that does it: {said}",
-            f"{flight.deaths} worker processes ended with it, the last with no other task beside it: out of memory, "
-            "killed from outside, or they could not start",
-            "give it more memory or smaller pieces, or fewer workers; a script that starts workers needs the line "
-            'if __name__ == "__main__": before what it does',
+            f"task {flight.index} kills its worker: {said}",
+            f"{flight.deaths} worker processes died during it, the last one without other tasks: out of memory, "
+            "killed from outside, or unable to start",
+            "provide more memory, smaller tasks or fewer workers; a script that starts workers needs the line "
+            'if __name__ == "__main__": before its code',
         )
     )
 
@@ -403,16 +403,15 @@ def raised(error: Exception) -> RemoteFailure:
     try:
         pickled = pickle.dumps(error)
         back = pickle.loads(pickled)
-    except Exception:  # pickling calls code of the exception's own
+    except Exception:  # pickling runs code of the exception
         return RemoteFailure(trace)
-    # an exception whose __init__ takes other arguments may come back as another text, or not as itself
+    # an exception whose __init__ takes other arguments may be unpickled with another text or as another class
     faithful = type(back) is type(error) and str(back) == str(error)
     return RemoteFailure(trace, pickled=pickled if faithful else b"")
 
 
 def mark_of(task: Any) -> str:
-    """Return a checksum by which a journal identifies a task; empty if the task is neither plain data nor a Fraction.
-    """
+    """Return a checksum by which a journal identifies a task; empty if the task cannot be written as JSON."""
     try:
         text = json.dumps(task, separators=(",", ":"), default=_fraction)
     except (TypeError, ValueError):

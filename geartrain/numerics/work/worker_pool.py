@@ -41,7 +41,7 @@ class WorkerPool(Executor, ABC):
         return True
 
     def begin(self, tasks: int) -> None:
-        """Announce, the first time, that other processes will do `tasks` tasks (0 if unknown)."""
+        """Report that other processes will do `tasks` tasks (0 if unknown), the first time only."""
         announce, self.announce, self.waits = self.announce, None, False
         if announce is not None:
             announce(tasks, min(self.width, tasks or self.width))
@@ -60,7 +60,7 @@ def follow(theirs: Future[Any], translate: Callable[[BaseException], BaseExcepti
 
     def ended(_: Future[Any]) -> None:
         error = CancelledError() if theirs.cancelled() else theirs.exception()
-        with suppress(InvalidStateError):  # ours was cancelled, or failed with its pool, in the meantime
+        with suppress(InvalidStateError):  # our future was cancelled, or failed with its pool, in the meantime
             if error is None:
                 ours.set_result(theirs.result())
             else:

@@ -93,7 +93,7 @@ def run(
     tried = None
     if trials is not None and over_turn is not None and over_turn.turns is not None:
         options = RunOptions(workers, dask, resume)
-        tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
+        tried = _friction_trials(train, over_turn, (samples, input_), (trials, seed), out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
@@ -108,7 +108,7 @@ def run(
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
     """Compute the torque over some revolutions in the one state with loads."""
-    state = _loaded(train, found, "--turns").state
+    state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
 
@@ -122,7 +122,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
         return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
 
 
-def _tried(
+def _friction_trials(
     train: GearTrain,
     over_turn: TorqueCycle,
     run: tuple[int, str | None],
@@ -145,7 +145,7 @@ def _tried(
     return found
 
 
-def _loaded(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
+def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
     """Return the state that was requested, or the only one with loads."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
@@ -176,7 +176,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     from geartrain.dynamics.torques.train_torques import drive_both_ways
     from geartrain.report.torque_report import summary_text, turns_text
 
-    torques = _loaded(train, found, "--plot")
+    torques = _loaded_state(train, found, "--plot")
     name = train.name if torques.state is None else f"{train.name}, state {torques.state}"
     if over_turn is not None:
         draw(torque_cycle_figure(over_turn, f"{name}: torque over {turns_text(over_turn.span)}"), picture)

@@ -140,17 +140,17 @@ class EndingGroup(TyperGroup):
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Parse the command line; `--help` and `--version` end here."""
-        with _ends():
+        with _translated_exits():
             return super().make_context(*given, **more)
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command that was requested."""
-        with _ends():
+        with _translated_exits():
             return super().invoke(ctx)
 
 
 @contextmanager
-def _ends() -> Iterator[None]:
+def _translated_exits() -> Iterator[None]:
     """Convert exceptions that typer would report differently."""
     try:
         yield
@@ -176,7 +176,7 @@ def guarded(run: Callable[[], Any]) -> int:
     except KeyboardInterrupt:
         return _interrupted()
     except (BrokenPipeError, _ReaderGoneError):
-        _mute()
+        _discard_output()
         return READER_GONE
     except Exception as error:
         if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
@@ -187,9 +187,9 @@ def guarded(run: Callable[[], Any]) -> int:
                 "standard output",
             )
             complain(GearTrainError(what))
-            _mute()
+            _discard_output()
             return NOT_USABLE
-        _tell_fault(error)
+        _report_internal_error(error)
         return FAULT
     return _interrupted() if code == INTERRUPTED else code
 
@@ -214,23 +214,23 @@ def _code(run: Callable[[], Any]) -> int:
     return 0
 
 
-def _mute() -> None:
+def _discard_output() -> None:
     """Send the remaining output to the null device, so that the interpreter does not report an error at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _tell_fault(error: Exception) -> None:
+def _report_internal_error(error: Exception) -> None:
     """Report an internal error in one line on standard error, and write its traceback to a file."""
     text = "".join(traceback.format_exception(error))
     said = printable(str(error).partition("\n")[0])
-    kept = _kept(text)
+    kept = _write_traceback(text)
     how = f"attach {kept} to a bug report" if kept else f"set {TRACEBACK}=1, and attach the traceback to a bug report"
     tell(f"internal error: {type(error).__name__}: {said}; this is an error in geartrain: {how}")
     if os.environ.get(TRACEBACK):
         tell(text)
 
 
-def _kept(text: str) -> str:
+def _write_traceback(text: str) -> str:
     """Write a traceback and the command line to a new file; return its name, or "" if it cannot be created."""
     import platform
     from importlib.metadata import version

@@ -88,12 +88,12 @@ def view(
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
     _check_request(request, dynamics, other)
-    shown = _shown(embed, kiosk, other)
+    shown = _layout(embed, kiosk, other)
     trains = load_all([file] if other is None else [file, other])
     to = _page_sink(out or file_name("-".join(train.name for train in trains), ".html"), force)
     first = dynamics or other is not None
     taken = [(train, each) for train in trains for each in _states(train, state, first)]
-    runs = [_played(train, each, request) if dynamics else None for train, each in taken]
+    runs = [_simulated(train, each, request) if dynamics else None for train, each in taken]
     whole = shown == "page"
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
     _write_page(scenes, to, shown, other is not None, teeth)
@@ -116,7 +116,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
         tell(f"copy it next to your page, and add to your page:\n{frame}")
 
 
-def _shown(embed: bool, kiosk: bool, other: str | None) -> Shown:
+def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
     """Return the layout of a page. Raises `QuestionError` for two layouts, or for two trains in a layout for one."""
     if embed and kiosk:
         raise QuestionError(
@@ -145,7 +145,7 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
         raise QuestionError(Problem("two trains are given with --dynamics", why, "write a page for each", other))
 
 
-def _played(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
+def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
     """Run the simulation that is shown, sampled at every step of its coarser run if the data are not too large."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})

@@ -36,10 +36,12 @@ def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = (
     if len(row_of) < len(rows):
         return None
     taken = [row_of[column] for column in range(len(rows))]
-    return _strong([(*row, *more) for row, more in zip(rows, also, strict=True)] if also else rows, taken)
+    return _strongly_connected_components(
+        [(*row, *more) for row, more in zip(rows, also, strict=True)] if also else rows, taken
+    )
 
 
-def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
+def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
     """Return strongly connected components by Tarjan's algorithm without recursion, in order of dependence."""
     order: dict[int, int] = {}
     low = [0] * len(rows)
@@ -95,8 +97,8 @@ def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int)
     for row, held in rows.items():
         for column in held:
             users[column].append(row)
-    over = _reached([row for row in rows if row not in column_of], rows, row_of)
-    under = _reached([column for column in users if column not in row_of], users, column_of)
+    over = _reachable([row for row in rows if row not in column_of], rows, row_of)
+    under = _reachable([column for column in users if column not in row_of], users, column_of)
     above = {column_of[row] for row in over if row in column_of}
     below = {row_of[column] for column in under if column in row_of}
     parts = [Block(tuple(sorted(over)), tuple(sorted(above)))] if over else []
@@ -122,7 +124,7 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
     Each round visits every column at most once.
     """
     row_of: dict[int, int] = {}
-    free = _peel(rows, row_of)
+    free = _match_forced_rows(rows, row_of)
     while True:
         # shared by all rows of a round: a column without an augmenting path has none until the matching changes
         seen: set[int] = set()
@@ -132,7 +134,7 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
         free = left
 
 
-def _peel(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
+def _match_forced_rows(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
     """Match rows with one remaining column repeatedly (Karp-Sipser heuristic); return the unmatched rows.
 
     This matches trees in linear time.
@@ -179,7 +181,7 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
     return False
 
 
-def _reached(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
+def _reachable(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
     """Return all vertices that alternating paths from the starts reach on their own side."""
     found, queue = set(starts), list(starts)
     for here in queue:

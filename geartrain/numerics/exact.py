@@ -240,18 +240,18 @@ def _digits(number: int) -> str:
         return str(number)
     # `Inexact` is trapped: rounding would raise an error, not print wrong digits
     with localcontext(Context(prec=MAX_PREC, Emax=MAX_EMAX, Emin=-MAX_EMAX, traps=[Inexact])):
-        return ("-" if number < 0 else "") + str(_joined(abs(number), abs(number).bit_length(), {}))
+        return ("-" if number < 0 else "") + str(_to_decimal(abs(number), abs(number).bit_length(), {}))
 
 
-def _joined(number: int, bits: int, powers: dict[int, Decimal]) -> Decimal:
+def _to_decimal(number: int, bits: int, powers: dict[int, Decimal]) -> Decimal:
     """Convert an integer of the given number of bits to a Decimal by divide and conquer."""
     if bits <= _PLAIN:
         return Decimal(number)
     half = bits >> 1
     if half not in powers:
         powers[half] = _power_of_two(half, powers)
-    upper = _joined(number >> half, bits - half, powers)
-    return upper * powers[half] + _joined(number & ((1 << half) - 1), half, powers)
+    upper = _to_decimal(number >> half, bits - half, powers)
+    return upper * powers[half] + _to_decimal(number & ((1 << half) - 1), half, powers)
 
 
 def _power_of_two(exponent: int, powers: dict[int, Decimal]) -> Decimal:

@@ -23,7 +23,7 @@ _SHORT = 256
 _HOPS = 64
 """Number of ratios that are multiplied one after another; longer paths count the powers of their primes."""
 
-_KEPT = 1 << 29
+_CACHE_BITS = 1 << 29
 """Capacity [bit] of the cache of long numbers, 64 MB; numbers read next are likely to be near."""
 
 _SMALL = 1000  # primes up to this are divided out; the cofactor of a number below its square is prime
@@ -76,9 +76,9 @@ class FactoredRatios:
         """Return the value of a number, multiplied out."""
         if self.anchor[at] < 0:
             return coprime(self.top[at], self.bottom[at])
-        return coprime(*self._times(self._anchored(self.anchor[at]), at))
+        return coprime(*self._times(self._anchor_value(self.anchor[at]), at))
 
-    def _anchored(self, at: int) -> Fraction:
+    def _anchor_value(self, at: int) -> Fraction:
         """Return the value of an anchor and cache it for other numbers near it."""
         hops = []
         here = at
@@ -86,33 +86,33 @@ class FactoredRatios:
             hops.append(here)
             here = self.anchor[here]
         if not hops:
-            return self._remembered(here)
+            return self._cached(here)
         if len(hops) > _HOPS:
-            value = self._counted(at)
+            value = self._value_from_powers(at)
         else:
-            value = self._remembered(here)
+            value = self._cached(here)
             for hop in reversed(hops):
                 value = coprime(*self._times(value, hop))
-        self._remember(at, value)
+        self._cache(at, value)
         return value
 
     def _times(self, value: Fraction, at: int) -> tuple[int, int]:
         return times(value.numerator, value.denominator, self.top[at], self.bottom[at])
 
-    def _remembered(self, at: int) -> Fraction:
+    def _cached(self, at: int) -> Fraction:
         if at not in self._recent:
             return coprime(self.top[at], self.bottom[at])
         self._recent.move_to_end(at)
         return self._recent[at]
 
-    def _remember(self, at: int, value: Fraction) -> None:
+    def _cache(self, at: int, value: Fraction) -> None:
         self._recent[at] = value
         self._bits += _bits(value)
-        while self._bits > _KEPT and len(self._recent) > 1:
+        while self._bits > _CACHE_BITS and len(self._recent) > 1:
             _, forgotten = self._recent.popitem(last=False)
             self._bits -= _bits(forgotten)
 
-    def _counted(self, at: int) -> Fraction:
+    def _value_from_powers(self, at: int) -> Fraction:
         """Compute a number from its root and the powers of all ratios along the path."""
         counts: dict[int, int] = {}
         while (parent := self.parent[at]) >= 0:
@@ -145,10 +145,10 @@ def product_of_powers(powers: dict[int, int]) -> Fraction:
             if left > 1:
                 into = primes if left < _SMALL**2 else rough
                 into[left] = into.get(left, 0) + power
-    for factor, power in _parted(rough).items():
+    for factor, power in _coprime_factors(rough).items():
         primes[factor] = primes.get(factor, 0) + power
-    top = _balanced([factor**power for factor, power in primes.items() if power > 0])
-    bottom = _balanced([factor**-power for factor, power in primes.items() if power < 0])
+    top = _product_tree([factor**power for factor, power in primes.items() if power > 0])
+    bottom = _product_tree([factor**-power for factor, power in primes.items() if power < 0])
     if len(rough) > _MOST_ROUGH:  # they were not refined, and may have common factors
         return Fraction(sign * top, bottom)
     return coprime(sign * top, bottom)
@@ -173,7 +173,7 @@ def _small_primes(number: int) -> tuple[tuple[tuple[int, int], ...], int]:
 _PRIMES = [n for n in range(2, _SMALL) if all(n % k for k in range(2, int(n**0.5) + 1))]
 
 
-def _parted(powers: dict[int, int]) -> dict[int, int]:
+def _coprime_factors(powers: dict[int, int]) -> dict[int, int]:
     """Rewrite powers of large numbers as powers of pairwise coprime factors (factor refinement).
 
     More than `_MOST_ROUGH` numbers are returned unchanged, because the refinement takes quadratic time.
@@ -200,7 +200,7 @@ def _parted(powers: dict[int, int]) -> dict[int, int]:
     return found
 
 
-def _balanced(factors: list[int]) -> int:
+def _product_tree(factors: list[int]) -> int:
     """Multiply long numbers by a product tree, the shortest first."""
     if not factors:
         return 1

@@ -49,12 +49,12 @@ def compilation() -> Iterator[None]:
     Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is
     finalised. Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
     """
-    with _hearing(), _interruptible():
+    with _compilation_events(), _interruptible():
         yield
 
 
 @contextmanager
-def _hearing() -> Iterator[None]:
+def _compilation_events() -> Iterator[None]:
     """Call the registered functions when numba begins to compile."""
     if not _listeners:
         yield
@@ -129,7 +129,7 @@ class Kernel(Generic[P, R]):
     def _made(self, **options: bool) -> Callable[P, R]:
         numba = _numba()
         # a copy that calls compiled kernels; the hash in its name makes numba's cache key depend on all of its sources
-        twin = self._twin({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
+        twin = self._copy_with({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
         twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}{'_'.join(['', *options])}"
         made = numba.njit(twin, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)
         with suppress(RuntimeError):  # neither the package's folder nor the user's cache is writable
@@ -143,9 +143,9 @@ class Kernel(Generic[P, R]):
 
     def replaced(self, **kernels: Kernel[..., Any]) -> Kernel[P, R]:
         """Return the function with some of the kernels that it calls directly replaced, by name."""
-        return Kernel(cast("Callable[P, R]", self._twin(kernels)))
+        return Kernel(cast("Callable[P, R]", self._copy_with(kernels)))
 
-    def _twin(self, names: Mapping[str, object]) -> FunctionType:
+    def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
         """Return a copy of the function with some global names bound to other objects."""
         own = self._function
         twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)

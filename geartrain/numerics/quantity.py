@@ -373,7 +373,7 @@ class Quantity:
             figure = Figure.parse(raw)
             if not plain and figure.value:
                 raise _no_unit(text, dimension)
-            return _measured(cls(figure.value, None, text), dimension)
+            return _in_range(cls(figure.value, None, text), dimension)
         unit = " ".join(match[2].split())
         if re.fullmatch(r"[eE][+-]?\d+", unit):
             raise _not_a_number(raw)
@@ -391,20 +391,20 @@ class Quantity:
                 "'{text}' is {found}, but {dimension} is required",
                 {
                     "text": text,
-                    "found": _one(quantity.dimension or "number"),
-                    "dimension": " or ".join(map(_one, dimension.split(" or "))),
+                    "found": _with_article(quantity.dimension or "number"),
+                    "dimension": " or ".join(map(_with_article, dimension.split(" or "))),
                     "fix": f"use one of: {units_of(dimension)}",
                 },
             )
-        return _measured(quantity, dimension)
+        return _in_range(quantity, dimension)
 
 
-def _measured(quantity: Quantity, dimension: str) -> Quantity:
+def _in_range(quantity: Quantity, dimension: str) -> Quantity:
     """Return a quantity that is in the range of its dimension, so that its products and squares are floats too."""
     low, high = bounds_of(dimension)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity
-    noun = _one(quantity.dimension or dimension)
+    noun = _with_article(quantity.dimension or dimension)
     unit = "" if quantity.unit is None else f" {base_unit(scale(quantity.unit)[0])}"
     why = f"{noun} must be from {float(low):g}{unit} to {float(high):g}{unit}"
     raise _out_of_range(quantity.text, why, f"write {noun} in that range")
@@ -437,7 +437,7 @@ def _no_unit(text: str, dimension: str) -> PydanticCustomError:
     )
 
 
-def _one(noun: str) -> str:
+def _with_article(noun: str) -> str:
     """Return a noun with its indefinite article: `a length`, `an angle`."""
     return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
 

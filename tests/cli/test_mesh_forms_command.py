@@ -171,7 +171,7 @@ REFUSED = [
     (["uniform_temperature", *PAIR, "--reading", "d"], "--reading", "'d' does not fit"),
     (["involute", *PAIR, "--friction", "-1"], "--friction", "0 or more"),
     (["involute", *PAIR, "--centre-distance", "20"], "--teeth", "too short"),
-    (["involute", *PAIR, "--backlash", "0.1mm"], "--module", "nothing to be compared with"),
+    (["involute", *PAIR, "--backlash", "0.1mm"], "--module", "has a unit, but the module is unknown"),
     (["involute", *PAIR, "--module", "-2mm"], "--module", "above 0"),
     (["involute", *PAIR, "--profile", "w.svg"], "--module", "to scale"),
     (["involute", *PAIR, "--module", "2mm", "--profile", "w.step"], "--profile", ".svg, .dxf, .csv"),

@@ -173,9 +173,9 @@ def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> 
         (("--embed", "--kiosk"), "--embed and --kiosk at once"),
         (("planetary", "--embed"), "two trains"),
         (("planetary", "--kiosk"), "two trains"),
-        (("--skip", "1"), "options of motion in time"),
-        (("--turns", "2"), "options of motion in time"),
-        (("planetary", "--dynamics"), "motion in time of two trains"),
+        (("--skip", "1"), "options of --dynamics are given without it"),
+        (("--turns", "2"), "options of --dynamics are given without it"),
+        (("planetary", "--dynamics"), "two trains are given with --dynamics"),
     ],
 )
 def test_what_does_not_go_together_is_refused(here: Path, requested: tuple[str, ...], said: str) -> None:

@@ -131,7 +131,7 @@ def test_a_radian_is_no_rational_part_of_a_turn() -> None:
 @pytest.mark.parametrize(
     ("text", "dimension", "said"),
     [
-        ("3 mm", "angle", "is a length, and an angle belongs here"),
+        ("3 mm", "angle", "is a length, but an angle is required"),
         ("3 parsec", "length", "unknown unit"),
         ("3", "length", "no unit"),
         ("3 mm mm", "length", "unknown unit"),

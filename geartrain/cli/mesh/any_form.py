@@ -62,7 +62,7 @@ _CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
 open.
 """
 
-_LEANING = ("helix",)
+_HELICAL = ("helix",)
 """Options only of the form whose teeth can be helical."""
 
 
@@ -71,7 +71,7 @@ def command(name: str) -> Callable[..., None]:
     model = tooth_form(name)
     kind = "losses, stresses, faults and outlines" if model.conjugate else "motion, losses and outlines"
     words = f"Compute {kind} of a pair with {name.replace('_', '-')} teeth."
-    without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _LEANING))
+    without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _HELICAL))
     return form_command(model, partial(_run, model), words, without=without)
 
 

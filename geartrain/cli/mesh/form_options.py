@@ -6,6 +6,7 @@ function of speed with `--rate`. `--profile` writes the outline of a whole wheel
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from inspect import Parameter, Signature
@@ -94,15 +95,20 @@ def form_command(
 
 
 def _option(name: str, field: FieldInfo) -> tuple[type, str]:
-    text = (field.description or "").replace("a list of two", "two values separated by a comma")
+    # a declaration takes a list where an option takes two values separated by a comma
+    text = re.sub("[,;] one or one a wheel", "", field.description or "").replace(
+        "a list of two", "a pair of values with a comma"
+    )
     if isinstance(field.default, bool):
         return bool, f"{text}."
     if any(each not in text for each in _words(field.annotation)):
         text += f": {', '.join(_words(field.annotation))}"
+    if _is_pair(field.annotation) and "comma" not in text:
+        pair = "; one value, or two separated by a comma" + (" (first, second wheel)" if name in _PER_WHEEL else "")
+        before, default, after = text.partition("; default")
+        text = f"{before}{pair}{default}{after}"
     if field.default is not None and not field.is_required():
         text += f"; default {field.default}"
-    if _is_pair(field.annotation) and "comma" not in text:
-        text += "; one value, or two separated by a comma" + (" (first, second wheel)" if name in _PER_WHEEL else "")
     return str, f"{text}."
 
 

@@ -134,7 +134,7 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     else:
         emit(csv_text(found.header, map(_plain, found.rows())).rstrip("\n"), to)
     if len(ranges) == 1:
-        _tell_changes(make, next(iter(ranges)), found, units)
+        _report_changes(make, next(iter(ranges)), found, units)
     if picture.path is not None:
         from geartrain.drawing.parameter_sweep_plot import parameter_name, sweep_figure
 
@@ -186,7 +186,7 @@ def _plain(row: tuple[object, ...]) -> list[object]:
     return [None if value != value else value for value in row]
 
 
-def _tell_changes(make: Any, name: str, found: ParameterSweep, units: dict[str, str]) -> None:
+def _report_changes(make: Any, name: str, found: ParameterSweep, units: dict[str, str]) -> None:
     from geartrain.teeth.triangular.parameter_sweep import best, changes
 
     for change in changes(make, name, found) if name not in ("z1", "z2") else ():
@@ -223,7 +223,7 @@ def _run(
         str | None,
         typer.Option(
             "--best",
-            help="Minimise loss, error or impact, or maximise jam (the jam margin); one, or two separated by a comma.",
+            help="Minimise loss, error or impact, or maximise the jam margin: one of these, or two with a comma.",
         ),
     ] = None,
     free: Annotated[

@@ -35,12 +35,12 @@ def destination(path: Path, force: bool = False) -> Path:
     Raises `GearTrainError` otherwise. Nothing is changed on the disk.
     """
     try:
-        real, mode = _look(path)
+        real, mode = _target(path)
         trouble = _kind(path, mode) or _name(path) or _folder(path, real)
         if trouble is None and mode is not None:
-            trouble = _old(path, real, mode, force)
+            trouble = _protection(path, real, mode, force)
     except (OSError, ValueError, RuntimeError) as error:
-        trouble = _unnamed(path, getattr(error, "strerror", None) or str(error))
+        trouble = _invalid_name(path, getattr(error, "strerror", None) or str(error))
     if trouble is not None:
         raise GearTrainError(trouble)
     return real
@@ -79,10 +79,10 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
             file.fileno()
         )  # before renaming: a power failure could otherwise leave the new name with an empty file
     if real.exists():
-        _inherit(real, temporary)
+        _copy_permissions(real, temporary)
     if force or not _link(temporary, real, path):
         os.replace(temporary, real)
-    _settle(real.parent)
+    _sync_folder(real.parent)
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
@@ -102,7 +102,7 @@ def umask() -> int:
 # ------------------------------------------------------------------------------------------------------- what is there
 
 
-def _look(path: Path) -> tuple[Path, int | None]:
+def _target(path: Path) -> tuple[Path, int | None]:
     """Return the target of the symbolic links of a path, and its mode, None if it does not exist."""
     try:
         mode = os.stat(path).st_mode
@@ -126,7 +126,7 @@ def _kind(path: Path, mode: int | None) -> Problem | None:
 
 def _name(path: Path) -> Problem | None:
     if path.name in ("", "..") or not path.name.isprintable():
-        return _unnamed(path, "a file name must consist of printable characters")
+        return _invalid_name(path, "a file name must consist of printable characters")
     return None
 
 
@@ -143,7 +143,7 @@ def _folder(path: Path, real: Path) -> Problem | None:
     return None
 
 
-def _old(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
+def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
     """Return the problem that protects an existing file, or None."""
     if not force:
         return _exists(path)
@@ -162,14 +162,14 @@ def _exists(path: Path) -> Problem:
     )
 
 
-def _unnamed(path: Path, why: str) -> Problem:
+def _invalid_name(path: Path, why: str) -> Problem:
     return Problem("this is not a valid file name", why, "choose a shorter or simpler name", repr(str(path)))
 
 
 # ------------------------------------------------------------------------------------------------------ taking a name
 
 
-def _inherit(old: Path, new: Path) -> None:
+def _copy_permissions(old: Path, new: Path) -> None:
     """Copy the permissions, and the owner if that is allowed, from the old file to the new one."""
     found = old.stat()
     if hasattr(os, "chown"):
@@ -193,7 +193,7 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
     return True
 
 
-def _settle(folder: Path) -> None:
+def _sync_folder(folder: Path) -> None:
     """Write a folder to disk (fsync), so that the new name survives a power failure, on systems that support this."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)

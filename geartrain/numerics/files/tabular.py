@@ -63,7 +63,7 @@ class LongTable:
         self.rows = 0
         try:
             if resume and self.partial.exists():
-                self.rows = self._take_up()
+                self.rows = self._truncate_to_whole_rows()
                 self._file = self.partial.open("ab")
             else:
                 self._file = self.partial.open("wb")
@@ -72,7 +72,7 @@ class LongTable:
         except OSError as error:
             raise unfinished_file(self.partial, error) from None
 
-    def _take_up(self) -> int:
+    def _truncate_to_whole_rows(self) -> int:
         """Cut the partial file off after its last complete row; return the number of complete rows."""
         rows, end = -1, 0
         with self.partial.open("rb") as file:

@@ -27,7 +27,7 @@ try:
 except ImportError:
     raise MissingExtraError("distributed", "dask", "work on a cluster") from None
 
-_ANSWER = 5.0  # s to wait for the scheduler, and for a first worker
+_TIMEOUT = 5.0  # s to wait for the scheduler, and for a first worker
 _PATIENCE = 60.0  # s without any worker after which the run fails
 _DEATHS = 2  # deaths counted for a task that dask gave up: it is run without others before it is reported
 
@@ -35,11 +35,11 @@ _DEATHS = 2  # deaths counted for a task that dask gave up: it is run without ot
 class DaskPool(WorkerPool):
     """An executor on the workers of the scheduler at `address`. Raises `GearTrainError` if it cannot be used."""
 
-    def __init__(self, address: str, answer: float = _ANSWER) -> None:
+    def __init__(self, address: str, answer: float = _TIMEOUT) -> None:
         self._address, self._seen = address, monotonic()
         try:
             with ThreadPoolExecutor(1) as aside:  # in a notebook, this thread already runs an event loop
-                aside.submit(asyncio.run, _knock(address, answer)).result()
+                aside.submit(asyncio.run, _check_scheduler(address, answer)).result()
             self._client = distributed.Client(address, timeout=answer, set_as_default=False)
         except (OSError, ValueError) as error:
             fix = "check the address, and that `dask scheduler` runs there and prints the same address"
@@ -94,7 +94,7 @@ class DaskPool(WorkerPool):
         )
 
 
-async def _knock(address: str, answer: float) -> None:
+async def _check_scheduler(address: str, answer: float) -> None:
     """Raise `OSError` if no scheduler responds.
 
     A client without a scheduler would continue to retry after it is discarded.

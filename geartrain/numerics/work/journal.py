@@ -29,8 +29,8 @@ from geartrain.errors import GearTrainError, Problem, QuestionError
 
 _START = b'{"geartrain journal":1,'
 _LINE = re.compile(rb'\{"crc":"([0-9a-f]{8})",("task":(\d{1,12}),"mark":"([0-9a-f]*)","result":(.*)\})\n')
-_LONGEST = 10**7  # bytes: a file with a longer first line is not a journal
-_BREATH = 1.0  # s between flushes to disk: a power failure loses at most this; a kill loses no finished result
+_MOST_HEADER_BYTES = 10**7  # bytes: a file with a longer first line is not a journal
+_SYNC_INTERVAL = 1.0  # s between flushes to disk: a power failure loses at most this; a kill loses no finished result
 
 
 class Journal:
@@ -71,7 +71,7 @@ class Journal:
         self.path = Path(path)
         plain = json.loads(json.dumps(question))
         header = _START + f'"question":{json.dumps(plain, ensure_ascii=False)}}}\n'.encode()
-        if len(header) >= _LONGEST:
+        if len(header) >= _MOST_HEADER_BYTES:
             raise _refused("the question is too long for a journal", "it has 10 MB or more", "shorten it", self.path)
         self._at = array("q")  # position of the line of a task in the file; -1: not stored
         self._count, self._synced, self._dirty = 0, monotonic(), False
@@ -91,17 +91,17 @@ class Journal:
             raise _trouble(self.path, error) from None
 
     def _open(self, header: bytes, question: Any, resume: bool) -> None:
-        end = self._whole(question, resume)
+        end = self._resumable_length(question, resume)
         self._file.truncate(end)
         if not end:
             self._write(header)
 
-    def _whole(self, question: Any, resume: bool) -> int:
+    def _resumable_length(self, question: Any, resume: bool) -> int:
         """Return the length of the part of the file that can be resumed, 0 for none, and index its tasks."""
-        first = self._reader.readline(_LONGEST)
+        first = self._reader.readline(_MOST_HEADER_BYTES)
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
-        if not begun or len(first) == _LONGEST:
+        if not begun or len(first) == _MOST_HEADER_BYTES:
             why = "its first line is not that of a journal"
             raise _refused("the file is not a journal", why, "give another file", self.path)
         if torn or not resume:
@@ -114,7 +114,7 @@ class Journal:
         self._compare(theirs, question)
         end = len(first)
         for line in self._reader:
-            found = _sound(line)
+            found = _valid_line(line)
             if found is None:
                 break
             self._enter(int(found[3]), end)
@@ -149,7 +149,7 @@ class Journal:
             return None
         try:
             self._reader.seek(self._at[task])
-            found = _sound(self._reader.readline())
+            found = _valid_line(self._reader.readline())
         except OSError as error:
             raise _trouble(self.path, error) from None
         if found is None:
@@ -190,7 +190,7 @@ class Journal:
             while left:
                 left = left[self._file.write(left) or 0 :]
             self._dirty = True
-            if monotonic() - self._synced > _BREATH:
+            if monotonic() - self._synced > _SYNC_INTERVAL:
                 self._sync()
         except OSError as error:
             raise _trouble(self.path, error) from None
@@ -253,7 +253,7 @@ def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
     """Return the problem that an existing journal belongs to another question."""
     try:
         with path.open("rb") as file:
-            theirs = json.loads(file.readline(_LONGEST))["question"]
+            theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]
     except (OSError, ValueError, KeyError, TypeError):
         return _another("its first line, the question, cannot be read", path)
     return _another(first_difference(theirs, json.loads(json.dumps(question))), path)
@@ -288,7 +288,7 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
     return f"{place or 'it'} is {json.dumps(theirs)} there and {json.dumps(ours)} here"
 
 
-def _sound(line: bytes) -> re.Match[bytes] | None:
+def _valid_line(line: bytes) -> re.Match[bytes] | None:
     """Match a line that is complete and has a correct checksum; None otherwise."""
     found = _LINE.fullmatch(line)
     return found if found is not None and int(found[1], 16) == crc32(found[2]) else None

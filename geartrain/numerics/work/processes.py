@@ -58,28 +58,28 @@ class ProcessPool(WorkerPool):
         if self._shut:
             raise RuntimeError("cannot schedule new futures after shutdown")
         try:
-            theirs = self._handed(fn, *args, **kwargs)
+            theirs = self._submit_to_pool(fn, *args, **kwargs)
         except BrokenExecutor:
-            self._abandon()
-            theirs = self._handed(fn, *args, **kwargs)
+            self._discard_pool()
+            theirs = self._submit_to_pool(fn, *args, **kwargs)
         ours = follow(theirs, _translate)
         self._open[theirs] = ours
-        theirs.add_done_callback(self._closed)
+        theirs.add_done_callback(self._forget)
         return ours
 
-    def _closed(self, theirs: Future[Any]) -> None:
+    def _forget(self, theirs: Future[Any]) -> None:
         self._open.pop(theirs, None)
 
-    def _handed(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        # outside `_deaf`: creating a pool starts the resource tracker of multiprocessing, which unblocks signals
+    def _submit_to_pool(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        # not within `_interrupts_blocked`, because creating a pool starts a resource tracker, which unblocks signals
         if self._pool is None:
-            self._pool = ProcessPoolExecutor(self._workers, self._context, _begin, (self._leash,))
-        with _deaf():
+            self._pool = ProcessPoolExecutor(self._workers, self._context, _start_worker, (self._leash,))
+        with _interrupts_blocked():
             theirs = self._pool.submit(fn, *args, **kwargs)
-        _bear_cancellation(theirs)
+        _ignore_late_failure(theirs)
         return theirs
 
-    def _abandon(self) -> None:
+    def _discard_pool(self) -> None:
         """Discard the broken pool and fail its futures; one submitted at that moment would otherwise never complete."""
         pool, self._pool = self._pool, None
         if pool is not None:
@@ -105,7 +105,7 @@ class ProcessPool(WorkerPool):
         self.shutdown(cancel_futures=True)
 
 
-def _bear_cancellation(future: Future[Any]) -> None:
+def _ignore_late_failure(future: Future[Any]) -> None:
     """Make a cancelled future ignore a later exception.
 
     When workers end just after a future was cancelled, the pool's thread still tries to set an exception on it. Before
@@ -125,8 +125,8 @@ def _translate(error: BaseException) -> BaseException:
 
 
 @contextmanager
-def _deaf() -> Iterator[None]:
-    """Start processes with SIGINT blocked, also before `_begin`; only the parent process handles Ctrl-C.
+def _interrupts_blocked() -> Iterator[None]:
+    """Start processes with SIGINT blocked, also before `_start_worker`; only the parent process handles Ctrl-C.
 
     A process inherits the blocked signals of its parent. A signal in the meantime is delivered to the parent
     afterwards.
@@ -141,13 +141,13 @@ def _deaf() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _begin(leash: Connection) -> None:
+def _start_worker(leash: Connection) -> None:
     """Prepare a new worker: ignore SIGINT and watch the leash."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    Thread(target=_hold, args=(leash,), daemon=True).start()
+    Thread(target=_watch_leash, args=(leash,), daemon=True).start()
 
 
-def _hold(leash: Connection) -> None:
+def _watch_leash(leash: Connection) -> None:
     """Exit the process when the other end of the leash is closed."""
     with suppress(OSError, EOFError):
         leash.poll(None)

@@ -29,13 +29,13 @@ from geartrain.numerics.work.worker_pool import WorkerPool
 TaskFunction = Callable[[Any], Any]
 ProgressReport = Callable[[int, int], None]
 
-_ALONE = 2  # deaths of workers after which a task runs without others, so that the faulty task is identified
-_ENOUGH = 4  # deaths of workers after which the run fails
-_IN_FLIGHT = 4  # tasks submitted per worker, so that no worker waits for this process
-_AHEAD = 64  # results per worker that may be ahead of the first missing one, which limits memory
+_DEATHS_ALONE = 2  # deaths of workers after which a task runs without others, so that the faulty task is identified
+_MOST_DEATHS = 4  # deaths of workers after which the run fails
+_PENDING_PER_WORKER = 4  # tasks submitted per worker, so that no worker waits for this process
+_RESULTS_AHEAD = 64  # results per worker that may be ahead of the first missing one, which limits memory
 _REPORT_INTERVAL = 0.1  # s between two calls of `tell`
 _CHECK_INTERVAL = 2.0  # s between two checks of the executor
-_SMALL = 1.0  # s of work that this process does first: starting a process takes about as long
+_FIRST_SECONDS = 1.0  # s of work that this process does first: starting a process takes about as long
 
 
 def run(
@@ -83,7 +83,7 @@ def run(
     """
     pace = _Progress(tell, len(tasks) if isinstance(tasks, Sized) else 0)
     if executor is None or (isinstance(executor, WorkerPool) and not executor.carries(work)):
-        return _here(work, tasks, journal, pace)
+        return _run_here(work, tasks, journal, pace)
     return _Run(work, tasks, executor, journal, pace).results()
 
 
@@ -120,7 +120,7 @@ class Execution:
         return run(work, tasks, self.executor, self.journal, self.tell)
 
 
-def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Progress) -> Iterator[Any]:
+def _run_here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Progress) -> Iterator[Any]:
     """Yield the results of all tasks, computed in this process one after another."""
     pace.step(0)
     for index, task in enumerate(tasks):
@@ -140,22 +140,22 @@ class _Progress:
 
     def __init__(self, tell: ProgressReport | None, total: int) -> None:
         self.tell, self.total, self.done = tell, total, 0
-        self._said = -1
+        self._reported = -1
         self._at = -_REPORT_INTERVAL
 
     def step(self, count: int = 1) -> None:
         """Count further tasks as done and report if due."""
         self.done += count
         if self.tell and (monotonic() - self._at >= _REPORT_INTERVAL or self.done == self.total):
-            self._say(self.tell)
+            self._report(self.tell)
 
     def end(self) -> None:
         """Report the final number of tasks, unless already reported."""
-        if self.tell and self._said != self.done:
-            self._say(self.tell)
+        if self.tell and self._reported != self.done:
+            self._report(self.tell)
 
-    def _say(self, tell: ProgressReport) -> None:
-        self._said, self._at = self.done, monotonic()
+    def _report(self, tell: ProgressReport) -> None:
+        self._reported, self._at = self.done, monotonic()
         tell(self.done, self.total)
 
 
@@ -178,44 +178,44 @@ class _Run:
         self.work, self.executor, self.journal, self.pace = work, executor, journal, pace
         self.tasks = iter(enumerate(tasks))
         self.ended: SimpleQueue[Future[Any]] = SimpleQueue()
-        self.flying: dict[Future[Any], _Submission] = {}
+        self.pending: dict[Future[Any], _Submission] = {}
         self.again: deque[_Submission] = deque()
         self.ready: dict[int, str] = {}
         self.next = self.issued = 0
-        self.hurt = 0  # submitted tasks that saw a worker die
+        self.suspects = 0  # submitted tasks that saw a worker die
         self.exhausted = False
-        self.looked = monotonic()
+        self.checked = monotonic()
 
     def results(self) -> Iterator[Any]:
         """Yield the results in the order of the tasks."""
         try:
             self.pace.step(0)
             if isinstance(self.executor, WorkerPool) and self.executor.waits:
-                yield from self._small()
+                yield from self._first_results()
             while True:
                 self._fill()
                 for result in self._due():
                     yield result
                     self._fill()
-                if not self.flying and not self.again and self.exhausted:
+                if not self.pending and not self.again and self.exhausted:
                     break
-                self._land(self._wait())
+                self._process(self._wait())
             self.pace.end()
         finally:
             self._cancel()
 
-    def _small(self) -> Iterator[Any]:
+    def _first_results(self) -> Iterator[Any]:
         """Yield the first results, computed in this process until the start of workers is worthwhile."""
         done, spent = 0, 0.0
         while not self.exhausted:
-            flight = self._take()
-            if flight is not None:
+            submission = self._next_task()
+            if submission is not None:
                 begun = monotonic()
-                self._finished(flight, as_text(self.work(flight.task)))
+                self._finished(submission, as_text(self.work(submission.task)))
                 done, spent = done + 1, spent + monotonic() - begun
             yield from self._due()
             rest = spent / done * (self.pace.total - self.pace.done) if done and self.pace.total else spent
-            if min(spent, rest) > _SMALL:
+            if min(spent, rest) > _FIRST_SECONDS:
                 return
 
     def _due(self) -> Iterator[Any]:
@@ -233,17 +233,21 @@ class _Run:
         """Submit as many tasks as the limits allow; tasks during which workers died come first, a few at a time."""
         width = self._width
         while self.again:
-            careful = self.again[0].deaths >= _ALONE
-            if len(self.flying) >= (1 if careful else width):
+            careful = self.again[0].deaths >= _DEATHS_ALONE
+            if len(self.pending) >= (1 if careful else width):
                 return
-            self._launch(self.again.popleft())
-        while not self.hurt and len(self.flying) < _IN_FLIGHT * width and self.issued < self.next + _AHEAD * width:
-            flight = self._take()
-            if flight is None:
+            self._submit(self.again.popleft())
+        while (
+            not self.suspects
+            and len(self.pending) < _PENDING_PER_WORKER * width
+            and self.issued < self.next + _RESULTS_AHEAD * width
+        ):
+            submission = self._next_task()
+            if submission is None:
                 return
-            self._launch(flight)
+            self._submit(submission)
 
-    def _take(self) -> _Submission | None:
+    def _next_task(self) -> _Submission | None:
         """Return the next task that is not in the journal; None if there is none yet or none at all."""
         for index, task in self.tasks:
             self.issued = index + 1
@@ -253,16 +257,16 @@ class _Run:
                 return _Submission(index, task, mark)
             self.ready[index] = text
             self.pace.step()
-            if self.issued >= self.next + _AHEAD * self._width:
+            if self.issued >= self.next + _RESULTS_AHEAD * self._width:
                 return None
         self.exhausted = True
         return None
 
-    def _launch(self, flight: _Submission) -> None:
+    def _submit(self, submission: _Submission) -> None:
         if isinstance(self.executor, WorkerPool):
             self.executor.begin(max(self.pace.total - self.pace.done, 0))
         try:
-            future = self.executor.submit(carry, self.work, flight.task)
+            future = self.executor.submit(carry, self.work, submission.task)
         except BrokenExecutor:
             raise GearTrainError(
                 Problem(
@@ -271,27 +275,27 @@ class _Run:
                     "use the executor of open_executor, which survives the death of workers",
                 )
             ) from None
-        self.flying[future] = flight
-        self.hurt += bool(flight.deaths)
+        self.pending[future] = submission
+        self.suspects += bool(submission.deaths)
         future.add_done_callback(self.ended.put)
 
     def _wait(self) -> Future[Any]:
         """Wait for the next future that ends and return it."""
         while True:
-            if isinstance(self.executor, WorkerPool) and monotonic() - self.looked > _CHECK_INTERVAL:
+            if isinstance(self.executor, WorkerPool) and monotonic() - self.checked > _CHECK_INTERVAL:
                 self.executor.check()
-                self.looked = monotonic()
+                self.checked = monotonic()
             with suppress(Empty):
                 return self.ended.get(timeout=_CHECK_INTERVAL)
 
-    def _land(self, future: Future[Any]) -> None:
+    def _process(self, future: Future[Any]) -> None:
         """Process the result or exception of a finished future."""
-        flight = self.flying.pop(future)
-        self.hurt -= bool(flight.deaths)
+        submission = self.pending.pop(future)
+        self.suspects -= bool(submission.deaths)
         try:
             outcome = future.result()
         except BrokenExecutor as error:
-            self._died(flight, getattr(error, "times", 1))
+            self._repeat(submission, getattr(error, "times", 1))
         except CancelledError:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
             raise GearTrainError(
@@ -302,44 +306,44 @@ class _Run:
         else:
             if isinstance(outcome, RemoteFailure):
                 raise outcome.error()
-            self._finished(flight, outcome)
+            self._finished(submission, outcome)
 
-    def _finished(self, flight: _Submission, text: str) -> None:
-        self._keep(flight, text)
-        self.ready[flight.index] = text
+    def _finished(self, submission: _Submission, text: str) -> None:
+        self._keep(submission, text)
+        self.ready[submission.index] = text
         self.pace.step()
 
-    def _keep(self, flight: _Submission, text: str) -> None:
+    def _keep(self, submission: _Submission, text: str) -> None:
         if self.journal is not None:
-            self.journal.keep(flight.index, flight.mark, text)
+            self.journal.keep(submission.index, submission.mark, text)
 
-    def _died(self, flight: _Submission, times: int) -> None:
+    def _repeat(self, submission: _Submission, times: int) -> None:
         """Put a task back into the queue after a worker died; after repeated deaths it runs without other tasks."""
-        flight.deaths += times
-        if flight.deaths >= _ENOUGH:
-            raise _deadly(flight)
-        self.again = deque(sorted([*self.again, flight], key=lambda each: (each.deaths, each.index)))
+        submission.deaths += times
+        if submission.deaths >= _MOST_DEATHS:
+            raise _killer_error(submission)
+        self.again = deque(sorted([*self.again, submission], key=lambda each: (each.deaths, each.index)))
 
     def _cancel(self) -> None:
         """Cancel all pending tasks and store results that finished in the meantime."""
-        for future in self.flying:
+        for future in self.pending:
             future.cancel()
-        for future, flight in self.flying.items():
+        for future, submission in self.pending.items():
             if future.done() and not future.cancelled() and not future.exception():
                 outcome = future.result()
                 if isinstance(outcome, str) and self.journal is not None and not self.journal.closed:
                     with suppress(GearTrainError):  # it would hide the error that ends the run
-                        self._keep(flight, outcome)
-        self.flying.clear()
+                        self._keep(submission, outcome)
+        self.pending.clear()
 
 
-def _deadly(flight: _Submission) -> GearTrainError:
-    said = repr(flight.task)
-    said = said if len(said) <= 200 else f"{said[:200]}..."
+def _killer_error(submission: _Submission) -> GearTrainError:
+    shown = repr(submission.task)
+    shown = shown if len(shown) <= 200 else f"{shown[:200]}..."
     return GearTrainError(
         Problem(
-            f"task {flight.index} kills its worker: {said}",
-            f"{flight.deaths} worker processes died during it, the last one without other tasks: out of memory, "
+            f"task {submission.index} kills its worker: {shown}",
+            f"{submission.deaths} worker processes died during it, the last one without other tasks: out of memory, "
             "killed from outside, or unable to start",
             "provide more memory, smaller tasks or fewer workers; a script that starts workers needs the line "
             'if __name__ == "__main__": before its code',

@@ -82,7 +82,7 @@ def test_a_fault_of_any_command_is_exit_3_one_line_and_a_file_to_send(
     assert out == ""
     assert len(err.splitlines()) == 1, err
     assert err.startswith("internal error: RuntimeError: a \\x1b[31mwheel; this is an error in geartrain: attach")
-    (kept,) = tmp_path.glob("geartrain-fault-*.txt")
+    (kept,) = tmp_path.glob("geartrain-error-*.txt")
     assert str(kept) in err
     text = kept.read_text(encoding="utf-8")
     assert "Traceback" in text

@@ -104,8 +104,8 @@ REFUSED = [
     (["--teeth", 48, 96, "--vary", "clearance-factor=1:2"], "FIRST:LAST:COUNT"),
     (["--teeth", 48, 96, "--clearance-factor", 1.01, "--plot", "x.bmp"], "'.bmp'"),
     (["--teeth", 48, 96, "--clearance-factor", 1.01, "--profile", "w.svg"], "the module is missing"),
-    (["--teeth", 48, 96, "--module", "1mm", "--clearance-factor", 1.01, "--profile", "w.stl"], "no form of outline"),
-    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "leave --vary out"),
+    (["--teeth", 48, 96, "--module", "1mm", "--clearance-factor", 1.01, "--profile", "w.stl"], "not an outline format"),
+    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "omit --vary"),
 ]
 
 

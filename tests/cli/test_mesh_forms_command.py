@@ -179,7 +179,7 @@ REFUSED = [
     (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--bore", "43mm"], "--bore", "43 mm"),
     (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--rim", "4mm"], "--rim", "omit --rim"),
     (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--tolerance", "0mm"], "--tolerance", "above 0"),
-    (["involute", *PAIR, "--module", "2mm", "--profile", "/no/where/w.svg"], "/no/where", "no such folder"),
+    (["involute", *PAIR, "--module", "2mm", "--profile", "/no/where/w.svg"], "/no/where", "the folder does not exist"),
     (["involute", *PAIR, "--bevel", "90deg", "--module", "2mm", "--profile", "w.svg"], "--profile", "on a sphere"),
     (["involute", "--teeth", 8, 60, "--module", "2mm", "--profile", "w.svg"], "--profile", "addendum of at most"),
     (["involut", *PAIR], "involut", "No such command"),

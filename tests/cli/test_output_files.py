@@ -184,7 +184,7 @@ def test_what_is_no_regular_file_is_refused_by_name_and_stays_what_it_is(
         assert "a socket" in refused(ask(command, option, plug.name, *force))
         said = refused(ask(command, option, link.name, *force))
         assert "a device" in said
-        assert "- is standard output" in said
+        assert "- for standard output" in said
     assert {path.name: (path.lstat().st_ino, path.lstat().st_mode) for path in here.iterdir()} == before
     assert (os.stat("/dev/null").st_mode, os.stat("/dev/null").st_ino) == (device.st_mode, device.st_ino)
 
@@ -260,7 +260,7 @@ def test_a_link_to_nothing_leads_to_the_new_file(here: Path) -> None:
     assert (here / "link.md").is_symlink()
     assert (here / "new.md").read_bytes() == b"new"
     (here / "round.md").symlink_to("round.md")
-    with pytest.raises(GearTrainError, match="no name for a file"):
+    with pytest.raises(GearTrainError, match="not a valid file name"):
         destination(here / "round.md", force=True)
 
 

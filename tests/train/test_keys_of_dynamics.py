@@ -218,7 +218,7 @@ def test_teeth_yield_as_their_form_says_where_their_pair_does_not() -> None:
 
 
 @pytest.mark.parametrize(
-    ("keys", "fix"), [("stiffness: 0 N m/rad", "give for example"), ("damping: -1 N m s/rad", "give 0 or more")]
+    ("keys", "fix"), [("stiffness: 0 N m/rad", "above 0, such as"), ("damping: -1 N m s/rad", "0 or more")]
 )
 def test_a_form_that_does_not_yield_is_refused_as_a_pair_is(keys: str, fix: str) -> None:
     with pytest.raises(GearTrainError, match=fix):
